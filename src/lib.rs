@@ -1,0 +1,5 @@
+//! loftsman: the shape of ships.
+pub mod hull;
+pub mod numeric;
+pub mod parametric;
+pub mod spline;

@@ -1,0 +1,89 @@
+//! Hull families: one file a family, and the values they report.
+
+/// Where a value came from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// Written in the design.
+    Given,
+    /// Filled in from a preset or a formula.
+    Preset,
+    /// Found by the solver.
+    Solved,
+}
+
+impl Origin {
+    /// The word in files: `given`, `preset` or `solved`.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Preset => "preset",
+            Self::Solved => "solved",
+        }
+    }
+}
+
+/// One value of a design: what the family was given, took from a preset, or solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignValue {
+    /// Key of the design file, `Cb`, `bilge_radius`, ...
+    pub key: &'static str,
+    /// What it is, in words.
+    pub name: &'static str,
+    /// The value, in `unit`.
+    pub value: f64,
+    /// Unit: `m`, `deg`, `-`, ...
+    pub unit: &'static str,
+    /// Where it came from.
+    pub origin: Origin,
+    /// The formula or preset it came from, or what it was solved for; empty when given.
+    pub source: String,
+}
+
+/// A coefficient that was asked for and what the finished hull has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Key of the quantity: `CB`, `CM`, `XCB`, `CWP`.
+    pub key: &'static str,
+    /// Requested value (XCB in metres from AP).
+    pub requested: f64,
+    /// Value of the B-spline hull, integrated exactly.
+    pub achieved: f64,
+    /// Where the request came from.
+    pub origin: Origin,
+}
+
+/// A wish that cannot be had, or a value outside its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Infeasible {
+    /// Code of the message, `E102`.
+    pub code: &'static str,
+    /// Keys of the design file that conflict, the first one to be shown.
+    pub keys: Vec<&'static str>,
+    /// What, with numbers, why, and the nearest feasible values.
+    pub message: String,
+}
+
+/// A remark about a design that can be built: code and text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remark {
+    /// Code of the message, `W201`.
+    pub code: &'static str,
+    /// Key of the design file that it is about.
+    pub key: &'static str,
+    /// The text.
+    pub message: String,
+}
+
+/// A generated hull with what was asked, filled in and solved.
+#[derive(Debug, Clone)]
+pub struct Generated {
+    /// The hull.
+    pub hull: crate::hull::Hull,
+    /// Every value of the design with its origin.
+    pub values: Vec<DesignValue>,
+    /// Coefficients asked for and achieved.
+    pub targets: Vec<Target>,
+    /// Remarks.
+    pub remarks: Vec<Remark>,
+}
