@@ -2,8 +2,14 @@
 //!
 //! Frame (right-handed): x forward from the aft perpendicular AP, y to port, z up from the moulded base line; metres.
 
+mod area;
 mod form;
+mod functional;
 mod particulars;
+mod section;
 
+pub use area::SectionalAreaCurve;
 pub use form::{Hull, HullError};
+pub use functional::Functional;
 pub use particulars::PrincipalParticulars;
+pub use section::{Branch, Cut, Face, Section};

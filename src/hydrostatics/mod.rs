@@ -1,0 +1,9 @@
+//! Hydrostatics of the upright hull: the quantities of a floating condition, their list, and tables over draughts.
+
+mod conventions;
+mod quantity;
+mod table;
+
+pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
+pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
+pub use table::CurvesOfForm;
