@@ -1,5 +1,43 @@
 //! Hull families: one file a family, and the values they report.
 
+pub mod analytic;
+pub mod cosh;
+mod presets;
+pub mod ucl_cosh;
+
+pub use presets::ShipType;
+
+/// A family with its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Family {
+    /// Hyperbolic-cosine waterlines solved for the particulars.
+    Cosh(Box<cosh::Wishes>),
+    /// The raw cosh generator.
+    UclCosh(ucl_cosh::Parameters),
+    /// Wigley hull.
+    Wigley(analytic::Dimensions),
+    /// Rectangular box.
+    Box(analytic::Dimensions),
+    /// Ellipsoid.
+    Ellipsoid(analytic::Dimensions),
+}
+
+impl Family {
+    /// The hull of the family for its parameters.
+    ///
+    /// # Errors
+    /// Every wish that cannot be had, at once.
+    pub fn generate(&self, name: &str) -> Result<Generated, Vec<Infeasible>> {
+        match self {
+            Self::Cosh(wishes) => cosh::generate(name, wishes),
+            Self::UclCosh(parameters) => ucl_cosh::generate(name, parameters),
+            Self::Wigley(dimensions) => analytic::wigley(name, dimensions),
+            Self::Box(dimensions) => analytic::rectangular_box(name, dimensions),
+            Self::Ellipsoid(dimensions) => analytic::ellipsoid(name, dimensions),
+        }
+    }
+}
+
 /// Where a value came from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
