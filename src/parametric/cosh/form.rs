@@ -195,8 +195,7 @@ pub(super) struct HeightNode {
 impl Form {
     /// The waterline at height `z`.
     pub(super) fn waterline(&self, z: f64) -> Waterline {
-        let (phi_e, phi_r) =
-            (self.entrance.at(z, self.draught, self.depth), self.run.at(z, self.draught, self.depth));
+        let (phi_e, phi_r) = (self.entrance.at(z, self.draught, self.depth), self.run.at(z, self.draught, self.depth));
         let (stem, virtual_stern) = (self.stem.at(z), self.stern.virtual_end(z));
         let parallel = self.fore_shoulder > self.aft_shoulder;
         let blend = |phi| {

@@ -62,7 +62,8 @@ fn girth_knots(form: &Form, top: f64) -> Result<KnotVector, SplineError> {
     let section = &form.section;
     let (floor, bilge) = section.girths();
     let total = section.girth_at(top);
-    let mut lines: Vec<(f64, usize)> = vec![(0.0, 4), (floor, 2), (floor + bilge, 2), (section.girth_at(form.draught), 1), (total, 4)];
+    let mut lines: Vec<(f64, usize)> =
+        vec![(0.0, 4), (floor, 2), (floor + bilge, 2), (section.girth_at(form.draught), 1), (total, 4)];
     if form.stern.transom && form.stern.height < top {
         lines.push((section.girth_at(form.stern.height), 3));
     }
@@ -113,7 +114,19 @@ pub(super) fn interpolate(
         across.solve_strided(&mut values, 0, 1);
         values
     };
-    let mut z = in_v(&|z| z);
+    let mut z = if form.section.deadrise > 0.0 {
+        in_v(&|z| z)
+    } else {
+        // The bilge leaves the flat of bottom with dz/dv = 0: that is a condition, not a matter of interpolation.
+        let mut conditions: Vec<Condition> =
+            sites_v.iter().map(|&site| Condition { site, order: 0 }).collect();
+        conditions[1] = Condition { site: 0.0, order: 1 };
+        let mut values = heights.clone();
+        values[1] = 0.0;
+        Collocation::with_conditions(&v, &conditions)?.solve(&mut values);
+        values[1] = 0.0;
+        values
+    };
     (z[0], z[v.basis_count() - 1]) = (0.0, top);
 
     // Lengths: the shortest waterline rules the linear part.
@@ -136,8 +149,7 @@ pub(super) fn interpolate(
     let entrance = |t: f64| cube((t - uf) / (1.0 - uf));
 
     // Conditions in u: the sites; across a parallel body, value, slope and curvature at both shoulders.
-    let mut conditions: Vec<Condition> =
-        loft::sites(&u).into_iter().map(|site| Condition { site, order: 0 }).collect();
+    let mut conditions: Vec<Condition> = loft::sites(&u).into_iter().map(|site| Condition { site, order: 0 }).collect();
     if parallel {
         for order in 0..3 {
             conditions[END_SPANS + order] = Condition { site: ua, order };
@@ -168,10 +180,8 @@ pub(super) fn interpolate(
     for (i, condition) in conditions.iter().enumerate() {
         for (j, (z, breadth, waterline)) in waterlines.iter().enumerate() {
             let t = condition.site;
-            let x = aft
-                + (fore - aft) * t
-                + (form.stern.at(*z) - aft) * run(t)
-                + (form.stem.at(*z) - fore) * entrance(t);
+            let x =
+                aft + (fore - aft) * t + (form.stern.at(*z) - aft) * run(t) + (form.stem.at(*z) - fore) * entrance(t);
             y[i * columns + j] = if condition.order > 0 { 0.0 } else { breadth * waterline.fraction(x) };
         }
     }

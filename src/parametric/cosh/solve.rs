@@ -47,7 +47,7 @@ fn run_fullness(form: &Form, goal: &Goal, ew: f64) -> Option<f64> {
 
 /// The form of waterline fullness `ew` that has the volume, the LCB and the waterplane area; none when a keel fullness would
 /// leave [lowest, waterline fullness].
-fn at_entrance(form: &Form, nodes: &[HeightNode], goal: &Goal, ew: f64) -> Option<Form> {
+pub(super) fn at_entrance(form: &Form, nodes: &[HeightNode], goal: &Goal, ew: f64) -> Option<Form> {
     let rw = run_fullness(form, goal, ew)?;
     let residual = |ek: f64, rk: f64| {
         let i = with(form, ew, rw, ek, rk).integrals(nodes);
@@ -60,7 +60,8 @@ fn at_entrance(form: &Form, nodes: &[HeightNode], goal: &Goal, ew: f64) -> Optio
             return Some(with(form, ew, rw, at[0], at[1]));
         }
         let step = 1e-5;
-        let (side_e, side_r) = (if at[0] + step < ew { step } else { -step }, if at[1] + step < rw { step } else { -step });
+        let (side_e, side_r) =
+            (if at[0] + step < ew { step } else { -step }, if at[1] + step < rw { step } else { -step });
         let (a, b) = (residual(at[0] + side_e, at[1]), residual(at[0], at[1] + side_r));
         let matrix = nalgebra::Matrix2::new(
             (a[0] - r[0]) / side_e,
@@ -71,7 +72,11 @@ fn at_entrance(form: &Form, nodes: &[HeightNode], goal: &Goal, ew: f64) -> Optio
         let delta = matrix.lu().solve(&nalgebra::Vector2::new(r[0], r[1]))?;
         let next = [at[0] - delta[0], at[1] - delta[1]];
         // Far outside: the nearly affine residual says that there is no solution here.
-        if next[0] < LOWEST_FULLNESS - 0.02 || next[0] > ew + 0.02 || next[1] < LOWEST_FULLNESS - 0.02 || next[1] > rw + 0.02 {
+        if next[0] < LOWEST_FULLNESS - 0.02
+            || next[0] > ew + 0.02
+            || next[1] < LOWEST_FULLNESS - 0.02
+            || next[1] > rw + 0.02
+        {
             return None;
         }
         at = [next[0].clamp(LOWEST_FULLNESS, ew), next[1].clamp(LOWEST_FULLNESS, rw)];
@@ -115,15 +120,15 @@ impl CostFunction for Search<'_> {
     }
 }
 
-/// The least extreme form that reaches the goal; none when there is none.
-pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Option<Form> {
+/// The least extreme form that reaches the goal; none when the scan meets none (`fine`: a scan for narrow ranges as well).
+pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) -> Option<Form> {
     let search = Search { form, nodes, goal };
     let cells = 14;
     let place = |k: usize| LOWEST_FULLNESS + 0.01 + (FULLEST - LOWEST_FULLNESS - 0.01) * k as f64 / cells as f64;
     let costs: Vec<f64> = (0..=cells).map(|k| search.cost_at(place(k))).collect();
     let best = (0..=cells).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
     if !costs[best].is_finite() {
-        return narrow(form, nodes, goal);
+        return if fine { narrow(form, nodes, goal) } else { None };
     }
     let (low, high) = (place(best.saturating_sub(1)), place((best + 1).min(cells)));
     let refined = Executor::new(Search { form, nodes, goal }, BrentOpt::new(low, high).set_tolerance(1e-9, 1e-9))
@@ -189,9 +194,5 @@ pub(super) fn reach(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Reach {
             }
         }
     }
-    Reach {
-        waterplane: (area(LOWEST_FULLNESS), area(FULLEST)),
-        volume,
-        lcb: (lcb.0 <= lcb.1).then_some(lcb),
-    }
+    Reach { waterplane: (area(LOWEST_FULLNESS), area(FULLEST)), volume, lcb: (lcb.0 <= lcb.1).then_some(lcb) }
 }
