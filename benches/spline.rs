@@ -33,8 +33,8 @@ fn surface(rows: usize, columns: usize, rng: &mut StdRng) -> BsplineSurface<3> {
 
 /// Uses every number of the result.
 fn consume(sum: &mut [f64; 3], jet: &SurfaceJet<3>) {
-    for d in 0..3 {
-        sum[d] += jet.point[d] + jet.du[d] + jet.dv[d] + jet.duu[d] + jet.duv[d] + jet.dvv[d];
+    for (d, s) in sum.iter_mut().enumerate() {
+        *s += jet.point[d] + jet.du[d] + jet.dv[d] + jet.duu[d] + jet.duv[d] + jet.dvv[d];
     }
 }
 
@@ -60,8 +60,8 @@ fn evaluation(criterion: &mut Criterion) {
                 let mut sum = [0.0; 3];
                 for &[u, v] in &sites {
                     let t = surface.tangents(u, v);
-                    for d in 0..3 {
-                        sum[d] += t.point[d] + t.du[d] + t.dv[d];
+                    for (d, s) in sum.iter_mut().enumerate() {
+                        *s += t.point[d] + t.du[d] + t.dv[d];
                     }
                 }
                 black_box(sum)

@@ -9,31 +9,33 @@ use super::knots::MAX_DEGREE;
 /// One value for each basis function of a span; those beyond the degree are 0.
 pub(super) type Row = [f64; MAX_DEGREE + 1];
 
-/// `result[order][function]` for orders 0 to N - 1 of the functions k - P ..= k at `t` in span k.
+/// `result[order][function]` for orders 0 to N - 1 of the K = p + 1 functions k - p ..= k at `t` in span k.
 ///
-/// `window` holds the knots k + 1 - P ..= k + P, `reciprocals` those of [`super::table::SpanTable`].
+/// `window` holds the knots k + 1 - p ..= k + p, `reciprocals` those of [`super::table::SpanTable`].
 #[inline(always)]
-pub(super) fn basis_orders<const P: usize, const N: usize>(window: &[f64], reciprocals: &[f64], t: f64) -> [Row; N] {
-    let window = &window[..2 * P];
-    let reciprocals = &reciprocals[..P * (P + 1) / 2];
-    let mut triangle = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+pub(super) fn basis_orders<const K: usize, const N: usize>(
+    window: &[f64],
+    reciprocals: &[f64],
+    t: f64,
+) -> [[f64; K]; N] {
+    let p = K - 1;
+    let window = &window[..2 * p];
+    let reciprocals = &reciprocals[..p * K / 2];
+    let mut triangle = [[0.0; K]; K];
     triangle[0][0] = 1.0;
-    for j in 1..=P {
+    for j in 1..K {
         let mut saved = 0.0;
         for r in 0..j {
             let term = triangle[j - 1][r] * reciprocals[j * (j - 1) / 2 + r];
-            triangle[j][r] = saved + (window[P + r] - t) * term;
-            saved = (t - window[P + r - j]) * term;
+            triangle[j][r] = saved + (window[p + r] - t) * term;
+            saved = (t - window[p + r - j]) * term;
         }
         triangle[j][j] = saved;
     }
-    let mut result = [[0.0; MAX_DEGREE + 1]; N];
-    for (m, row) in result.iter_mut().enumerate() {
-        if m > P {
-            break;
-        }
-        *row = triangle[P - m];
-        for j in P - m + 1..=P {
+    let mut result = [[0.0; K]; N];
+    for (m, row) in result.iter_mut().enumerate().take(K) {
+        *row = triangle[p - m];
+        for j in K - m..K {
             let mut saved = 0.0;
             for r in 0..j {
                 let term = row[r] * (reciprocals[j * (j - 1) / 2 + r] * j as f64);
@@ -42,6 +44,15 @@ pub(super) fn basis_orders<const P: usize, const N: usize>(window: &[f64], recip
             }
             row[j] = saved;
         }
+    }
+    result
+}
+
+/// As [`basis_orders`], in rows of the greatest length.
+pub(super) fn padded_orders<const K: usize, const N: usize>(window: &[f64], reciprocals: &[f64], t: f64) -> [Row; N] {
+    let mut result = [[0.0; MAX_DEGREE + 1]; N];
+    for (row, values) in result.iter_mut().zip(&basis_orders::<K, N>(window, reciprocals, t)) {
+        row[..K].copy_from_slice(values);
     }
     result
 }

@@ -1,6 +1,6 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
-use super::basis::{Row, basis_orders};
+use super::basis::{Row, basis_orders, padded_orders};
 use super::table::SpanTable;
 use std::sync::Arc;
 
@@ -233,26 +233,144 @@ impl KnotVector {
         (self.table.knot_index(number) - self.degree, self.orders_in(number, t))
     }
 
-    /// As [`Self::orders_at`] where the degree is known to be P.
-    #[inline(always)]
-    pub(super) fn orders_at_fixed<const P: usize, const N: usize>(&self, t: f64) -> (usize, [Row; N]) {
+    /// As [`Self::orders_at`] where the order K, the degree plus 1, is known.
+    ///
+    /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the ends).
+    #[inline(never)]
+    pub(super) fn orders_at_fixed<const K: usize, const N: usize>(&self, t: f64) -> (usize, [[f64; K]; N]) {
         let t = self.clamp(t);
         let number = self.table.locate(t);
-        let span = self.table.knot_index(number);
-        (span - P, basis_orders::<P, N>(&self.knots[span + 1 - P..], self.table.reciprocals(number), t))
+        let first = self.table.knot_index(number) + 1 - K;
+        if K == 4 && N <= 3 {
+            let x = t - self.table.start(number);
+            let [c0, c1, c2, c3] = self.table.cubic(number);
+            let mut result = [[0.0; K]; N];
+            // Horner's scheme, carried on for the derivatives.
+            for r in 0..K {
+                let b2 = c3[r] * x + c2[r];
+                let b1 = b2 * x + c1[r];
+                result[0][r] = b1 * x + c0[r];
+                if N > 1 {
+                    let e2 = c3[r] * x + b2;
+                    result[1][r] = e2 * x + b1;
+                    if N > 2 {
+                        result[2][r] = 2.0 * (c3[r] * x + e2);
+                    }
+                }
+            }
+            return (first, result);
+        }
+        (first, basis_orders::<K, N>(&self.knots[first + 1..], self.table.reciprocals(number), t))
     }
 
     fn orders_in<const N: usize>(&self, number: usize, t: f64) -> [Row; N] {
         let window = &self.knots[self.table.knot_index(number) + 1 - self.degree..];
         let reciprocals = self.table.reciprocals(number);
         match self.degree {
-            1 => basis_orders::<1, N>(window, reciprocals, t),
-            2 => basis_orders::<2, N>(window, reciprocals, t),
-            3 => basis_orders::<3, N>(window, reciprocals, t),
-            4 => basis_orders::<4, N>(window, reciprocals, t),
-            5 => basis_orders::<5, N>(window, reciprocals, t),
-            6 => basis_orders::<6, N>(window, reciprocals, t),
-            _ => basis_orders::<7, N>(window, reciprocals, t),
+            1 => padded_orders::<2, N>(window, reciprocals, t),
+            2 => padded_orders::<3, N>(window, reciprocals, t),
+            3 => padded_orders::<4, N>(window, reciprocals, t),
+            4 => padded_orders::<5, N>(window, reciprocals, t),
+            5 => padded_orders::<6, N>(window, reciprocals, t),
+            6 => padded_orders::<7, N>(window, reciprocals, t),
+            _ => padded_orders::<8, N>(window, reciprocals, t),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spline::tests::{knots, parameters};
+    use proptest::prelude::*;
+
+    /// Worked examples 2.3 and 2.4 of Piegl & Tiller 1997: basis and derivatives at 5/2.
+    #[test]
+    fn basis_as_in_the_nurbs_book() {
+        let k = KnotVector::new(2, vec![0., 0., 0., 1., 2., 3., 4., 4., 5., 5., 5.]).unwrap();
+        assert_eq!(k.find_span(2.5), 4);
+        let [value, first, second] = k.basis_derivatives::<3>(4, 2.5);
+        for (found, exact) in [(value, [0.125, 0.75, 0.125]), (first, [-0.5, 0.0, 0.5]), (second, [1.0, -2.0, 1.0])] {
+            for r in 0..3 {
+                assert!((found[r] - exact[r]).abs() < 1e-15, "{found:?}");
+            }
+        }
+    }
+
+    /// Open uniform and Bezier knots as commonly tabulated for five control points of order 3, 2 and 5.
+    #[test]
+    fn open_uniform_knots() {
+        let scaled = |degree: usize, spans: usize| -> Vec<f64> {
+            KnotVector::uniform(degree, spans).unwrap().knots().iter().map(|t| t * spans as f64).collect()
+        };
+        assert_eq!(scaled(2, 3), [0., 0., 0., 1., 2., 3., 3., 3.]);
+        assert_eq!(scaled(1, 4), [0., 0., 1., 2., 3., 4., 4.]);
+        assert_eq!(scaled(4, 1), [0., 0., 0., 0., 0., 1., 1., 1., 1., 1.]);
+    }
+
+    #[test]
+    fn bad_knots_are_errors() {
+        assert_eq!(KnotVector::uniform(8, 2), Err(SplineError::Degree(8)));
+        let problem = |knots: &[f64]| match KnotVector::new(2, knots.to_vec()) {
+            Err(SplineError::Knot { index, problem, .. }) => (index, problem),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(problem(&[0., 0., 0., 1., 1.]), (5, "too few knots"));
+        assert_eq!(problem(&[0., 0., 0., f64::NAN, 1., 1., 1.]), (3, "not finite"));
+        assert_eq!(problem(&[0., 0., 0., 2., 1., 3., 3., 3.]), (4, "smaller than the knot before it"));
+        assert_eq!(problem(&[0., 0., 1., 2., 3., 3., 3.]), (2, "the start is not clamped"));
+        assert_eq!(problem(&[0., 0., 0., 1., 2., 3., 3.]), (4, "the end is not clamped"));
+        assert_eq!(problem(&[0., 0., 0., 1., 1., 1., 2., 2., 2.]), (3, "repeated more often than the degree allows"));
+        assert!(matches!(
+            KnotVector::from_breakpoints(2, &[0.0, 1.0], &[1]),
+            Err(SplineError::PointCount { found: 3, expected: 2 })
+        ));
+    }
+
+    #[test]
+    fn strongly_graded_spans_are_found() {
+        let breaks: Vec<f64> = (0..60).map(|k| 0.5f64.powi(59 - k)).collect();
+        let k = KnotVector::from_breakpoints(3, &breaks, &[1; 58]).unwrap();
+        for (number, w) in breaks.windows(2).enumerate() {
+            assert_eq!(k.find_span(w[0]), number + 3);
+            assert_eq!(k.find_span(0.5 * (w[0] + w[1])), number + 3);
+            assert_eq!(k.find_span(w[1].next_down()), number + 3);
+        }
+        assert_eq!((k.find_span(-1.0), k.find_span(2.0)), (3, 61));
+    }
+
+    proptest! {
+        #[test]
+        fn basis_is_a_partition_of_unity(k in knots(7)) {
+            for t in parameters(&k) {
+                let span = k.find_span(t);
+                prop_assert!(k.knots()[span] < k.knots()[span + 1]);
+                prop_assert!(k.knots()[span] <= t && (t < k.knots()[span + 1] || t >= k.domain().1));
+                let orders = k.basis_derivatives::<4>(span, t);
+                prop_assert!((orders[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);
+                prop_assert!(orders[0].iter().all(|value| *value >= 0.0));
+                for order in &orders[1..] {
+                    let size: f64 = order.iter().map(|value| value.abs()).sum();
+                    prop_assert!(order.iter().sum::<f64>().abs() <= 1e-14 * size);
+                }
+            }
+        }
+
+        #[test]
+        fn derivatives_are_the_slopes_of_those_below(k in knots(7)) {
+            for w in k.breakpoints().windows(2) {
+                let (t, h) = (0.6 * w[0] + 0.4 * w[1], 1e-5 * (w[1] - w[0]));
+                let span = k.find_span(t);
+                let [low, mid, high] = [t - h, t, t + h].map(|t| k.basis_derivatives::<8>(span, t));
+                for order in 0..7 {
+                    let size = low[order + 1].iter().chain(&low[order]).fold(0.0f64, |m, x| m.max(x.abs()));
+                    for r in 0..=k.degree() {
+                        let slope = (high[order][r] - low[order][r]) / (2.0 * h);
+                        let scale = size / (w[1] - w[0]);
+                        prop_assert!((slope - mid[order + 1][r]).abs() <= 1e-7 * scale.max(size));
+                    }
+                }
+            }
         }
     }
 }

@@ -20,3 +20,6 @@ pub use evaluate::{SurfaceJet, SurfaceTangents};
 pub use fit::{Collocation, Condition};
 pub use knots::{KnotVector, MAX_DEGREE, SplineError};
 pub use surface::BsplineSurface;
+
+#[cfg(test)]
+mod tests;

@@ -293,3 +293,115 @@ impl<const D: usize> BsplineSurface<D> {
         Ok(Self::from_parts(v, across.v().clone(), points).transposed())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spline::tests::{curve, distance, parameters, surface};
+    use proptest::prelude::*;
+
+    /// Worked example 5.1 of Piegl & Tiller 1997: 5/2 into a cubic, new points weighted 5/6, 1/2 and 1/6.
+    #[test]
+    fn insertion_of_a_new_knot_as_in_the_nurbs_book() {
+        let knots = KnotVector::new(3, vec![0., 0., 0., 0., 1., 2., 3., 4., 5., 5., 5., 5.]).unwrap();
+        let points: Vec<[f64; 2]> = (0..8).map(|i| [f64::from(i), f64::from(i * i) - 3.0 * f64::from(i % 3)]).collect();
+        let new = BsplineCurve::new(knots, points.clone()).unwrap().insert_knots(&[2.5]).unwrap();
+        let mix = |i: usize, a: f64| [0, 1].map(|d| a * points[i][d] + (1.0 - a) * points[i - 1][d]);
+        let expected = [
+            points[0],
+            points[1],
+            points[2],
+            mix(3, 5.0 / 6.0),
+            mix(4, 0.5),
+            mix(5, 1.0 / 6.0),
+            points[5],
+            points[6],
+            points[7],
+        ];
+        assert!(distance(new.points(), &expected) < 1e-14, "{:?}", new.points());
+    }
+
+    /// Worked example 5.2 of the same: 2 once more, weights 2/3 and 1/3.
+    #[test]
+    fn insertion_of_an_old_knot_as_in_the_nurbs_book() {
+        let knots = KnotVector::new(3, vec![0., 0., 0., 0., 1., 2., 3., 4., 5., 5., 5., 5.]).unwrap();
+        let points: Vec<[f64; 1]> = [3.0, -1.0, 4.0, 1.0, -5.0, 9.0, 2.0, 6.0].map(|y| [y]).to_vec();
+        let new = BsplineCurve::new(knots, points).unwrap().insert_knots(&[2.0]).unwrap();
+        let expected =
+            [3.0, -1.0, 4.0, 2.0 / 3.0 + 4.0 / 3.0, -5.0 / 3.0 + 2.0 / 3.0, -5.0, 9.0, 2.0, 6.0].map(|y| [y]);
+        assert!(distance(new.points(), &expected) < 1e-14, "{:?}", new.points());
+    }
+
+    /// A Bezier curve of degree p raised once: Q_i = i / (p + 1) P_{i-1} + (1 - i / (p + 1)) P_i (Farin 2002, 6.1).
+    #[test]
+    fn elevation_of_a_bezier_curve() {
+        let points = vec![[1.0], [4.0], [-2.0], [7.0]];
+        let new = BsplineCurve::new(KnotVector::uniform(3, 1).unwrap(), points).unwrap().elevate(1).unwrap();
+        let expected = [[1.0], [0.25 + 3.0], [2.0 - 1.0], [-1.5 + 1.75], [7.0]];
+        assert!(distance(new.points(), &expected) < 1e-15);
+        assert_eq!(new.knots().degree(), 4);
+    }
+
+    #[test]
+    fn what_cannot_be_refined_is_an_error() {
+        let line = BsplineCurve::new(KnotVector::uniform(2, 2).unwrap(), vec![[0.0]; 4]).unwrap();
+        assert!(matches!(line.insert_knots(&[0.0]), Err(SplineError::Knot { index: 0, .. })));
+        assert!(matches!(line.insert_knots(&[0.5, 0.5]), Err(SplineError::Knot { .. })));
+        assert!(line.insert_knots(&[f64::NAN]).is_err());
+        assert_eq!(line.elevate(6), Err(SplineError::Degree(8)));
+        assert!(matches!(line.part(0.7, 0.3), Err(SplineError::Knot { .. })));
+        assert!(matches!(line.split(1.0), Err(SplineError::Knot { .. })));
+    }
+
+    proptest! {
+        #[test]
+        fn refined_curves_keep_their_shape(c in curve::<3>(7), fractions in prop::collection::vec(0.001f64..0.999, 1..6)) {
+            let (a, b) = c.knots().domain();
+            let inserted: Vec<f64> = fractions.iter().map(|f| a + (b - a) * f).collect();
+            let refined = c.insert_knots(&inserted).unwrap();
+            prop_assert_eq!(refined.points().len(), c.points().len() + inserted.len());
+            let pieces = c.bezier_pieces();
+            let halves = c.split(inserted[0]).unwrap();
+            let seam = [halves[0].points()[halves[0].points().len() - 1], halves[1].points()[0]];
+            prop_assert_eq!(seam[0].map(f64::to_bits), seam[1].map(f64::to_bits));
+            let reversed = c.reversed();
+            for t in parameters(c.knots()) {
+                let exact = c.eval(t);
+                prop_assert!(distance(&[refined.eval(t)], &[exact]) < 1e-13);
+                prop_assert!(distance(&[reversed.eval(a + (b - t))], &[exact]) < 1e-13);
+                let half = &halves[usize::from(t > inserted[0])];
+                prop_assert!(distance(&[half.eval(t)], &[exact]) < 1e-13);
+                let piece = pieces.iter().find(|piece| t <= piece.to).unwrap();
+                prop_assert!(distance(&[piece.eval(t)], &[exact]) < 1e-13);
+                for times in 1..=MAX_DEGREE - c.knots().degree() {
+                    prop_assert!(distance(&[c.elevate(times).unwrap().eval(t)], &[exact]) < 1e-13);
+                }
+            }
+        }
+
+        #[test]
+        fn refined_surfaces_keep_their_shape(s in surface::<3>(4), f in 0.01f64..0.99, g in 0.01f64..0.99) {
+            let at = |k: &KnotVector, f: f64| k.domain().0 + (k.domain().1 - k.domain().0) * f;
+            let (u0, v0) = (at(s.u(), f), at(s.v(), g));
+            let refined = s.insert_knots(&[u0], &[v0]).unwrap();
+            let raised = s.elevate(1, 2).unwrap();
+            let (left, lower) = (s.split_u(u0).unwrap(), s.split_v(v0).unwrap());
+            let patches = s.bezier_patches();
+            for u in parameters(s.u()).into_iter().step_by(3) {
+                for v in parameters(s.v()).into_iter().step_by(2) {
+                    let exact = s.eval(u, v);
+                    let patch = patches.iter().find(|p| u <= p.u[1] && v <= p.v[1]).unwrap();
+                    let found = [
+                        refined.eval(u, v),
+                        raised.eval(u, v),
+                        left[usize::from(u > u0)].eval(u, v),
+                        lower[usize::from(v > v0)].eval(u, v),
+                        s.transposed().eval(v, u),
+                        patch.eval(u, v),
+                    ];
+                    prop_assert!(distance(&found, &[exact; 6]) < 1e-13, "{:?} {:?}", found, exact);
+                }
+            }
+        }
+    }
+}

@@ -8,6 +8,7 @@ use super::knots::{KnotVector, SplineError};
 pub struct BsplineSurface<const D: usize> {
     u: KnotVector,
     v: KnotVector,
+    /// The net and one point of padding behind it, so that evaluation may read whole pairs of numbers.
     points: Vec<[f64; D]>,
 }
 
@@ -24,12 +25,13 @@ impl<const D: usize> BsplineSurface<D> {
         if let Some(index) = points.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
             return Err(SplineError::NotFinite(index));
         }
-        Ok(Self { u, v, points })
+        Ok(Self::from_parts(u, v, points))
     }
 
     /// A surface whose parts are known to fit; used inside the kernel only.
-    pub(super) fn from_parts(u: KnotVector, v: KnotVector, points: Vec<[f64; D]>) -> Self {
+    pub(super) fn from_parts(u: KnotVector, v: KnotVector, mut points: Vec<[f64; D]>) -> Self {
         debug_assert_eq!(points.len(), u.basis_count() * v.basis_count());
+        points.push([0.0; D]);
         Self { u, v, points }
     }
 
@@ -38,7 +40,7 @@ impl<const D: usize> BsplineSurface<D> {
     pub fn transposed(&self) -> Self {
         let [rows, columns] = self.shape();
         let points = (0..columns).flat_map(|j| (0..rows).map(move |i| self.point(i, j))).collect();
-        Self { u: self.v.clone(), v: self.u.clone(), points }
+        Self::from_parts(self.v.clone(), self.u.clone(), points)
     }
 
     /// Knots in u.
@@ -56,7 +58,13 @@ impl<const D: usize> BsplineSurface<D> {
     /// The net, `u` slowest.
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
-        &self.points
+        &self.points[..self.points.len() - 1]
+    }
+
+    /// The numbers of the net, then D zeros.
+    #[inline]
+    pub(super) fn padded(&self) -> &[f64] {
+        self.points.as_flattened()
     }
 
     /// Numbers of control points in u and in v.
