@@ -78,9 +78,7 @@ impl<const D: usize> Arc<D> {
         second.low = at;
         for level in 1..=self.degree {
             for i in 0..=self.degree - level {
-                for d in 0..D {
-                    second.points[i][d] = (1.0 - r) * second.points[i][d] + r * second.points[i + 1][d];
-                }
+                second.points[i] = between(second.points[i], second.points[i + 1], r);
             }
             first.points[level] = second.points[0];
         }
@@ -92,13 +90,16 @@ impl<const D: usize> Arc<D> {
         let mut work = self.points;
         for level in 1..=self.degree {
             for i in 0..=self.degree - level {
-                for d in 0..D {
-                    work[i][d] = (1.0 - r) * work[i][d] + r * work[i + 1][d];
-                }
+                work[i] = between(work[i], work[i + 1], r);
             }
         }
         work[0]
     }
+}
+
+/// The point that divides the way from `a` to `b` at the fraction `r`.
+pub(super) fn between<const D: usize>(a: [f64; D], b: [f64; D], r: f64) -> [f64; D] {
+    std::array::from_fn(|d| (1.0 - r) * a[d] + r * b[d])
 }
 
 /// A curve made of arcs that follow each other; each joint is one control point. None without arcs.
@@ -141,11 +142,13 @@ pub(super) fn value_and_slope(c: &[f64], t: f64) -> (f64, f64) {
 pub(super) fn halve(c: &[f64; ORDER], degree: usize) -> [[f64; ORDER]; 2] {
     let mut second = *c;
     let mut first = *c;
-    for level in 1..=degree {
-        for i in 0..=degree - level {
-            second[i] = 0.5 * (second[i] + second[i + 1]);
+    for (level, value) in first.iter_mut().enumerate().take(degree + 1) {
+        if level > 0 {
+            for i in 0..=degree - level {
+                second[i] = 0.5 * (second[i] + second[i + 1]);
+            }
         }
-        first[level] = second[0];
+        *value = second[0];
     }
     [first, second]
 }

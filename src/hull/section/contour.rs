@@ -355,7 +355,7 @@ fn pair(cell: &Cell, sides: &[Vec<usize>; 4], crossings: &[Crossing], segments: 
             .chain(sides[0].iter().rev())
             .copied()
             .collect();
-        debug_assert!(around.len() % 2 == 0);
+        debug_assert!(around.len().is_multiple_of(2));
         let shift = usize::from(cell.corners[0][0]);
         for k in 0..around.len() / 2 {
             add(around[2 * k + shift], around[(2 * k + 1 + shift) % around.len()]);

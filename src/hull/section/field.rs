@@ -129,18 +129,22 @@ impl Field {
                 let mut sum = [0.0; 3];
                 for (column, weight) in across[k].iter().enumerate().take(q + 1) {
                     let point = surface.point(self.u.first[i] + row, self.v.first[j] + column);
-                    for d in 0..3 {
-                        sum[d] += weight * point[d];
-                    }
+                    add(&mut sum, *weight, &point);
                 }
                 for (l, operator) in along.iter().enumerate().take(p + 1) {
-                    for d in 0..3 {
-                        points[l][k][d] += operator[row] * sum[d];
-                    }
+                    add(&mut points[l][k], operator[row], &sum);
                 }
             }
         }
         Patch { p, q, normal: self.normal, points, distance, size: [width(self.u.breaks[i]), width(self.v.breaks[j])] }
+    }
+}
+
+/// sum + weight * point, in place.
+#[inline]
+fn add(sum: &mut [f64; 3], weight: f64, point: &[f64; 3]) {
+    for (s, c) in sum.iter_mut().zip(point) {
+        *s += weight * c;
     }
 }
 
@@ -179,13 +183,9 @@ impl Patch {
         for (i, wa) in a.iter().enumerate().take(self.p + 1) {
             let mut row = [0.0; 3];
             for (j, wb) in b.iter().enumerate().take(self.q + 1) {
-                for d in 0..3 {
-                    row[d] += wb * self.points[i][j][d];
-                }
+                add(&mut row, *wb, &self.points[i][j]);
             }
-            for d in 0..3 {
-                sum[d] += wa * row[d];
-            }
+            add(&mut sum, *wa, &row);
         }
         sum
     }
@@ -193,20 +193,16 @@ impl Patch {
     pub(super) fn node(&self, st: [f64; 2]) -> Node {
         let (a, b) = (basis_derivatives(self.p, st[0]), basis_derivatives(self.q, st[1]));
         let mut result = [[[0.0; 3]; 3]; 3];
-        for i in 0..=self.p {
+        for (i, line) in self.points.iter().enumerate().take(self.p + 1) {
             let mut rows = [[0.0; 3]; 3];
-            for (j, point) in self.points[i].iter().enumerate().take(self.q + 1) {
+            for (j, point) in line.iter().enumerate().take(self.q + 1) {
                 for (row, order) in rows.iter_mut().zip(&b) {
-                    for d in 0..3 {
-                        row[d] += order[j] * point[d];
-                    }
+                    add(row, order[j], point);
                 }
             }
-            for k in 0..3 {
-                for l in 0..3 - k {
-                    for d in 0..3 {
-                        result[k][l][d] += a[k][i] * rows[l][d];
-                    }
+            for (k, (sums, order)) in result.iter_mut().zip(&a).enumerate() {
+                for (sum, row) in sums.iter_mut().zip(&rows).take(3 - k) {
+                    add(sum, order[i], row);
                 }
             }
         }

@@ -74,21 +74,15 @@ impl Tracer {
             self.push(arc);
             return;
         }
-        let mut middle = [0.0; 2];
-        for tau in [0.5, 0.22, 0.78] {
-            let st = self.middle(patch, link, mode, a, b, tau);
-            if tau == 0.5 {
-                middle = st;
-            }
-            if apart(patch.point(st), arc.at(tau)) > 0.5 * self.tolerance {
-                if tau != 0.5 {
-                    middle = self.middle(patch, link, mode, a, b, 0.5);
-                }
-                let node = patch.node(middle);
-                self.segment(patch, link, a, &node, depth + 1);
-                self.segment(patch, link, &node, b, depth + 1);
-                return;
-            }
+        let middle = self.middle(patch, link, mode, a, b, 0.5);
+        let close = |st: [f64; 2], tau: f64| apart(patch.point(st), arc.at(tau)) <= 0.5 * self.tolerance;
+        let holds =
+            close(middle, 0.5) && [0.22, 0.78].iter().all(|&tau| close(self.middle(patch, link, mode, a, b, tau), tau));
+        if !holds {
+            let node = patch.node(middle);
+            self.segment(patch, link, a, &node, depth + 1);
+            self.segment(patch, link, &node, b, depth + 1);
+            return;
         }
         self.push(arc);
     }
