@@ -190,7 +190,7 @@ fn assert_complete(hull: &Hull, section: &Section, coordinate: usize, fraction: 
 fn no_branch_of_a_random_surface_is_missed_or_invented() {
     use proptest::prelude::*;
     use proptest::test_runner::{Config, TestRunner};
-    let net = prop::collection::vec(0.0..5.0f64, 200);
+    let net = prop::collection::vec(0.0..5.0f64, 441);
     let seeds = (prop::collection::vec(0..4usize, 0..4), prop::collection::vec(0..4usize, 0..4));
     let plane = (0..4usize, 0.1..0.9f64, -0.5..0.5f64, -0.5..0.5f64);
     let lines = (0.01..0.99f64, 0.01..0.99f64);
