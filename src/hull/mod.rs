@@ -6,11 +6,13 @@ mod area;
 mod form;
 mod functional;
 mod immersion;
+mod offsets;
 mod particulars;
 mod section;
 
 pub use area::SectionalAreaCurve;
 pub use form::{Hull, HullError};
 pub use functional::Functional;
+pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
