@@ -1,7 +1,18 @@
 //! Plane sections of a hull: connected curves, in order, to a stated tolerance.
 
+mod bernstein;
+mod clip;
+mod closing;
+mod contour;
+mod field;
+mod trace;
+
 use super::form::Hull;
 use crate::spline::BsplineCurve;
+use bernstein::{Arc, join};
+use clip::below_deck;
+use closing::{cut_face, line};
+use field::Field;
 
 /// A plane that cuts the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,16 +72,6 @@ pub struct Branch {
     pub closed: bool,
 }
 
-impl Branch {
-    /// Points on the curve, so dense that the chords between them stay within `deviation` [m] of it.
-    #[must_use]
-    pub fn polyline(&self, deviation: f64) -> Vec<[f64; 3]> {
-        let _ = deviation;
-        let (a, b) = self.curve.knots().domain();
-        (0..=200).map(|k| self.curve.eval(a + (b - a) * f64::from(k) / 200.0)).collect()
-    }
-}
-
 /// All branches of a plane section of one side of the hull, below the deck at side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -80,12 +81,153 @@ pub struct Section {
     pub branches: Vec<Branch>,
 }
 
+impl Branch {
+    /// Points on the curve, so dense that the chords between them stay within `deviation` [m] of it; the first and the last
+    /// are its ends, and no span of the curve is skipped. Arcs are halved until their control points lie within the
+    /// deviation of the chord (the curve stays in their convex hull), at most 20 times.
+    #[must_use]
+    pub fn polyline(&self, deviation: f64) -> Vec<[f64; 3]> {
+        let (from, to) = self.curve.knots().domain();
+        let points = self.curve.points();
+        let mut line = vec![points[0]];
+        for arc in Arc::of(&self.curve, from, to) {
+            flatten(&arc, deviation, 0, &mut line);
+        }
+        if let (Some(end), Some(last)) = (line.last_mut(), points.last()) {
+            *end = *last;
+        }
+        line
+    }
+}
+
+fn flatten(arc: &Arc<3>, deviation: f64, depth: u32, line: &mut Vec<[f64; 3]>) {
+    let control = arc.control();
+    let (a, b) = (control[0], control[arc.degree]);
+    let chord: [f64; 3] = std::array::from_fn(|d| b[d] - a[d]);
+    let length = chord.iter().map(|c| c * c).sum::<f64>();
+    let flat = control[1..arc.degree].iter().all(|p| {
+        let out: [f64; 3] = std::array::from_fn(|d| p[d] - a[d]);
+        let r = if length > 0.0 { (0..3).map(|d| out[d] * chord[d]).sum::<f64>() / length } else { 0.0 };
+        let r = r.clamp(0.0, 1.0);
+        (0..3).map(|d| (out[d] - r * chord[d]).powi(2)).sum::<f64>() <= deviation * deviation
+    });
+    if flat || depth >= 20 {
+        line.push(b);
+    } else {
+        let [first, second] = arc.split(0.5);
+        flatten(&first, deviation, depth + 1, line);
+        flatten(&second, deviation, depth + 1, line);
+    }
+}
+
+impl Cut {
+    /// The plane as a unit normal n and an offset d: n . (x, y, z) = d. None when the normal is zero or not finite.
+    #[must_use]
+    pub fn plane(&self) -> Option<([f64; 3], f64)> {
+        let (normal, offset) = match *self {
+            Self::Station { x } => ([1.0, 0.0, 0.0], x),
+            Self::Waterline { z } => ([0.0, 0.0, 1.0], z),
+            Self::Buttock { y } => ([0.0, 1.0, 0.0], y),
+            Self::Diagonal { height, angle } => ([0.0, angle.sin(), angle.cos()], height * angle.cos()),
+            Self::Plane { normal, offset } => (normal, offset),
+        };
+        let length = normal.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let usable = length > 0.0 && length.is_finite() && offset.is_finite();
+        usable.then(|| (normal.map(|c| c / length), offset / length))
+    }
+}
+
 impl Hull {
     /// The curves in which a plane cuts one side of the body, closing lines on the flats included; deviation from the
-    /// surface and from the plane at most `tolerance` [m]. No branch when the plane misses the hull.
+    /// surface and from the plane at most `tolerance` [m], which is taken as 1e-11 m at least. No branch when the plane
+    /// misses the hull or is no plane.
+    ///
+    /// * A waterline is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
+    ///   chains of quintics. Branches on flats are exact.
+    /// * Where the surface lies in the plane, the branch is the boundary of that part of the surface. The edges of the
+    ///   surface count as such: the station at the end of a hull with a transom across is the outline of the transom, the
+    ///   buttock at y = 0 the profile.
+    /// * Stations run from bottom to top, other branches from aft to forward.
     #[must_use]
     pub fn section(&self, cut: Cut, tolerance: f64) -> Section {
-        let _ = tolerance;
-        Section { cut, branches: Vec::new() }
+        let tolerance = tolerance.max(1e-11);
+        let mut branches = Vec::new();
+        let Some((normal, offset)) = cut.plane() else { return Section { cut, branches } };
+        let station = matches!(cut, Cut::Station { .. });
+        let mut add = |face: Face, curve: BsplineCurve<3>, closed: bool| {
+            for (curve, closed) in below_deck(self, curve, closed, tolerance) {
+                branches.push(oriented(Branch { face, curve, closed }, station));
+            }
+        };
+        if let Cut::Waterline { z } = cut {
+            if let Some(v) = self.height_parameter(z) {
+                add(Face::Side, self.surface().curve_at_v(v), false);
+            }
+        } else {
+            // The side on which a plane through an edge of the surface leaves the surface.
+            let middle =
+                0.5 * (self.surface().point(0, 0)[0] + self.surface().point(self.surface().shape()[0] - 1, 0)[0]);
+            let outward = match cut {
+                Cut::Station { x } if x < middle => -1.0,
+                Cut::Buttock { y } if y <= 0.0 => -1.0,
+                _ => 1.0,
+            };
+            let field = Field::new(self.surface(), normal.map(|c| c * outward), offset * outward);
+            let (patches, chains) = contour::chains(self.surface(), &field, tolerance);
+            for chain in &chains {
+                if let Some(curve) = join(&trace::trace(chain, &patches, tolerance)) {
+                    add(Face::Side, curve, chain.closed);
+                }
+            }
+        }
+        let least = 1e-12 * self.particulars().breadth;
+        let ([u0, u1], [v0, _]) =
+            ([self.surface().u().domain().0, self.surface().u().domain().1], [self.surface().v().domain().0, 0.0]);
+        let parallel = matches!(cut, Cut::Waterline { .. });
+        if !parallel {
+            for curve in cut_face(&self.surface().curve_at_v(v0), normal, offset, least) {
+                // A plane meets the plane of the bottom in a straight line.
+                let points = curve.points();
+                if let Some(curve) = line(points[0], points[points.len() - 1]) {
+                    add(Face::Bottom, curve, false);
+                }
+            }
+        }
+        for (face, u) in [(Face::Transom, u0), (Face::Bow, u1)] {
+            for curve in cut_face(&self.surface().curve_at_u(u), normal, offset, least) {
+                add(face, curve, false);
+            }
+        }
+        let key = |b: &Branch| {
+            let p = b.curve.points()[0];
+            if station { [p[2], p[1], p[0]] } else { [p[0], p[2], p[1]] }
+        };
+        branches.sort_by(|a, b| {
+            let order = (a.face as u8).cmp(&(b.face as u8));
+            let by_place = key(a).iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|o| o.is_ne());
+            order.then(by_place.unwrap_or(std::cmp::Ordering::Equal))
+        });
+        Section { cut, branches }
+    }
+}
+
+/// The branch from bottom to top (stations) or from aft to forward.
+fn oriented(branch: Branch, station: bool) -> Branch {
+    let points = branch.curve.points();
+    let (a, b) = (points[0], points[points.len() - 1]);
+    let key = |p: [f64; 3]| if station { [p[2], p[1]] } else { [p[0], p[2]] };
+    let (a, b) = (key(a), key(b));
+    if branch.closed || a[0] < b[0] || (a[0] <= b[0] && a[1] <= b[1]) {
+        return branch;
+    }
+    let knots = branch.curve.knots();
+    let (from, to) = knots.domain();
+    let turned = knots.knots().iter().rev().map(|t| from + (to - t)).collect();
+    let reversed: Vec<[f64; 3]> = points.iter().rev().copied().collect();
+    let curve =
+        crate::spline::KnotVector::new(knots.degree(), turned).and_then(|knots| BsplineCurve::new(knots, reversed));
+    match curve {
+        Ok(curve) => Branch { curve, ..branch },
+        Err(_) => branch,
     }
 }
