@@ -1,6 +1,26 @@
 //! Section areas and the sectional-area curve.
+//!
+//! The area of the section at X is 2 int y(u(X, v), v) z_v dv, where u(X, v) solves x(u, v) = X. The integral is cut in v at
+//! the knots, at every point where the station crosses a knot line in u, and where it leaves the hull over the stern or
+//! the stem profile: these points are roots of x(u_k, v) = X, of which all are found, profiles that turn back included, by
+//! subdividing Bernstein polynomials with Descartes' rule of signs (Lane & Riesenfeld 1981). In between the integrand is
+//! analytic, and a polynomial where x does not depend on v; Gauss-Legendre rules are refined until the row over the net is
+//! settled to 1e-13 of its largest entry, so that rows and areas are exact to rounding. Next to a profile the variable is
+//! changed to v = a + (b - a) t^2 (3 - 2t), which takes out the square root that a round stem or stern brings.
 
 use super::form::Hull;
+use super::immersion::Immersion;
+use crate::numeric::gauss_legendre;
+use crate::spline::MAX_DEGREE;
+
+/// Nodes of the rule that is refined where x depends on v.
+const NODES: usize = 10;
+
+/// Halvings of a piece at most.
+const HALVINGS: usize = 12;
+
+/// Change of a row, relative to its largest entry, at which a piece is settled.
+const SETTLED: f64 = 1e-13;
 
 /// Areas of the immersed sections along the hull at one draught.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +37,275 @@ impl SectionalAreaCurve {
     /// Areas at `stations` below `draught`, exact to rounding; 0 beyond the hull.
     #[must_use]
     pub fn new(hull: &Hull, draught: f64, stations: &[f64]) -> Self {
-        let _ = hull;
-        Self { draught, stations: stations.to_vec(), areas: vec![0.0; stations.len()] }
+        let area = |&x: &f64| super::functional::Functional::SectionArea { x }.value(hull, draught);
+        Self { draught, stations: stations.to_vec(), areas: stations.iter().map(area).collect() }
+    }
+}
+
+/// Weights of one piece: rows span_u - p ..= span_u, columns span_v - q ..= span_v.
+type Block = [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+
+/// One station within one cell of the knots.
+struct Cell<'a> {
+    hull: &'a Hull,
+    station: f64,
+    span_u: usize,
+    span_v: usize,
+    /// Whether x depends on v within the cell.
+    slanting: bool,
+    /// Whether the cell is next to the stern or the stem profile and x depends on v.
+    at_profile: bool,
+}
+
+impl Cell<'_> {
+    /// Basis functions in u at the point of the station on the line with the basis functions `across` in v, searched
+    /// from `start`, which is moved there.
+    fn along(&self, across: &[f64; MAX_DEGREE + 1], start: &mut f64) -> [f64; MAX_DEGREE + 1] {
+        let surface = self.hull.surface();
+        let (knots, p, q) = (surface.u(), surface.u().degree(), surface.v().degree());
+        let columns = surface.shape()[1];
+        let mut x = [0.0; MAX_DEGREE + 1];
+        for (i, x) in x.iter_mut().enumerate().take(p + 1) {
+            let row = &surface.points()[(self.span_u - p + i) * columns + self.span_v - q..];
+            *x = across[..=q].iter().zip(row).map(|(b, point)| b * point[0]).sum();
+        }
+        let (mut low, mut high) = (knots.knots()[self.span_u], knots.knots()[self.span_u + 1]);
+        let resolution = 2.0 * f64::EPSILON * low.abs().max(high.abs());
+        let mut u = start.clamp(low, high);
+        for _ in 0..100 {
+            let [basis, slopes] = knots.basis_derivatives::<2>(self.span_u, u);
+            let sum = |row: &[f64; MAX_DEGREE + 1]| row.iter().zip(&x).map(|(b, c)| b * c).sum::<f64>();
+            let (error, slope) = (sum(&basis) - self.station, sum(&slopes));
+            if error > 0.0 {
+                high = u;
+            } else {
+                low = u;
+            }
+            let newton = u - error / slope;
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            let step = (next - u).abs();
+            u = next;
+            if step <= resolution || error == 0.0 {
+                break;
+            }
+        }
+        *start = u;
+        knots.basis(self.span_u, u)
+    }
+
+    /// The weights for v in [from, to] of a rule of `count` nodes, in t of the changed variable where a profile is near.
+    fn rule(&self, ends: (f64, f64), part: (f64, f64), count: usize, start: &mut f64) -> Block {
+        let surface = self.hull.surface();
+        let (p, q) = (surface.u().degree(), surface.v().degree());
+        let heights = &self.hull.heights().points()[self.span_v - q..=self.span_v];
+        let width = ends.1 - ends.0;
+        let mut block: Block = Default::default();
+        for (t, weight) in gauss_legendre(count).on(part.0, part.1) {
+            let (place, stretch) =
+                if self.at_profile { (t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t)) } else { (t, 1.0) };
+            let v = ends.0 + width * place;
+            let [across, slopes] = surface.v().basis_derivatives::<2>(self.span_v, v);
+            let slope: f64 = slopes.iter().zip(heights).map(|(b, h)| b * h[0]).sum();
+            let along = self.along(&across, start);
+            let factor = 2.0 * weight * width * stretch * slope;
+            for (row, a) in block[..=p].iter_mut().zip(&along) {
+                for (target, b) in row[..=q].iter_mut().zip(&across) {
+                    *target += factor * a * b;
+                }
+            }
+        }
+        block
+    }
+
+    /// Adds the weights of the piece to `block`, halving it until the rule is settled.
+    fn settle(&self, ends: (f64, f64), part: (f64, f64), rough: &Block, depth: usize, start: f64, block: &mut Block) {
+        let middle = 0.5 * (part.0 + part.1);
+        let mut at = start;
+        let left = self.rule(ends, (part.0, middle), NODES, &mut at);
+        let between = at;
+        let right = self.rule(ends, (middle, part.1), NODES, &mut at);
+        let (mut change, mut largest) = (0.0f64, 0.0f64);
+        for ((l, r), w) in left.iter().flatten().zip(right.iter().flatten()).zip(rough.iter().flatten()) {
+            change = change.max((l + r - w).abs());
+            largest = largest.max((l + r).abs());
+        }
+        if change <= SETTLED * largest || depth >= HALVINGS {
+            for ((target, l), r) in block.iter_mut().flatten().zip(left.iter().flatten()).zip(right.iter().flatten()) {
+                *target += l + r;
+            }
+            return;
+        }
+        self.settle(ends, (part.0, middle), &left, depth + 1, start, block);
+        self.settle(ends, (middle, part.1), &right, depth + 1, between, block);
+    }
+}
+
+/// Enumerates the weights of the area of the section at `station` below `draught`: `sink(i, j, w)` adds w_k to the weight of
+/// the point (i, j + k).
+pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mut dyn FnMut(usize, usize, &[f64])) {
+    let Some(immersion) = Immersion::new(hull, draught) else { return };
+    if !station.is_finite() {
+        return;
+    }
+    let surface = hull.surface();
+    let (p, q) = (surface.u().degree(), surface.v().degree());
+    let end = immersion.section_end(station);
+    let crossings = crossings(hull, station, end);
+    for span_v in surface.v().spans() {
+        let (from, to) = (surface.v().knots()[span_v], surface.v().knots()[span_v + 1].min(end));
+        if to <= from {
+            break;
+        }
+        let inside = crossings.iter().copied().filter(|&v| v > from && v < to);
+        let mut a = from;
+        for b in inside.chain([to]) {
+            if b - a <= 4.0 * f64::EPSILON * (to - from) && b < to {
+                continue;
+            }
+            let ends = (a, b);
+            a = b;
+            let middle = 0.5 * (ends.0 + ends.1);
+            let Some(u) = hull.length_parameter(station, middle) else { continue };
+            let span_u = surface.u().find_span(u);
+            let slanting = is_slanting(hull, span_u, span_v);
+            let outermost = span_u == p || span_u + 1 == surface.u().basis_count();
+            let cell = Cell { hull, station, span_u, span_v, slanting, at_profile: slanting && outermost };
+            let mut start = u;
+            let mut block: Block = Default::default();
+            if cell.slanting {
+                let rough = cell.rule(ends, (0.0, 1.0), NODES, &mut start);
+                cell.settle(ends, (0.0, 1.0), &rough, 0, u, &mut block);
+            } else {
+                block = cell.rule(ends, (0.0, 1.0), q, &mut start);
+            }
+            for (i, row) in block.iter().enumerate().take(p + 1) {
+                sink(span_u - p + i, span_v - q, &row[..=q]);
+            }
+        }
+    }
+}
+
+/// Whether x depends on v within a cell of the knots.
+fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
+    let surface = hull.surface();
+    let (p, q) = (surface.u().degree(), surface.v().degree());
+    (span_u - p..=span_u).any(|i| {
+        let x = surface.point(i, span_v)[0];
+        (span_v - q..span_v).any(|j| (surface.point(i, j)[0] - x).abs() > 0.0)
+    })
+}
+
+/// Every v below `end` at which x(u_k, v) = `station` for a knot u_k, in increasing order; lines on which x is the station
+/// throughout a span have none there.
+fn crossings(hull: &Hull, station: f64, end: f64) -> Vec<f64> {
+    let surface = hull.surface();
+    let (p, q, columns) = (surface.u().degree(), surface.v().degree(), surface.shape()[1]);
+    let knots = surface.v();
+    let scale = surface.points().iter().map(|point| point[0].abs()).fold(station.abs(), f64::max);
+    let zero = 4.0 * f64::EPSILON * scale;
+    let mut line = vec![0.0; columns];
+    let mut found = Vec::new();
+    for u in surface.u().breakpoints() {
+        let span = surface.u().find_span(u);
+        let basis = surface.u().basis(span, u);
+        for (j, c) in line.iter_mut().enumerate() {
+            *c = (0..=p).map(|i| basis[i] * surface.point(span - p + i, j)[0]).sum::<f64>() - station;
+        }
+        for span in knots.spans() {
+            let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
+            if to <= from {
+                break;
+            }
+            let local = &line[span - q..=span];
+            if local.iter().all(|&c| c > zero) || local.iter().all(|&c| c < -zero) {
+                continue;
+            }
+            let mut polynomial = [0.0; MAX_DEGREE + 1];
+            for (k, value) in polynomial.iter_mut().enumerate().take(q + 1) {
+                *value = blossom(knots.knots(), local, span, q, |r| if r < k { to } else { from });
+            }
+            roots(&polynomial[..=q], 0.0, 1.0, zero, 0, &mut |t| {
+                found.push(from + t * (to - from));
+            });
+        }
+    }
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+/// The polar form of a spline of degree q on span `span`, at the arguments `argument(0)`, ..., `argument(q - 1)`, from the
+/// control values span - q ..= span (Ramshaw 1989).
+fn blossom(knots: &[f64], values: &[f64], span: usize, q: usize, argument: impl Fn(usize) -> f64) -> f64 {
+    let mut d = [0.0; MAX_DEGREE + 1];
+    d[..=q].copy_from_slice(values);
+    for r in 1..=q {
+        let t = argument(r - 1);
+        for j in (r..=q).rev() {
+            let i = span - q + j;
+            let share = (t - knots[i]) / (knots[i + q - r + 1] - knots[i]);
+            d[j] = (1.0 - share) * d[j - 1] + share * d[j];
+        }
+    }
+    d[q]
+}
+
+/// Roots in [from, to] of the Bernstein polynomial with coefficients `c`, values below `zero` in size being taken as 0.
+fn roots(c: &[f64], from: f64, to: f64, zero: f64, depth: usize, found: &mut impl FnMut(f64)) {
+    let middle = 0.5 * (from + to);
+    let mut signs = c.iter().filter(|value| value.abs() > zero).map(|&value| value > 0.0);
+    let Some(mut sign) = signs.next() else {
+        if depth > 0 {
+            found(middle);
+        }
+        return;
+    };
+    let mut changes = 0;
+    for next in signs {
+        changes += usize::from(next != sign);
+        sign = next;
+    }
+    if changes == 0 {
+        return;
+    }
+    // A cluster that thirty halvings have not parted counts as one root.
+    if depth >= if changes > 1 { 30 } else { 52 } {
+        found(middle);
+        return;
+    }
+    let n = c.len() - 1;
+    let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+    right[..=n].copy_from_slice(c);
+    left[0] = c[0];
+    for r in 1..=n {
+        for j in 0..=n - r {
+            right[j] = 0.5 * (right[j] + right[j + 1]);
+        }
+        left[r] = right[0];
+    }
+    roots(&left[..=n], from, middle, zero, depth + 1, found);
+    if left[n].abs() <= zero {
+        found(middle);
+    }
+    roots(&right[..=n], middle, to, zero, depth + 1, found);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_roots_of_a_polynomial_with_a_double_root() {
+        // (t - 0.2)(t - 0.5)^2 (t - 0.9) in Bernstein form, from its power coefficients.
+        let power = [0.045, -0.455, 1.53, -2.1, 1.0];
+        let choose = |n: i32, k: i32| (0..k).map(|i| f64::from(n - i) / f64::from(i + 1)).product::<f64>();
+        let c: Vec<f64> =
+            (0..=4).map(|i| (0..=i).map(|k| choose(i, k) / choose(4, k) * power[k as usize]).sum()).collect();
+        let mut found = Vec::new();
+        roots(&c, 0.0, 1.0, 1e-16, 0, &mut |t| found.push(t));
+        for root in [0.2, 0.9] {
+            assert!(found.iter().any(|t| (t - root).abs() < 1e-13), "{root}: {found:?}");
+        }
+        assert!(found.iter().any(|t| (t - 0.5).abs() < 1e-6), "{found:?}");
+        assert!(found.len() < 20, "{found:?}");
     }
 }

@@ -5,6 +5,7 @@
 mod area;
 mod form;
 mod functional;
+mod immersion;
 mod particulars;
 mod section;
 
