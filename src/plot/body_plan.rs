@@ -1,13 +1,13 @@
 //! The body plan: aft sections on the left, forward sections on the right, the midship section on both sides.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::label::LabelPlacer;
+use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, View};
+use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
 use crate::hull::Hull;
 
 /// Room beside the sections for the names of waterlines [mm].
-pub(super) const SIDE_ROOM: f64 = 21.0;
+pub(super) const SIDE_ROOM: f64 = 20.0;
 /// Room above the sections for the names of stations [mm].
 pub(super) const TOP_ROOM: f64 = 17.0;
 /// Room below the sections for the names of buttocks [mm].
@@ -55,20 +55,28 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
     for text in canvas.texts() {
         placer.take(text.place);
     }
+    let mut owners = Vec::new();
     for half in [Half::Aft, Half::Fore] {
         let sign = half.sign();
         let project = |points: &[[f64; 3]]| points.iter().map(|p| [sign * p[1], p[2]]).collect::<Vec<_>>();
         for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
             for curve in &plane.curves {
                 placer.add_curve(&view.draw(canvas, project(curve), &STATION));
+                owners.push(&plane.name);
             }
         }
         let deck: Vec<_> = grid.deck.iter().filter(|p| half.has(p[0], midship)).copied().collect();
         view.draw(canvas, project(&deck), &OUTLINE);
         draw_flat_end(canvas, grid, view, half);
     }
+    let first = placer.curve_count() - owners.len();
     for half in [Half::Aft, Half::Fore] {
         name_stations(canvas, &mut placer, hull, grid, view, half, midship, text_size);
+    }
+    // At the bilge too, where a name keeps off the neighbours.
+    let style = TextStyle::new(0.9 * text_size, Anchor::Middle);
+    for (k, name) in owners.iter().enumerate() {
+        placer.name_curve(canvas, first + k, name, &style, Preference { part: 0.3, crossings: 0 }, &frame);
     }
     canvas.end_group();
 }
@@ -111,7 +119,7 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
             canvas.line([x, frame.top], [x, frame.bottom], &GRID);
             let below = TextStyle { anchor: Anchor::Middle, ..style };
             let places = [[x, frame.bottom + 2.2]];
-            if !names.name_point(canvas, &grid.buttock_label(plane), &below, &places, &room) {
+            if names.name_point(canvas, &grid.buttock_label(plane), &below, &places, &room).is_none() {
                 names.name_point(canvas, &plane.name, &below, &places, &room);
             }
         }
@@ -178,7 +186,10 @@ fn name_stations(
         let end = plane.curves.iter().flatten().max_by(|a, b| a[2].total_cmp(&b[2]));
         let Some(end) = end else { continue };
         let at = view.at([half.sign() * end[1], end[2]]);
-        let rows = (0..5).map(|row| [at[0], at[1] - (1.0 + 1.15 * f64::from(row)) * text_size]);
-        placer.name_point(canvas, &name, &style, &rows.collect::<Vec<_>>(), &room);
+        let rows: Vec<_> = (0..6).map(|row| [at[0], at[1] - (0.9 + 1.15 * f64::from(row)) * text_size]).collect();
+        if let Some(row) = placer.name_point(canvas, &name, &style, &rows, &room).filter(|&row| row > 0) {
+            // A thread from the section to a name that stands higher.
+            canvas.line(at, [at[0], rows[row][1] + 0.5 * text_size], &THREAD);
+        }
     }
 }

@@ -6,7 +6,7 @@
 use super::PlotError;
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::font;
-use super::label::LabelPlacer;
+use super::label::{LabelPlacer, Preference};
 use super::scale::{decimals, multiples, nice_step};
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::prelude::{
@@ -164,7 +164,14 @@ impl Chart {
         let first = placer.curve_count() - series.len();
         for (k, one) in series.iter().enumerate() {
             let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle).coloured(dark(one.colour));
-            placer.name_curve(canvas, first + k, one.name, &style, one.name_at, &self.frame.grown(-0.4));
+            placer.name_curve(
+                canvas,
+                first + k,
+                one.name,
+                &style,
+                Preference { part: one.name_at, crossings: usize::MAX },
+                &self.frame.grown(-0.4),
+            );
         }
         Ok(())
     }

@@ -7,7 +7,7 @@
 //! scaled by their values at the lowest draught; LCB and LCF by their largest distance from midship.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::label::LabelPlacer;
+use super::label::{LabelPlacer, Preference};
 use super::scale::sheet_scale;
 use super::{FigureInputs, PlotError, Svg, caption};
 use crate::hydrostatics::Hydrostatics;
@@ -163,7 +163,14 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     canvas.end_group();
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
-        placer.name_curve(&mut canvas, k, curve.symbol, &style, curve.name_at, &frame.grown(-0.5));
+        placer.name_curve(
+            &mut canvas,
+            k,
+            curve.symbol,
+            &style,
+            Preference { part: curve.name_at, crossings: usize::MAX },
+            &frame.grown(-0.5),
+        );
     }
     draw_legend(&mut canvas, &frame, &scales, draught_scale);
     Ok(Svg::new(canvas, "diagram sheet"))

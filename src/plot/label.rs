@@ -20,6 +20,15 @@ fn crosses(r: &Rectangle, a: [f64; 2], b: [f64; 2]) -> bool {
     enter <= leave
 }
 
+/// Where a name is wanted on its curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Preference {
+    /// Part of the length of the curve.
+    pub(super) part: f64,
+    /// Crossings with other curves that it may cover at most.
+    pub(super) crossings: usize,
+}
+
 /// Keeps the text of a drawing apart, and off the curves.
 #[derive(Debug, Default)]
 pub(super) struct LabelPlacer {
@@ -52,16 +61,16 @@ impl LabelPlacer {
             .sum()
     }
 
-    /// Writes `name` on curve number `curve` (in the order of [`LabelPlacer::add_curve`]), as near to the part `preferred`
-    /// of its length as there is room inside `window`; where every place meets another curve, the place that meets fewest.
-    /// False when there is no place that keeps off other text.
+    /// Writes `name` on curve number `curve` (in the order of [`LabelPlacer::add_curve`]), as near to the part that is
+    /// preferred as there is room inside `window`; where every place meets another curve, at the place that meets fewest.
+    /// False when every place meets other text or too many curves.
     pub(super) fn name_curve(
         &mut self,
         canvas: &mut Canvas,
         curve: usize,
         name: &str,
         style: &TextStyle,
-        preferred: f64,
+        preferred: Preference,
         window: &Rectangle,
     ) -> bool {
         const PLACES: usize = 160;
@@ -75,8 +84,9 @@ impl LabelPlacer {
                 if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
                     return None;
                 }
-                let cost = self.crossings(&place, Some(curve)) as f64 + 0.9 * (part - preferred).abs();
-                Some((cost, at, place))
+                let crossings = self.crossings(&place, Some(curve));
+                let cost = crossings as f64 + 0.9 * (part - preferred.part).abs();
+                (crossings <= preferred.crossings).then_some((cost, at, place))
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, at, place)) = best else { return false };
@@ -85,7 +95,8 @@ impl LabelPlacer {
         true
     }
 
-    /// Writes `name` at the first of `places` that keeps off other text and stays inside `window`; false when none does.
+    /// Writes `name` at the first of `places` that keeps off other text and stays inside `window`, and returns
+    /// which; none when none does.
     pub(super) fn name_point(
         &mut self,
         canvas: &mut Canvas,
@@ -93,16 +104,16 @@ impl LabelPlacer {
         style: &TextStyle,
         places: &[[f64; 2]],
         window: &Rectangle,
-    ) -> bool {
-        for &at in places {
+    ) -> Option<usize> {
+        for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style);
             if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
                 self.take(place.grown(0.1 * style.size));
                 canvas.text(at, name, style);
-                return true;
+                return Some(k);
             }
         }
-        false
+        None
     }
 }
 
@@ -154,8 +165,8 @@ mod tests {
         placer.add_curve(&[[0.0, 26.0], [100.0, 26.0]]);
         let style = TextStyle::new(3.0, Anchor::Start);
         let sheet = canvas.sheet();
-        assert!(placer.name_curve(&mut canvas, 0, "first", &style, 0.5, &sheet));
-        assert!(placer.name_curve(&mut canvas, 1, "second", &style, 0.5, &sheet));
+        assert!(placer.name_curve(&mut canvas, 0, "first", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
+        assert!(placer.name_curve(&mut canvas, 1, "second", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
         let texts = canvas.texts();
         assert!(!texts[0].place.overlaps(&texts[1].place));
     }
@@ -167,7 +178,14 @@ mod tests {
         placer.add_curve(&[[0.0, 5.0], [10.0, 5.0]]);
         let style = TextStyle::new(3.0, Anchor::Start);
         let sheet = canvas.sheet();
-        assert!(!placer.name_curve(&mut canvas, 0, "a name too long for it", &style, 0.5, &sheet));
+        assert!(!placer.name_curve(
+            &mut canvas,
+            0,
+            "a name too long for it",
+            &style,
+            Preference { part: 0.5, crossings: 9 },
+            &sheet
+        ));
         assert!(canvas.texts().is_empty());
     }
 }

@@ -55,8 +55,8 @@ pub(super) struct LinesGrid {
     pub(super) ends: [Vec<[f64; 3]>; 2],
 }
 
-/// Name of the station that lies `halves` half intervals forward of AP.
-fn station_name(halves: i32) -> String {
+/// `halves` halves: 3 is `1½`.
+fn numeral(halves: i32) -> String {
     let sign = if halves < 0 { "-" } else { "" };
     let (whole, half) = (halves.abs() / 2, halves.abs() % 2 == 1);
     match (whole, half) {
@@ -103,17 +103,17 @@ impl LinesGrid {
             .into_iter()
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
-                plane(x, station_name(halves), Cut::Station { x })
+                plane(x, numeral(halves), Cut::Station { x })
             })
             .collect();
-        let waterline_spacing = nice_step(p.draught, 5.0);
-        let waterlines: Vec<_> = multiples(waterline_spacing, height[0], height[1])
+        let waterline_spacing = nice_step(p.draught, 8.0);
+        // One half waterline at the bilge.
+        let waterlines: Vec<_> = multiples(0.5 * waterline_spacing, height[0], height[1])
             .into_iter()
             .filter(|z| (z - p.draught).abs() > 1e-6 * waterline_spacing)
-            .map(|z| {
-                let number = (z / waterline_spacing).round() as i64;
-                plane(z, format!("WL {number}"), Cut::Waterline { z })
-            })
+            .map(|z| (z, (2.0 * z / waterline_spacing).round() as i32))
+            .filter(|(_, halves)| halves % 2 == 0 || *halves == 1)
+            .map(|(z, halves)| plane(z, format!("WL {}", numeral(halves)), Cut::Waterline { z }))
             .collect();
         let design_waterline = plane(p.draught, "DWL".to_owned(), Cut::Waterline { z: p.draught });
         let half_breadth = waterlines
@@ -123,7 +123,7 @@ impl LinesGrid {
             .chain(&deck)
             .map(|point| point[1])
             .fold(0.0, f64::max);
-        let buttock_spacing = nice_step(0.5 * p.breadth, 4.0);
+        let buttock_spacing = nice_step(0.5 * p.breadth, 5.0);
         let buttocks = multiples(buttock_spacing, buttock_spacing, 0.995 * half_breadth)
             .into_iter()
             .enumerate()
@@ -177,11 +177,11 @@ mod tests {
 
     #[test]
     fn half_stations_stand_at_the_ends() {
-        let names: Vec<_> = station_numbers(-0.3, 20.6).into_iter().map(station_name).collect();
+        let names: Vec<_> = station_numbers(-0.3, 20.6).into_iter().map(numeral).collect();
         let first = ["0", "½", "1", "1½", "2", "3"];
         assert_eq!(names[..6], first);
         assert_eq!(names[names.len() - 6..], ["18", "18½", "19", "19½", "20", "20½"]);
-        assert_eq!(station_name(-3), "-1½");
+        assert_eq!(numeral(-3), "-1½");
     }
 
     #[test]

@@ -1,14 +1,14 @@
 //! The two long views of a lines plan: profile (sheer plan) and half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::label::LabelPlacer;
+use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::outline;
 use super::view::{BASE, BUTTOCK, DESIGN, DIAGONAL, GRID, OUTLINE, View, WATERLINE};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks [mm].
-pub(super) const SIDE_ROOM: f64 = 20.0;
+pub(super) const SIDE_ROOM: f64 = 20.5;
 /// Room above and below the hull for the names of stations [mm].
 pub(super) const END_ROOM: f64 = 8.0;
 /// Grid lines go this far beyond the hull [mm].
@@ -109,8 +109,8 @@ pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, v
     for (k, plane) in owners.iter().enumerate() {
         let longest = grid.length[1] - grid.length[0];
         let part = if longest > 0.0 { 0.06 + 0.03 * (k % 4) as f64 } else { 0.1 };
-        placer.name_curve(canvas, k, &plane.name, &style, part, &inside);
-        placer.name_curve(canvas, k, &plane.name, &style, 1.0 - part, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2 }, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part: 1.0 - part, crossings: 2 }, &inside);
     }
     canvas.end_group();
 }
@@ -155,8 +155,8 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     for (k, (plane, pen)) in owners.iter().enumerate() {
         let style = TextStyle::new(text_size, Anchor::Middle).coloured(pen.colour);
         let part = 0.08 + 0.035 * (k % 5) as f64;
-        placer.name_curve(canvas, k, &plane.name, &style, part, &inside);
-        placer.name_curve(canvas, k, &plane.name, &style, 1.0 - part, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2 }, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part: 1.0 - part, crossings: 2 }, &inside);
     }
     canvas.end_group();
 }

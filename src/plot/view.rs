@@ -14,6 +14,8 @@ pub(super) const DIAGONAL: Pen = Pen::new(0.35, "#00553c");
 pub(super) const OUTLINE: Pen = Pen::new(0.5, "#000000");
 /// Grid.
 pub(super) const GRID: Pen = Pen::new(0.13, "#8a8a8a");
+/// From a name to its curve.
+pub(super) const THREAD: Pen = Pen::new(0.1, "#000000");
 /// Centre line and base line.
 pub(super) const BASE: Pen = Pen::new(0.25, "#000000");
 /// Design waterline.
