@@ -2,6 +2,9 @@
 
 pub mod analytic;
 pub mod cosh;
+mod kernel;
+mod loft;
+mod midship;
 mod presets;
 pub mod ucl_cosh;
 
@@ -124,4 +127,18 @@ pub struct Generated {
     pub targets: Vec<Target>,
     /// Remarks.
     pub remarks: Vec<Remark>,
+}
+
+/// C_B, C_M, x of LCB [m] and C_WP of a hull at its design draught, on L_PP and B, integrated exactly.
+fn achieved(hull: &crate::hull::Hull) -> [f64; 4] {
+    use crate::hull::Functional;
+    let p = *hull.particulars();
+    let (l, b, t) = (p.length_between_perpendiculars, p.breadth, p.draught);
+    let volume = Functional::Volume.value(hull, t);
+    [
+        volume / (l * b * t),
+        Functional::SectionArea { x: 0.5 * l }.value(hull, t) / (b * t),
+        Functional::LongitudinalMoment.value(hull, t) / volume,
+        Functional::WaterplaneArea.value(hull, t) / (l * b),
+    ]
 }

@@ -68,6 +68,14 @@ impl Collocation {
         self.lu.solve_strided(values, offset, stride);
     }
 
+    /// Turns the given values into control values, in place.
+    ///
+    /// # Panics
+    /// When `values` is too short.
+    pub fn solve(&self, values: &mut [f64]) {
+        self.lu.solve_strided(values, 0, 1);
+    }
+
     /// Turns a matrix of given values (rows u, columns v, row by row) into the net of a tensor-product spline, in place:
     /// `self` in u and `across` in v.
     ///

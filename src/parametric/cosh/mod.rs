@@ -1,4 +1,19 @@
-//! The cosh family.
+//! The cosh family: waterlines of hyperbolic-cosine arcs on both ends of a prismatic body, solved for Cb, Cm, LCB and Cwp.
+//!
+//! At each height z the waterline is y = b(z) f_E((x - xf) / (x_stem(z) - xf)) in the entrance, b(z) along the parallel body
+//! and b(z) f_R((xa - x) / (xa - x_v(z))) in the run, where b is the midship section and f_E, f_R are blends of the kernels J
+//! and S of equal fullness: S beside a parallel body (curvature 0 at the shoulder), J and S such that the curvatures agree
+//! where there is none. The fullness of each end rises from keel to waterline by an exponential law, which keeps waterlines
+//! nested: no tumblehome, sections do not cross, at most one inflection an end. The transom is a plane cut of the run.
+//!
+//! The four numbers of fullness are solved for displacement, LCB and waterplane area; the net interpolates that form and a
+//! last linear correction makes the coefficients of the B-spline hull exact (errors below 1e-12, see the tests).
+
+mod build;
+mod form;
+mod net;
+mod resolve;
+mod solve;
 
 use super::presets::ShipType;
 use super::{Generated, Infeasible};
@@ -80,6 +95,5 @@ pub struct Wishes {
 /// # Errors
 /// Every wish that cannot be had, at once, with the nearest feasible values.
 pub fn generate(name: &str, wishes: &Wishes) -> Result<Generated, Vec<Infeasible>> {
-    let _ = (name, wishes);
-    Err(Vec::new())
+    resolve::Resolved::new(wishes)?.build(name)
 }

@@ -1,0 +1,416 @@
+//! From numbers to the hull: the search over what was left free, the net, and what to say when there is no hull.
+
+use super::form::{Form, HeightNode, Law, Stem, Stern};
+use super::net::{self, Exact};
+use super::resolve::{Resolved, Sourced};
+use super::solve::{self, Goal};
+use crate::hull::PrincipalParticulars;
+use crate::numeric::bracketed_root;
+use crate::parametric::{DesignValue, Generated, Infeasible, Origin, Target, achieved};
+
+impl Resolved {
+    /// The form with shoulders and profiles, its fullness still open.
+    fn form(&self, aft_shoulder: f64, fore_shoulder: f64) -> Form {
+        let law = Law { keel: 0.6, waterline: 0.7, character: self.character, flare: 0.0 };
+        // A preset that starts to rise forward of the shoulder gives way.
+        let cut_up = match self.cut_up.origin {
+            Origin::Given => self.cut_up.value,
+            _ => self.cut_up.value.min(0.85 * aft_shoulder),
+        };
+        Form {
+            length: self.length,
+            draught: self.draught,
+            depth: self.depth,
+            section: self.section,
+            stem: Stem { length: self.length, draught: self.draught, rake: self.rake, forefoot: self.forefoot },
+            stern: Stern {
+                cut_up,
+                end: -self.overhang,
+                height: self.transom_height,
+                sweep: self.sweep,
+                transom: self.transom,
+            },
+            aft_shoulder,
+            fore_shoulder,
+            entrance: law,
+            run: law,
+        }
+    }
+
+    fn goal(&self, waterplane: f64, lcb: f64) -> Goal {
+        Goal {
+            volume: self.block.value * self.length * self.breadth * self.draught,
+            lcb,
+            waterplane: waterplane * self.length * self.breadth,
+            lcf: lcb - 0.02 * self.length,
+            half_entrance: self.half_entrance,
+        }
+    }
+
+    /// Shoulders to try, the usual ones first.
+    fn bodies(&self) -> Vec<(f64, f64)> {
+        if let (Some(aft), Some(fore)) = (self.aft_shoulder, self.fore_shoulder) {
+            return vec![(aft, fore)];
+        }
+        let (l, middle) = (self.length, 0.5 * self.length);
+        let usual = ((self.block.value / self.midship.value - 0.66) / 0.34).max(0.0);
+        [0.0, -0.05, 0.05, -0.1, 0.1, 0.15, -0.15]
+            .into_iter()
+            .map(|step: f64| if usual + step < 0.03 { 0.0 } else { usual + step })
+            .map(|part| {
+                let half = 0.5 * part * l;
+                match (self.aft_shoulder, self.fore_shoulder) {
+                    (Some(aft), None) => (aft, (aft + 2.0 * half).min(0.9 * l)),
+                    (None, Some(fore)) => ((fore - 2.0 * half).max(0.1 * l), fore),
+                    _ => {
+                        // Near LCB, and always over midship, where Cm is measured.
+                        let centre = (middle + 0.8 * (self.lcb.value - middle)).clamp(middle - half, middle + half);
+                        (centre - half, centre + half)
+                    }
+                }
+            })
+            .fold(Vec::new(), |mut kept, body| {
+                if !kept.contains(&body) {
+                    kept.push(body);
+                }
+                kept
+            })
+    }
+
+    /// Waterplane coefficients to try, the usual one first.
+    fn waterplanes(&self) -> Vec<f64> {
+        let usual = self.waterplane.value;
+        if self.waterplane.origin == Origin::Given {
+            return vec![usual];
+        }
+        std::iter::once(usual)
+            .chain((1..=10).flat_map(|k| [0.012, -0.012].map(|s| usual + s * f64::from(k))))
+            .filter(|c| *c < 0.99 && *c > self.block.value)
+            .collect()
+    }
+
+    /// Searches what was left free; the form with its waterplane coefficient and LCB.
+    fn search(&self) -> Option<(Form, Sourced, Sourced)> {
+        let searched = |value: f64, wish: Sourced| {
+            let same = (value - wish.value).abs() < 1e-12 * wish.value.abs();
+            Sourced { value, origin: if same { wish.origin } else { Origin::Solved } }
+        };
+        let bodies = self.bodies();
+        for fine in [false, true] {
+            for &(aft, fore) in &bodies {
+                let form = self.form(aft, fore);
+                if form.stern.cut_up >= 0.98 * aft {
+                    continue;
+                }
+                let nodes = form.height_nodes();
+                for waterplane in self.waterplanes() {
+                    let goal = self.goal(waterplane, self.lcb.value);
+                    if let Some(found) =
+                        solve::solve(&form, &nodes, &goal, fine && self.waterplane.origin == Origin::Given)
+                    {
+                        return Some((found, searched(waterplane, self.waterplane), self.lcb));
+                    }
+                }
+            }
+            if self.lcb.origin != Origin::Given {
+                // An LCB of our own choice gives way: to the middle of what the usual form can have.
+                let form = self.form(bodies[0].0, bodies[0].1);
+                let nodes = form.height_nodes();
+                for waterplane in self.waterplanes() {
+                    let goal = self.goal(waterplane, self.lcb.value);
+                    if let Some((low, high)) = solve::reach(&form, &nodes, &goal).lcb {
+                        let lcb = self.lcb.value.clamp(low + 0.25 * (high - low), high - 0.25 * (high - low));
+                        if let Some(found) = solve::solve(&form, &nodes, &self.goal(waterplane, lcb), true) {
+                            return Some((
+                                found,
+                                searched(waterplane, self.waterplane),
+                                Sourced { value: lcb, origin: Origin::Solved },
+                            ));
+                        }
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// The sweep of the stern profile that gives the transom its breadth, by repeated solution at one entrance.
+    fn fit_transom(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
+        let Some(wish) = self.transom_breadth else { return Ok(form) };
+        let mut form = form;
+        let breadth_at = |form: &Form, sweep: f64| {
+            let mut trial = *form;
+            trial.stern.sweep = sweep;
+            trial.half_breadth(trial.stern.end, trial.depth) / trial.section.half_breadth
+        };
+        for _ in 0..40 {
+            let (low, high) = (breadth_at(&form, 0.0), breadth_at(&form, Stern::LARGEST_SWEEP));
+            let Ok(sweep) = bracketed_root(|w| breadth_at(&form, w) - wish, 0.0, Stern::LARGEST_SWEEP, 1e-13) else {
+                return Err(vec![Infeasible {
+                    code: "E112",
+                    keys: vec!["transom_beam", "transom_height", "cut_up"],
+                    message: format!(
+                        "a transom of {wish:.3} B at the deck is out of reach: {low:.3} to {high:.3} B with its lowest point at {:.3} m and the cut-up at {:.3} m; a lower transom or a longer cut-up widens it",
+                        form.stern.height, form.stern.cut_up
+                    ),
+                }]);
+            };
+            let change = (sweep - form.stern.sweep).abs();
+            form.stern.sweep = sweep;
+            let nodes = form.height_nodes();
+            form = match solve::at_entrance(&form, &nodes, goal, form.entrance.waterline)
+                .or_else(|| solve::solve(&form, &nodes, goal, true))
+            {
+                Some(found) => found,
+                None => return Err(self.infeasible(&form, &nodes, goal)),
+            };
+            if change < 1e-11 {
+                break;
+            }
+        }
+        Ok(form)
+    }
+
+    /// The flare above the waterline at 0.9 Lpp.
+    fn fit_flare(&self, form: Form) -> Result<Form, Vec<Infeasible>> {
+        let Some(wish) = self.flare else { return Ok(form) };
+        let angle = |part: f64| {
+            let mut trial = form;
+            trial.entrance.flare = part;
+            let x = 0.9 * trial.length;
+            let out = trial.half_breadth(x, trial.depth) - trial.half_breadth(x, trial.draught);
+            (out / (trial.depth - trial.draught)).atan()
+        };
+        match bracketed_root(|part| angle(part) - wish, 0.0, 1.0, 1e-13) {
+            Ok(part) => {
+                let mut form = form;
+                form.entrance.flare = part;
+                Ok(form)
+            }
+            Err(_) => Err(vec![Infeasible {
+                code: "E113",
+                keys: vec!["flare"],
+                message: format!(
+                    "a mean flare of {:.1} deg at 0.9 Lpp is out of reach: {:.1} to {:.1} deg with this stem and waterline",
+                    wish.to_degrees(),
+                    angle(0.0).to_degrees(),
+                    angle(1.0).to_degrees()
+                ),
+            }]),
+        }
+    }
+
+    /// Which wish cannot be had, with the intervals that can.
+    fn infeasible(&self, form: &Form, nodes: &[HeightNode], goal: &Goal) -> Vec<Infeasible> {
+        let (l, lb) = (self.length, self.length * self.breadth);
+        let reach = solve::reach(form, nodes, goal);
+        let (wl, wh) = (reach.waterplane.0 / lb, reach.waterplane.1 / lb);
+        let cwp = goal.waterplane / lb;
+        let box_volume = lb * self.draught;
+        let body = (form.fore_shoulder - form.aft_shoulder) / l;
+        let (code, keys, message) = if cwp < wl || cwp > wh {
+            (
+                "E107",
+                vec!["Cwp", "parallel_body"],
+                format!(
+                    "Cwp {cwp:.4} is out of reach: {wl:.4} to {wh:.4} with a parallel body of {:.1} % of Lpp and these profiles",
+                    100.0 * body
+                ),
+            )
+        } else if goal.volume < reach.volume.0 || goal.volume > reach.volume.1 {
+            let (low, high) = (reach.volume.0 / box_volume, reach.volume.1 / box_volume);
+            let hint = if goal.volume > reach.volume.1 {
+                "raise Cwp or lengthen the parallel body"
+            } else {
+                "lower Cwp, shorten the parallel body or cut the ends away"
+            };
+            (
+                "E108",
+                vec!["Cb", "Cwp", "Cm"],
+                format!(
+                    "Cb {:.4} is out of reach: {low:.4} to {high:.4} with Cm {:.4}, Cwp {cwp:.4} and a parallel body of {:.1} % of Lpp; {hint}",
+                    self.block.value,
+                    self.midship.value,
+                    100.0 * body
+                ),
+            )
+        } else {
+            match reach.lcb {
+                Some((low, high)) if goal.lcb < low || goal.lcb > high => {
+                    let percent = |x: f64| 100.0 * (x / l - 0.5);
+                    let hint = if goal.lcb > high {
+                        "move the parallel body forward or lower Cwp"
+                    } else {
+                        "move the parallel body aft or lower Cwp"
+                    };
+                    (
+                        "E104",
+                        vec!["LCB"],
+                        format!(
+                            "LCB {:+.2} % of Lpp from midship is out of reach: {:+.2} to {:+.2} % with Cb {:.4}, Cwp {cwp:.4} and a parallel body of {:.1} % of Lpp; {hint}",
+                            percent(goal.lcb),
+                            percent(low),
+                            percent(high),
+                            self.block.value,
+                            100.0 * body
+                        ),
+                    )
+                }
+                _ if self.half_entrance.is_finite() => (
+                    "E114",
+                    vec!["entrance_half_angle_max"],
+                    format!(
+                        "no entrance below {:.1} deg reaches Cb {:.4}, LCB and Cwp {cwp:.4} together; allow a larger angle or lengthen the entrance",
+                        self.half_entrance.to_degrees(),
+                        self.block.value
+                    ),
+                ),
+                _ => (
+                    "E108",
+                    vec!["Cb", "Cwp", "LCB"],
+                    format!(
+                        "Cb {:.4}, Cwp {cwp:.4} and LCB {:+.2} % cannot be had together; leave Cwp or LCB free",
+                        self.block.value,
+                        100.0 * (goal.lcb / l - 0.5)
+                    ),
+                ),
+            }
+        };
+        vec![Infeasible { code, keys, message }]
+    }
+
+    /// The hull.
+    ///
+    /// # Errors
+    /// The wish that cannot be had, with the intervals that can.
+    pub(super) fn build(mut self, name: &str) -> Result<Generated, Vec<Infeasible>> {
+        let Some((form, waterplane, lcb)) = self.search() else {
+            let (aft, fore) = self.bodies()[0];
+            let form = self.form(aft, fore);
+            if form.stern.cut_up >= 0.98 * aft {
+                return Err(vec![Infeasible {
+                    code: "E109",
+                    keys: vec!["cut_up", "parallel_body"],
+                    message: format!(
+                        "the keel rises from {:.3} m, at or forward of the aft shoulder at {aft:.3} m; move one of them",
+                        form.stern.cut_up
+                    ),
+                }]);
+            }
+            let nodes = form.height_nodes();
+            return Err(self.infeasible(&form, &nodes, &self.goal(self.waterplane.value, self.lcb.value)));
+        };
+        let goal = self.goal(waterplane.value, lcb.value);
+        let form = self.fit_flare(self.fit_transom(form, &goal)?)?;
+
+        let (l, b, t) = (self.length, self.breadth, self.draught);
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: l, breadth: b, draught: t, depth: self.depth };
+        let at_midship = form.aft_shoulder <= 0.5 * l && form.fore_shoulder >= 0.5 * l;
+        let station = if at_midship { 0.5 * l } else { 0.5 * (form.aft_shoulder + form.fore_shoulder) };
+        let exact = Exact {
+            volume: goal.volume,
+            volume_moment: goal.volume * goal.lcb,
+            section: (station, self.midship.value * b * t),
+            waterplane: goal.waterplane,
+        };
+        let hull = net::interpolate(name, &form, particulars, &self.sheer)
+            .and_then(|hull| net::correct(&hull, &form, &exact))
+            .map_err(|error| {
+                vec![Infeasible {
+                    code: "E199",
+                    keys: vec!["Lpp"],
+                    message: format!("the surface could not be built: {error}"),
+                }]
+            })?;
+
+        let [cb, cm, xcb, cwp] = achieved(&hull);
+        let cx = crate::hull::Functional::SectionArea { x: station }.value(&hull, t) / (b * t);
+        let section = if at_midship { ("CM", cm) } else { ("CX", cx) };
+        if !at_midship {
+            self.remarks.push(crate::parametric::Remark {
+                code: "W203",
+                key: "Cm",
+                message: format!(
+                    "the parallel body does not reach Lpp/2: Cm is held at the largest section, x = {station:.3} m"
+                ),
+            });
+        }
+        let target = |key, requested, achieved, origin| Target { key, requested, achieved, origin };
+        let targets = vec![
+            target("CB", self.block.value, cb, self.block.origin),
+            target(section.0, self.midship.value, section.1, self.midship.origin),
+            target("XCB", lcb.value, xcb, lcb.origin),
+            target("CWP", waterplane.value, cwp, waterplane.origin),
+        ];
+        self.note_solved(&form, waterplane, lcb);
+        Ok(Generated { hull, values: self.values, targets, remarks: self.remarks })
+    }
+
+    /// Enters what was solved into the list of values.
+    fn note_solved(&mut self, form: &Form, waterplane: Sourced, lcb: Sourced) {
+        for (key, sourced, why) in [
+            ("Cwp", waterplane, "nearest to the usual value that Cb and LCB allow"),
+            ("LCB", lcb, "nearest to the usual value that Cb and Cwp allow"),
+        ] {
+            if let Some(value) = self.values.iter_mut().find(|v| v.key == key)
+                && sourced.origin == Origin::Solved
+            {
+                (value.value, value.origin, value.source) = (sourced.value, Origin::Solved, why.to_owned());
+            }
+        }
+        let given = self.aft_shoulder.is_some() && self.fore_shoulder.is_some();
+        let body = if given { Origin::Given } else { Origin::Preset };
+        let source = if given { String::new() } else { "(Cp - 0.66) / 0.34 of Lpp, near LCB".to_owned() };
+        let mut add = |key, name, value, unit, origin, source: &str| {
+            self.values.push(DesignValue { key, name, value, unit, origin, source: source.to_owned() });
+        };
+        add("parallel_body_from", "aft end of the parallel body", form.aft_shoulder, "m", body, &source);
+        add("parallel_body_to", "fore end of the parallel body", form.fore_shoulder, "m", body, &source);
+        let solved = "for Cb, LCB and Cwp";
+        add(
+            "entrance_fullness",
+            "fullness of the entrance at the design waterline",
+            form.entrance.waterline,
+            "-",
+            Origin::Solved,
+            solved,
+        );
+        add(
+            "entrance_fullness_keel",
+            "fullness of the entrance on the keel",
+            form.entrance.keel,
+            "-",
+            Origin::Solved,
+            solved,
+        );
+        add(
+            "run_fullness",
+            "fullness of the run at the design waterline",
+            form.run.waterline,
+            "-",
+            Origin::Solved,
+            solved,
+        );
+        add("run_fullness_keel", "fullness of the run on the keel", form.run.keel, "-", Origin::Solved, solved);
+        add(
+            "entrance_half_angle",
+            "half angle of entrance",
+            form.half_entrance().to_degrees(),
+            "deg",
+            Origin::Solved,
+            solved,
+        );
+        if self.transom && self.transom_breadth.is_none() {
+            let beam = form.half_breadth(form.stern.end, form.depth) / form.section.half_breadth;
+            add(
+                "transom_beam",
+                "breadth of the transom at the deck over B",
+                beam,
+                "-",
+                Origin::Solved,
+                "by the stern profile",
+            );
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! From the analytic hull to its net, and the last linear correction that makes the coefficients exact.
+//!
+//! v runs along the girth of the midship section (floor, bilge, side), so that y is smooth in v where dy/dz is infinite; the
+//! tangent lines of the bilge are double knots, the height of the transom tip is a triple one (corner of the stern profile),
+//! the design waterline a simple one. x(u, v) = linear + (stern profile) (1 - u/ua)^3 + (stem profile) ((u - uf)/(1 - uf))^3,
+//! cut off at the shoulders ua and uf: it lies in the spline space, has simple knots only and x_u > 0. Along the parallel
+//! body the columns of the net are those of the midship section exactly.
+
+use super::form::Form;
+use crate::hull::{Functional, Hull, HullError, PrincipalParticulars};
+use crate::parametric::loft;
+use crate::spline::{BsplineCurve, Collocation, Condition, KnotVector, SplineError};
+
+/// Rise of the deck at side above D at FP and at AP [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sheer {
+    pub(super) fore: f64,
+    pub(super) aft: f64,
+}
+
+/// Coefficients that the finished hull shall have, as integrals [m^2, m^3, m^4].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Exact {
+    pub(super) volume: f64,
+    pub(super) volume_moment: f64,
+    /// Position and area of the section that the midship coefficient is held at.
+    pub(super) section: (f64, f64),
+    pub(super) waterplane: f64,
+}
+
+const END_SPANS: usize = 14;
+const BODY_SPANS: usize = 3;
+
+/// The deck at side and the top of the surface.
+fn deck(form: &Form, sheer: &Sheer) -> Result<(BsplineCurve<2>, f64), SplineError> {
+    let middle = 0.5 * form.length;
+    let height = |x: f64| {
+        let s = (x - middle) / middle;
+        form.depth + if s > 0.0 { sheer.fore } else { sheer.aft } * s * s
+    };
+    // The deck ends where it meets the profiles: a contraction, because the profiles are steep.
+    let (mut aft, mut fore) = (form.stern.at(form.depth), form.stem.at(form.depth));
+    for _ in 0..60 {
+        (aft, fore) = (form.stern.at(height(aft)), form.stem.at(height(fore)));
+    }
+    let top = height(aft).max(height(fore)).max(form.depth);
+    let line = |a: f64, b: f64, t: f64| a + (b - a) * t;
+    // Parabolas as quadratic pieces: middle control points on both tangents.
+    let points = vec![
+        [aft, height(aft)],
+        [line(aft, middle, 0.5), form.depth],
+        [middle, form.depth],
+        [line(middle, fore, 0.5), form.depth],
+        [fore, height(fore)],
+    ];
+    let knots = KnotVector::from_breakpoints(2, &[0.0, 0.5, 1.0], &[2])?;
+    Ok((BsplineCurve::new(knots, points)?, top))
+}
+
+/// Knots in v: girths of the midship section.
+fn girth_knots(form: &Form, top: f64) -> Result<KnotVector, SplineError> {
+    let section = &form.section;
+    let (floor, bilge) = section.girths();
+    let total = section.girth_at(top);
+    let mut lines: Vec<(f64, usize)> =
+        vec![(0.0, 4), (floor, 2), (floor + bilge, 2), (section.girth_at(form.draught), 1), (total, 4)];
+    if form.stern.transom && form.stern.height < top {
+        lines.push((section.girth_at(form.stern.height), 3));
+    }
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut merged: Vec<(f64, usize)> = Vec::new();
+    for (at, times) in lines {
+        match merged.last_mut() {
+            Some(last) if at - last.0 < 1e-6 * total => last.1 = last.1.max(times),
+            _ => merged.push((at, times)),
+        }
+    }
+    if let Some(last) = merged.last_mut() {
+        last.0 = total;
+    }
+    let mut breaks = vec![0.0];
+    let mut times = Vec::new();
+    for pair in merged.windows(2) {
+        let (a, b) = (pair[0].0, pair[1].0);
+        let in_bilge = a >= floor - 1e-9 * total && b <= floor + bilge + 1e-9 * total;
+        let longest = if in_bilge { bilge / 4.0 } else { total / 9.0 };
+        let parts = ((b - a) / longest - 1e-9).ceil().max(1.0) as usize;
+        for k in 1..=parts {
+            breaks.push(a + (b - a) * k as f64 / parts as f64);
+            times.push(if k == parts { pair[1].1 } else { 1 });
+        }
+    }
+    times.pop();
+    let scale = breaks[breaks.len() - 1];
+    let breaks: Vec<f64> = breaks.iter().map(|g| g / scale).collect();
+    KnotVector::from_breakpoints(3, &breaks, &times)
+}
+
+/// The hull through the analytic form, before the correction.
+pub(super) fn interpolate(
+    name: &str,
+    form: &Form,
+    particulars: PrincipalParticulars,
+    sheer: &Sheer,
+) -> Result<Hull, HullError> {
+    let (deck, top) = deck(form, sheer)?;
+    let v = girth_knots(form, top)?;
+    let girth = form.section.girth_at(top);
+    let sites_v = loft::sites(&v);
+    let heights: Vec<f64> = sites_v.iter().map(|t| form.section.at_girth(t * girth).1).collect();
+    let across = Collocation::new(&v, &sites_v)?;
+    let in_v = |value: &dyn Fn(f64) -> f64| {
+        let mut values: Vec<f64> = heights.iter().map(|&z| value(z)).collect();
+        across.solve_strided(&mut values, 0, 1);
+        values
+    };
+    let mut z = if form.section.deadrise > 0.0 {
+        in_v(&|z| z)
+    } else {
+        // The bilge leaves the flat of bottom with dz/dv = 0: that is a condition, not a matter of interpolation.
+        let mut conditions: Vec<Condition> =
+            sites_v.iter().map(|&site| Condition { site, order: 0 }).collect();
+        conditions[1] = Condition { site: 0.0, order: 1 };
+        let mut values = heights.clone();
+        values[1] = 0.0;
+        Collocation::with_conditions(&v, &conditions)?.solve(&mut values);
+        values[1] = 0.0;
+        values
+    };
+    (z[0], z[v.basis_count() - 1]) = (0.0, top);
+
+    // Lengths: the shortest waterline rules the linear part.
+    let low = heights.iter().copied().chain([0.0]);
+    let aft = low.clone().map(|z| form.stern.at(z)).fold(f64::NEG_INFINITY, f64::max);
+    let fore = low.map(|z| form.stem.at(z)).fold(f64::INFINITY, f64::min);
+    let parameter = |x: f64| (x - aft) / (fore - aft);
+    let (ua, uf) = (parameter(form.aft_shoulder), parameter(form.fore_shoulder));
+    let parallel = form.fore_shoulder > form.aft_shoulder;
+    let graded = |k: usize| 1.0 - (1.0 - k as f64 / END_SPANS as f64).powf(1.3);
+    let mut breaks: Vec<f64> = (0..=END_SPANS).rev().map(|k| ua * (1.0 - graded(k))).collect();
+    breaks[0] = 0.0;
+    if parallel {
+        breaks.extend((1..=BODY_SPANS).map(|k| ua + (uf - ua) * k as f64 / BODY_SPANS as f64));
+    }
+    breaks.extend((1..=END_SPANS).map(|k| if k == END_SPANS { 1.0 } else { uf + (1.0 - uf) * graded(k) }));
+    let u = KnotVector::from_breakpoints(3, &breaks, &vec![1; breaks.len() - 2])?;
+    let cube = |t: f64| t.max(0.0).powi(3);
+    let run = |t: f64| cube(1.0 - t / ua);
+    let entrance = |t: f64| cube((t - uf) / (1.0 - uf));
+
+    // Conditions in u: the sites; across a parallel body, value, slope and curvature at both shoulders.
+    let mut conditions: Vec<Condition> = loft::sites(&u).into_iter().map(|site| Condition { site, order: 0 }).collect();
+    if parallel {
+        for order in 0..3 {
+            conditions[END_SPANS + order] = Condition { site: ua, order };
+            conditions[END_SPANS + BODY_SPANS + order] = Condition { site: uf, order };
+        }
+    }
+    let along = Collocation::with_conditions(&u, &conditions)?;
+    let at_sites = |value: &dyn Fn(f64) -> f64| {
+        let sites = loft::sites(&u);
+        let mut values: Vec<f64> = sites.iter().map(|&t| value(t)).collect();
+        Collocation::new(&u, &sites).map(|c| {
+            c.solve_strided(&mut values, 0, 1);
+            values
+        })
+    };
+    let (run_net, entrance_net, line) = (at_sites(&run)?, at_sites(&entrance)?, u.greville());
+    let (stern_net, stem_net) = (in_v(&|z| form.stern.at(z) - aft), in_v(&|z| form.stem.at(z) - fore));
+    let (rows, columns) = (u.basis_count(), v.basis_count());
+    let mut x = vec![0.0; rows * columns];
+    for i in 0..rows {
+        for j in 0..columns {
+            x[i * columns + j] =
+                aft + (fore - aft) * line[i] + stern_net[j] * run_net[i] + stem_net[j] * entrance_net[i];
+        }
+    }
+    let mut y = vec![0.0; rows * columns];
+    let waterlines: Vec<_> = heights.iter().map(|&z| (z, form.section.breadth_at(z), form.waterline(z))).collect();
+    for (i, condition) in conditions.iter().enumerate() {
+        for (j, (z, breadth, waterline)) in waterlines.iter().enumerate() {
+            let t = condition.site;
+            let x =
+                aft + (fore - aft) * t + (form.stern.at(*z) - aft) * run(t) + (form.stem.at(*z) - fore) * entrance(t);
+            y[i * columns + j] = if condition.order > 0 { 0.0 } else { breadth * waterline.fraction(x) };
+        }
+    }
+    along.solve_tensor(&across, &mut y);
+    let breadth = form.section.half_breadth;
+    for (k, value) in y.iter_mut().enumerate() {
+        // Stem and profile lie on the centreplane, the side on B/2: rounding is cleared.
+        if value.abs() < 1e-11 * breadth || k / columns == rows - 1 {
+            *value = 0.0;
+        } else if (*value - breadth).abs() < 1e-11 * breadth {
+            *value = breadth;
+        }
+    }
+    Hull::new(name, particulars, loft::surface(&u, &v, &x, &y, &z)?, deck)
+}
+
+/// Moves the net by the smallest combination of four smooth fields (fullness of the section, of both ends, their balance,
+/// and the height of the ends) that makes the integrals exact. The remaining error is rounding.
+pub(super) fn correct(hull: &Hull, form: &Form, exact: &Exact) -> Result<Hull, HullError> {
+    let mut hull = hull.clone();
+    for _ in 0..2 {
+        let t = form.draught;
+        let rows = [
+            Functional::Volume.row(&hull, t),
+            Functional::LongitudinalMoment.row(&hull, t),
+            Functional::SectionArea { x: exact.section.0 }.row(&hull, t),
+            Functional::WaterplaneArea.row(&hull, t),
+        ];
+        let wanted = [exact.volume, exact.volume_moment, exact.section.1, exact.waterplane];
+        let [_, columns] = hull.surface().shape();
+        let points = hull.surface().points();
+        let largest: Vec<f64> =
+            (0..columns).map(|j| points.iter().skip(j).step_by(columns).map(|p| p[1]).fold(0.0, f64::max)).collect();
+        let half = form.section.half_breadth;
+        let fields: Vec<[f64; 4]> = points
+            .iter()
+            .enumerate()
+            .map(|(k, &[x, y, z])| {
+                let b = largest[k % columns];
+                let ends = if b > 0.0 { y * (1.0 - y / b) } else { 0.0 };
+                let balance = (x - 0.5 * (form.aft_shoulder + form.fore_shoulder)) / form.length;
+                [y * (1.0 - b / half).max(0.0), ends, ends * balance, ends * z / t]
+            })
+            .collect();
+        let mut matrix = nalgebra::Matrix4::zeros();
+        let mut error = nalgebra::Vector4::zeros();
+        for (r, row) in rows.iter().enumerate() {
+            error[r] = wanted[r] - row.iter().zip(points).map(|(a, p)| a * p[1]).sum::<f64>();
+            for (a, field) in row.iter().zip(&fields) {
+                for c in 0..4 {
+                    matrix[(r, c)] += a * field[c];
+                }
+            }
+        }
+        let Some(parts) = matrix.lu().solve(&error) else { return Ok(hull) };
+        let (mut x, mut y) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
+        for (point, field) in points.iter().zip(&fields) {
+            x.push(point[0]);
+            y.push(point[1] + (0..4).map(|c| parts[c] * field[c]).sum::<f64>());
+        }
+        let z: Vec<f64> = points[..columns].iter().map(|p| p[2]).collect();
+        let surface = loft::surface(hull.surface().u(), hull.surface().v(), &x, &y, &z)?;
+        hull = Hull::new(hull.name(), *hull.particulars(), surface, hull.deck().clone())?;
+    }
+    Ok(hull)
+}

@@ -1,0 +1,600 @@
+//! From wishes to numbers: ranges, defaults from presets and formulas, and the midship section.
+
+use super::net::Sheer;
+use super::{MidshipWish, Wishes};
+use crate::parametric::midship::{MidshipProblem, MidshipSection};
+use crate::parametric::presets::{
+    Preset, ShipType, lcb_percent_prismatic, midship_benford, midship_hsva, midship_kerlen, waterplane_schneekluth,
+};
+use crate::parametric::{DesignValue, Infeasible, Origin, Remark};
+
+/// A number with its origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sourced {
+    pub(super) value: f64,
+    pub(super) origin: Origin,
+}
+
+/// The wishes with every gap filled [m, rad].
+#[derive(Debug, Clone)]
+pub(super) struct Resolved {
+    pub(super) length: f64,
+    pub(super) breadth: f64,
+    pub(super) draught: f64,
+    pub(super) depth: f64,
+    pub(super) block: Sourced,
+    pub(super) midship: Sourced,
+    pub(super) lcb: Sourced,
+    pub(super) waterplane: Sourced,
+    /// From, to of a parallel body that was given, in whole or by the lengths of the ends.
+    pub(super) fore_shoulder: Option<f64>,
+    pub(super) aft_shoulder: Option<f64>,
+    pub(super) section: MidshipSection,
+    pub(super) rake: f64,
+    pub(super) forefoot: f64,
+    pub(super) transom: bool,
+    pub(super) transom_height: f64,
+    pub(super) transom_breadth: Option<f64>,
+    pub(super) overhang: f64,
+    pub(super) cut_up: Sourced,
+    pub(super) sweep: f64,
+    pub(super) flare: Option<f64>,
+    pub(super) sheer: Sheer,
+    pub(super) half_entrance: f64,
+    pub(super) character: f64,
+    pub(super) values: Vec<DesignValue>,
+    pub(super) remarks: Vec<Remark>,
+}
+
+/// Collects values and problems while gaps are filled.
+struct Ledger {
+    values: Vec<DesignValue>,
+    problems: Vec<Infeasible>,
+}
+
+impl Ledger {
+    fn problem(&mut self, code: &'static str, keys: &[&'static str], message: String) {
+        self.problems.push(Infeasible { code, keys: keys.to_vec(), message });
+    }
+
+    /// A value that is given or filled in, checked against its range (in the unit of the message).
+    #[allow(clippy::too_many_arguments, reason = "one line a value in the table of values below")]
+    fn take(
+        &mut self,
+        key: &'static str,
+        name: &'static str,
+        unit: &'static str,
+        scale: f64,
+        given: Option<f64>,
+        default: f64,
+        source: &str,
+        range: (f64, f64),
+    ) -> Sourced {
+        let (value, origin) = given.map_or((default, Origin::Preset), |value| (value, Origin::Given));
+        let shown = value * scale;
+        if !value.is_finite() || shown < range.0 || shown > range.1 {
+            let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+            let range = match (range.0.is_finite(), range.1.is_finite()) {
+                (true, true) => format!("between {:.4} and {:.4}{unit}", range.0, range.1),
+                (true, false) => format!("at least {:.4}{unit}", range.0),
+                _ => format!("at most {:.4}{unit}", range.1),
+            };
+            self.problem("E101", &[key], format!("{key} ({name}) is {shown:.4}{unit}; it must be {range}"));
+        }
+        let source = if origin == Origin::Given { String::new() } else { source.to_owned() };
+        self.values.push(DesignValue { key, name, value: shown, unit, origin, source });
+        Sourced { value, origin }
+    }
+}
+
+impl Resolved {
+    /// Fills the gaps.
+    ///
+    /// # Errors
+    /// Every value outside its range and every contradiction that needs no solver.
+    pub(super) fn new(wishes: &Wishes) -> Result<Self, Vec<Infeasible>> {
+        let ship = wishes.ship_type.unwrap_or(ShipType::GeneralCargo);
+        let preset = ship.preset();
+        let label = format!("preset {}", ship.as_str());
+        let typed = wishes.ship_type.is_some();
+        let mut book = Ledger { values: Vec::new(), problems: Vec::new() };
+        let open = f64::INFINITY;
+
+        // Main dimensions.
+        let length = book
+            .take("Lpp", "length between perpendiculars", "m", 1.0, Some(wishes.length), 0.0, "", (0.1, 1000.0))
+            .value;
+        let of = |what: &str| format!("{label}: {what}");
+        let breadth = book
+            .take(
+                "B",
+                "moulded breadth",
+                "m",
+                1.0,
+                wishes.breadth,
+                length / preset.length_breadth[0],
+                &of("L/B"),
+                (1e-3 * length, length),
+            )
+            .value;
+        let draught = book
+            .take(
+                "T",
+                "design draught",
+                "m",
+                1.0,
+                wishes.draught,
+                breadth / preset.breadth_draught[0],
+                &of("B/T"),
+                (1e-3 * length, length),
+            )
+            .value;
+        let depth = book
+            .take(
+                "D",
+                "depth at side",
+                "m",
+                1.0,
+                wishes.depth,
+                draught * preset.depth_draught,
+                &of("D/T"),
+                (0.0, length),
+            )
+            .value;
+        if !book.problems.is_empty() {
+            return Err(book.problems);
+        }
+        if depth <= draught {
+            book.problem(
+                "E105",
+                &["T", "D"],
+                format!("T {draught:.3} m is not less than depth D {depth:.3} m; raise D or lower T"),
+            );
+        }
+
+        // Coefficients.
+        let box_volume = length * breadth * draught;
+        let by_volume = wishes.displacement_volume.map(|v| v / box_volume);
+        if let (Some(given), Some(implied)) = (wishes.block_coefficient, by_volume)
+            && (given / implied - 1.0).abs() > 1e-3
+        {
+            book.problem(
+                "E110",
+                &["displacement", "Cb"],
+                format!(
+                    "the displaced volume {:.1} m3 and L B T Cb = {:.1} m3 disagree by {:.1} %; give one of them, or T = {:.3} m",
+                    implied * box_volume,
+                    given * box_volume,
+                    100.0 * (implied / given - 1.0),
+                    draught * implied / given
+                ),
+            );
+        }
+        let block = book.take(
+            "Cb",
+            "block coefficient",
+            "-",
+            1.0,
+            by_volume.or(wishes.block_coefficient),
+            preset.block[0],
+            &label,
+            (0.15, 0.98),
+        );
+        let regression = |formula: &str| (formula.to_owned(), Origin::Preset);
+        let (wish, (source, origin)) = match wishes.midship_coefficient {
+            Some(MidshipWish::Value(value)) => (value, (String::new(), Origin::Given)),
+            Some(MidshipWish::Kerlen) => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
+            Some(MidshipWish::Hsva) => (midship_hsva(block.value), regression("HSVA: 1 / (1 + (1 - Cb)^3.5)")),
+            Some(MidshipWish::Benford) => {
+                (midship_benford(block.value), regression("Benford: 0.977 + 0.085 (Cb - 0.60)"))
+            }
+            None if typed => (preset.midship, (label.clone(), Origin::Preset)),
+            None => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
+        };
+        let given = (origin == Origin::Given).then_some(wish);
+        let midship = book.take("Cm", "midship section coefficient", "-", 1.0, given, wish, &source, (0.4, 0.9999));
+        let prismatic = block.value / midship.value;
+        if prismatic >= 1.0 {
+            book.problem(
+                "E102",
+                &["Cb", "Cm"],
+                format!(
+                    "Cb {:.4} with Cm {:.4} gives Cp {prismatic:.3} >= 1 (impossible); Cm must be above {:.4}, Kerlen suggests {:.3} for this Cb",
+                    block.value, midship.value, block.value, midship_kerlen(block.value)
+                ),
+            );
+        }
+        let (default_lcb, lcb_source) = if typed {
+            (preset.lcb_percent, of("LCB in % of Lpp"))
+        } else {
+            (lcb_percent_prismatic(prismatic), "-13.5 + 19.4 Cp (Schneekluth & Bertram 1998)".to_owned())
+        };
+        let holds = 50.0 * (1.0 - prismatic);
+        let default_lcb = default_lcb.clamp(-0.5 * holds.abs(), 0.5 * holds.abs());
+        let lcb = book.take(
+            "LCB",
+            "centre of buoyancy forward of AP",
+            "m",
+            1.0,
+            wishes.lcb,
+            length * (0.5 + default_lcb / 100.0),
+            &lcb_source,
+            (0.0, length),
+        );
+        let percent = 100.0 * (lcb.value / length - 0.5);
+        if prismatic < 1.0 && percent.abs() >= holds {
+            book.problem(
+                "E104",
+                &["LCB", "Cb", "Cm"],
+                format!("LCB {percent:+.2} % of Lpp from midship is outside the +-{holds:.2} % that Cp {prismatic:.3} can hold"),
+            );
+        }
+        let formula = waterplane_schneekluth(block.value, midship.value).min(0.96);
+        let waterplane = book.take(
+            "Cwp",
+            "waterplane coefficient",
+            "-",
+            1.0,
+            wishes.waterplane_coefficient,
+            formula,
+            "(1 + 2 Cb / sqrt(Cm)) / 3 (Schneekluth & Bertram 1998)",
+            (0.2, 0.9999),
+        );
+        if waterplane.origin == Origin::Given && waterplane.value <= block.value {
+            book.problem(
+                "E103",
+                &["Cwp", "Cb"],
+                format!(
+                    "Cb {:.4} needs Cwp above {:.4}; you set {:.4}. Typical for this Cb: {:.3}",
+                    block.value,
+                    block.value,
+                    waterplane.value,
+                    (1.0 + 2.0 * block.value) / 3.0
+                ),
+            );
+        }
+
+        // Midship section.
+        let keel = 0.5
+            * book
+                .take(
+                    "keel_breadth",
+                    "breadth of the flat keel",
+                    "m",
+                    1.0,
+                    wishes.keel_breadth,
+                    preset.keel * breadth,
+                    &label,
+                    (0.0, 0.9 * breadth),
+                )
+                .value;
+        if let Some(radius) = wishes.bilge_radius {
+            book.take(
+                "bilge_radius",
+                "bilge radius",
+                "m",
+                1.0,
+                Some(radius),
+                radius,
+                "",
+                (0.0, draught.min(0.5 * breadth)),
+            );
+        }
+        if let Some(deadrise) = wishes.deadrise {
+            book.take("deadrise", "rise of floor", "deg", 1f64.to_degrees(), Some(deadrise), deadrise, "", (0.0, 60.0));
+        }
+        let section = midship_section(&mut book, wishes, 0.5 * breadth, draught, keel, midship);
+
+        // Ends.
+        let (fore_shoulder, aft_shoulder) = shoulders(&mut book, wishes, length);
+        let rake = book
+            .take(
+                "rake",
+                "rake of the stem at and above the design waterline",
+                "deg",
+                1f64.to_degrees(),
+                wishes.stem_rake,
+                preset.stem_rake_deg.to_radians(),
+                &label,
+                (0.0, 75.0),
+            )
+            .value;
+        let raked = draught * rake.tan();
+        let forefoot = book
+            .take(
+                "forefoot",
+                "stem at the keel aft of FP",
+                "m",
+                1.0,
+                wishes.forefoot,
+                raked + preset.forefoot * length,
+                &label,
+                (0.0, 0.4 * length),
+            )
+            .value;
+        if forefoot < 2.0 / 3.0 * raked {
+            book.problem(
+                "E109",
+                &["forefoot", "rake"],
+                format!("a stem raked {:.1} deg at the waterline cannot end {forefoot:.3} m aft of FP on the keel: at least {:.3} m", rake.to_degrees(), 2.0 / 3.0 * raked),
+            );
+        }
+        let transom = wishes.transom_breadth.is_none_or(|t| t > 0.0);
+        let transom_breadth = wishes.transom_breadth.filter(|t| *t > 0.0);
+        if let Some(t) = transom_breadth {
+            book.take(
+                "transom_beam",
+                "breadth of the transom at the deck over B",
+                "-",
+                1.0,
+                Some(t),
+                t,
+                "",
+                (0.05, 0.98),
+            );
+        }
+        let (mut transom_height, mut overhang) = (draught, 0.0);
+        if transom {
+            transom_height = book
+                .take(
+                    "transom_height",
+                    "lowest point of the transom",
+                    "m",
+                    1.0,
+                    wishes.transom_height,
+                    preset.transom_height * draught,
+                    &label,
+                    (0.05 * draught, depth),
+                )
+                .value;
+            overhang = book
+                .take(
+                    "overhang",
+                    "transom aft of AP",
+                    "m",
+                    1.0,
+                    wishes.stern_overhang,
+                    preset.overhang * length,
+                    &label,
+                    (-0.2 * length, 0.3 * length),
+                )
+                .value;
+        }
+        let cut_up = book.take(
+            "cut_up",
+            "start of the rise of the keel",
+            "m",
+            1.0,
+            wishes.cut_up,
+            preset.cut_up * length,
+            &label,
+            (-overhang, 0.48 * length),
+        );
+        let sweep = if transom_breadth.is_some() { 1.0 } else { preset.sweep };
+        if let Some(flare) = wishes.flare {
+            book.take(
+                "flare",
+                "mean flare between waterline and deck at 0.9 Lpp",
+                "deg",
+                1f64.to_degrees(),
+                Some(flare),
+                flare,
+                "",
+                (0.0, 80.0),
+            );
+        }
+        let sheer = Sheer {
+            fore: book
+                .take(
+                    "sheer_fore",
+                    "sheer at FP",
+                    "m",
+                    1.0,
+                    wishes.sheer_fore,
+                    preset.sheer[0] * length,
+                    &label,
+                    (0.0, depth),
+                )
+                .value,
+            aft: book
+                .take(
+                    "sheer_aft",
+                    "sheer at AP",
+                    "m",
+                    1.0,
+                    wishes.sheer_aft,
+                    preset.sheer[1] * length,
+                    &label,
+                    (0.0, depth),
+                )
+                .value,
+        };
+        let half_entrance = wishes.maximum_half_entrance.map_or(open, |limit| {
+            book.take(
+                "entrance_half_angle_max",
+                "largest half angle of entrance",
+                "deg",
+                1f64.to_degrees(),
+                Some(limit),
+                limit,
+                "",
+                (1.0, 89.0),
+            )
+            .value
+        });
+        let character = book
+            .take(
+                "section_character",
+                "vertical law: 0 linear, + U sections, - V",
+                "-",
+                1.0,
+                wishes.section_character,
+                preset.section_character,
+                &label,
+                (-4.0, 8.0),
+            )
+            .value;
+
+        let remarks = band_remarks(ship, &preset, typed, length / breadth, breadth / draught, block);
+        match section {
+            Some(section) if book.problems.is_empty() => Ok(Self {
+                length,
+                breadth,
+                draught,
+                depth,
+                block,
+                midship,
+                lcb,
+                waterplane,
+                fore_shoulder,
+                aft_shoulder,
+                section,
+                rake,
+                forefoot,
+                transom,
+                transom_height,
+                transom_breadth,
+                overhang,
+                cut_up,
+                sweep,
+                flare: wishes.flare,
+                sheer,
+                half_entrance,
+                character,
+                values: book.values,
+                remarks,
+            }),
+            _ => Err(book.problems),
+        }
+    }
+}
+
+/// The section of the midship coefficient; its problem goes into the book.
+fn midship_section(
+    book: &mut Ledger,
+    wishes: &Wishes,
+    half: f64,
+    draught: f64,
+    keel: f64,
+    midship: Sourced,
+) -> Option<MidshipSection> {
+    let (breadth, cm) = (2.0 * half, midship.value);
+    let solved = MidshipSection::solve(half, draught, keel, cm, wishes.deadrise, wishes.bilge_radius);
+    let both = wishes.deadrise.zip(wishes.bilge_radius);
+    match solved {
+        Ok(section) => {
+            if let Some((deadrise, radius)) = both
+                && (section.deadrise - deadrise).abs() > 1e-4
+            {
+                book.problem(
+                    "E106",
+                    &["Cm", "bilge_radius", "deadrise"],
+                    format!(
+                        "Cm {cm:.4} with a bilge radius of {radius:.3} m needs a rise of floor of {:.2} deg; you set {:.2} deg. Leave one of the three out",
+                        section.deadrise.to_degrees(),
+                        deadrise.to_degrees()
+                    ),
+                );
+            }
+            for (key, name, given, value, unit) in [
+                ("bilge_radius", "bilge radius", wishes.bilge_radius.is_some(), section.radius, "m"),
+                ("deadrise", "rise of floor", wishes.deadrise.is_some(), section.deadrise.to_degrees(), "deg"),
+            ] {
+                if !given {
+                    let source = format!("for Cm {cm:.4}");
+                    book.values.push(DesignValue { key, name, value, unit, origin: Origin::Solved, source });
+                }
+            }
+            Some(section)
+        }
+        Err(problem) => {
+            let smallest = MidshipSection::smallest_coefficient(half, draught, keel);
+            let text = match problem {
+                MidshipProblem::Bilge { radius, largest } => format!(
+                    "Cm {cm:.4} (B {breadth:.3}, T {draught:.3}) needs a bilge radius of {radius:.3} m where {largest:.3} m fits: one circular bilge cannot do it with this rise of floor. Leave the rise of floor free, or use Cm of at least {smallest:.3}"
+                ),
+                MidshipProblem::Floor { largest } => format!(
+                    "Cm {cm:.4} allows a rise of floor of at most {:.2} deg, and then a hard chine; lower the rise or Cm",
+                    largest.to_degrees()
+                ),
+                MidshipProblem::Coefficient { lowest, highest } => format!(
+                    "with this bilge radius Cm lies between {lowest:.4} and {highest:.4} whatever the rise of floor; you set {cm:.4}"
+                ),
+            };
+            book.problem("E106", &["Cm", "bilge_radius", "deadrise"], text);
+            None
+        }
+    }
+}
+
+/// Shoulders that the wishes fix: fore, aft.
+fn shoulders(book: &mut Ledger, wishes: &Wishes, length: f64) -> (Option<f64>, Option<f64>) {
+    let mut fore = wishes.parallel_body.map(|b| b[1]);
+    let mut aft = wishes.parallel_body.map(|b| b[0]);
+    if let Some(entrance) = wishes.entrance_length {
+        book.take(
+            "entrance_length",
+            "length of entrance",
+            "m",
+            1.0,
+            Some(entrance),
+            entrance,
+            "",
+            (0.05 * length, 0.9 * length),
+        );
+        if fore.is_some_and(|x| (x - (length - entrance)).abs() > 1e-6 * length) {
+            book.problem(
+                "E109",
+                &["parallel_body", "entrance_length"],
+                "the parallel body and the length of entrance disagree; give one of them".to_owned(),
+            );
+        }
+        fore = Some(length - entrance);
+    }
+    if let Some(run) = wishes.run_length {
+        book.take("run_length", "length of run", "m", 1.0, Some(run), run, "", (0.05 * length, 0.9 * length));
+        if aft.is_some_and(|x| (x - run).abs() > 1e-6 * length) {
+            book.problem(
+                "E109",
+                &["parallel_body", "run_length"],
+                "the parallel body and the length of run disagree; give one of them".to_owned(),
+            );
+        }
+        aft = Some(run);
+    }
+    if let (Some(a), Some(f)) = (aft, fore)
+        && (a > f || a < 0.05 * length || f > 0.95 * length)
+    {
+        book.problem(
+            "E109",
+            &["parallel_body", "entrance_length", "run_length"],
+            format!("the parallel body from {a:.3} m to {f:.3} m must run forward and leave at least 5 % of Lpp ({:.3} m) to each end", 0.05 * length),
+        );
+    }
+    (fore, aft)
+}
+
+/// Remarks on ratios outside the usual band of the type.
+fn band_remarks(ship: ShipType, preset: &Preset, typed: bool, lb: f64, bt: f64, block: Sourced) -> Vec<Remark> {
+    if !typed {
+        return Vec::new();
+    }
+    [
+        ("B", "L/B", lb, preset.length_breadth),
+        ("T", "B/T", bt, preset.breadth_draught),
+        ("Cb", "Cb", block.value, preset.block),
+    ]
+    .into_iter()
+    .filter(|(_, _, value, band)| !(band[1] * 0.999..=band[2] * 1.001).contains(value))
+    .map(|(key, name, value, band)| Remark {
+        code: "W202",
+        key,
+        message: format!(
+            "{name} {value:.3} is outside the usual band of preset {} ({} to {})",
+            ship.as_str(),
+            band[1],
+            band[2]
+        ),
+    })
+    .collect()
+}
