@@ -6,11 +6,12 @@
 
 // pub mod cli;
 pub mod config;
-// pub mod exchange;
+pub mod exchange;
 pub mod hull;
 pub mod hydrostatics;
 pub mod numeric;
 pub mod parametric;
+pub mod plot;
 // pub mod report;
 pub mod spline;
 pub mod units;
