@@ -68,9 +68,10 @@ impl HgfError {
     #[must_use]
     pub fn line(&self) -> Option<usize> {
         match self {
-            Self::Csv { line, .. } | Self::Column { line, .. } | Self::Number { line, .. } | Self::Short { line, .. } => {
-                Some(*line)
-            }
+            Self::Csv { line, .. }
+            | Self::Column { line, .. }
+            | Self::Number { line, .. }
+            | Self::Short { line, .. } => Some(*line),
             Self::Size(_) | Self::Records(_) => None,
         }
     }
@@ -150,14 +151,22 @@ pub fn read_hgf(text: &str) -> Result<HgfShip, Vec<HgfError>> {
         Some(Ok(record)) => Ok(record),
         Some(Err(error)) => {
             let line = error.position().map_or(1, |p| p.line() as usize);
-            Err(vec![HgfError::Csv { line, message: "not a CSV record".to_owned() + if error.is_io_error() { " (reading failed)" } else { "" } }])
+            Err(vec![HgfError::Csv {
+                line,
+                message: "not a CSV record".to_owned() + if error.is_io_error() { " (reading failed)" } else { "" },
+            }])
         }
     };
     let header = next("the file is empty")?;
     let record = next("the file has a header and no record")?;
     let line = |r: &csv::StringRecord| r.position().map_or(1, |p| p.line() as usize);
-    let mut fields =
-        Record { header: &header, record: &record, header_line: line(&header), line: line(&record), errors: Vec::new() };
+    let mut fields = Record {
+        header: &header,
+        record: &record,
+        header_line: line(&header),
+        line: line(&record),
+        errors: Vec::new(),
+    };
     let (numbers, [fore, aft], dimensions) = match fields.text(&["HullData"]).map(str::to_owned) {
         Some(list) => hull_data(&mut fields, &list),
         None => columns(&mut fields),
@@ -166,8 +175,17 @@ pub fn read_hgf(text: &str) -> Result<HgfShip, Vec<HgfError>> {
     if !fields.errors.is_empty() {
         return Err(fields.errors);
     }
-    let [midship_fullness, bow, transom_fullness, forward_deck, transom_breadth_ratio, transom_tip_ratio, aft_cut_up_ratio, keel_forward_ratio, side_slope] =
-        numbers;
+    let [
+        midship_fullness,
+        bow,
+        transom_fullness,
+        forward_deck,
+        transom_breadth_ratio,
+        transom_tip_ratio,
+        aft_cut_up_ratio,
+        keel_forward_ratio,
+        side_slope,
+    ] = numbers;
     let [length, breadth, depth] = dimensions;
     Ok(HgfShip {
         name,
@@ -258,8 +276,13 @@ mod tests {
     fn every_message() {
         let messages = |text: &str| read_hgf(text).unwrap_err().iter().map(ToString::to_string).collect::<Vec<_>>();
         assert_eq!(messages(""), ["the file is empty; expected a header line and one record"]);
-        assert_eq!(messages("Name,LOA\n"), ["the file has a header and no record; expected a header line and one record"]);
-        assert!(messages("a,b\n1,2\n")[0].starts_with("line 1: no column HullData in the header; expected HullData, or"));
+        assert_eq!(
+            messages("Name,LOA\n"),
+            ["the file has a header and no record; expected a header line and one record"]
+        );
+        assert!(
+            messages("a,b\n1,2\n")[0].starts_with("line 1: no column HullData in the header; expected HullData, or")
+        );
         assert_eq!(
             messages(&FIRST.replace("1.4 0.2", "1.4 x").replace(",80,", ",L,")),
             ["line 2, LOA: 'L' is not a number", "line 2, HullData number 2: 'x' is not a number"]
@@ -271,7 +294,9 @@ mod tests {
                 "line 2, HullData: 3 numbers, expected at least 9; number 9 is the slope sa"
             ]
         );
-        assert!(messages("LOA,BOA,D,HullData\n1,2,3,1 2 3 4 5 6 7 8 9\n")[0].ends_with("number 21 is the draught aft ta"));
+        assert!(
+            messages("LOA,BOA,D,HullData\n1,2,3,1 2 3 4 5 6 7 8 9\n")[0].ends_with("number 21 is the draught aft ta")
+        );
         assert!(messages("loa_val,boa_val\n1,2\n").iter().any(|m| m.contains("no column ms_val")));
         assert!(messages(&"x".repeat(LARGEST + 1))[0].contains("a .hgf file has at most"));
         assert!(messages("a,b\n\"1,2").len() == 1);

@@ -151,7 +151,11 @@ pub fn write_hull(hull: &Hull, conventions: &Conventions) -> Result<String, serd
         text.push_str(&format!("\"{member}\": "));
         match (&value[member], *member) {
             (inner, "surface") => {
-                text.push_str(&format!("{{\n \"degree\": {},\n \"knots\": {}", one(&inner["degree"])?, one(&inner["knots"])?));
+                text.push_str(&format!(
+                    "{{\n \"degree\": {},\n \"knots\": {}",
+                    one(&inner["degree"])?,
+                    one(&inner["knots"])?
+                ));
                 for axis in ["x", "y", "z"] {
                     let rows: Result<Vec<String>, _> = inner[axis].as_array().into_iter().flatten().map(one).collect();
                     text.push_str(&format!(",\n \"{axis}\": [\n  {}\n ]", rows?.join(",\n  ")));
@@ -170,7 +174,7 @@ fn json<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, HullFileError> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let path = error.path().to_string();
-        let field = if path == "." { String::new() } else { format!("{path}: ") };
+        let field = if matches!(path.as_str(), "." | "?") { String::new() } else { format!("{path}: ") };
         json_error(error.inner(), field)
     })?;
     deserializer.end().map_err(|error| json_error(&error, String::new()))?;
@@ -227,15 +231,15 @@ pub fn read_hull(text: &str) -> Result<HullFile, HullFileError> {
         }
     }
     let (x, y, z) = (&record.surface.x, &record.surface.y, &record.surface.z);
-    let points = (0..rows * columns).map(|k| (k / columns, k % columns)).map(|(i, j)| [x[i][j], y[i][j], z[i][j]]).collect();
+    let points =
+        (0..rows * columns).map(|k| (k / columns, k % columns)).map(|(i, j)| [x[i][j], y[i][j], z[i][j]]).collect();
     let surface =
         BsplineSurface::new(u, v, points).map_err(|error| HullFileError::Spline { field: "surface", error })?;
     let deck_knots = knots("deck.knots", record.deck.degree, record.deck.knots)?;
     size("deck.x", record.deck.x.len(), deck_knots.basis_count())?;
     size("deck.z", record.deck.z.len(), deck_knots.basis_count())?;
     let points = record.deck.x.iter().zip(&record.deck.z).map(|(x, z)| [*x, *z]).collect();
-    let deck =
-        BsplineCurve::new(deck_knots, points).map_err(|error| HullFileError::Spline { field: "deck", error })?;
+    let deck = BsplineCurve::new(deck_knots, points).map_err(|error| HullFileError::Spline { field: "deck", error })?;
     let hull = Hull::new(&record.name, PrincipalParticulars::from(&record.particulars), surface, deck)?;
     Ok(HullFile { hull, conventions: record.conventions.into() })
 }
@@ -247,7 +251,8 @@ mod tests {
 
     fn hull(net: &[f64], width: f64) -> Hull {
         let (u, v) = (KnotVector::uniform(3, 2).unwrap(), KnotVector::uniform(2, 3).unwrap());
-        let points = (0..25).map(|k| [(k / 5) as f64 * 7.3 + 0.1, net[k] * width, (k % 5) as f64 * 1.7 - 0.2]).collect();
+        let points =
+            (0..25).map(|k| [(k / 5) as f64 * 7.3 + 0.1, net[k] * width, (k % 5) as f64 * 1.7 - 0.2]).collect();
         let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.1, 6.0], [29.3, 6.1]]).unwrap();
         let particulars =
             PrincipalParticulars { length_between_perpendiculars: 29.0, breadth: width, draught: 3.0, depth: 6.0 };
@@ -286,7 +291,10 @@ mod tests {
         let message = |text: &str| read_hull(text).unwrap_err().to_string();
         let sample = sample();
         assert_eq!(message("{"), "line 1, column 1: EOF while parsing an object");
-        assert_eq!(message(&sample.replace("loftsman-hull", "other")), "format is \"other\", expected \"loftsman-hull\"");
+        assert_eq!(
+            message(&sample.replace("loftsman-hull", "other")),
+            "format is \"other\", expected \"loftsman-hull\""
+        );
         assert_eq!(
             message(&sample.replace("\"version\": 1", "\"version\": 2")),
             "version 2 is newer than this program, which reads version 1; use a newer loftsman"
@@ -296,7 +304,10 @@ mod tests {
         assert!(message(&sample.replacen("2.4", "1e999", 1)).contains("number out of range"));
         assert!(message(&sample.replacen("2.4", "NaN", 1)).contains("expected value"));
         assert_eq!(message(&sample.replacen("2.4,", "", 1)), "surface.y[0]: 4, expected 5");
-        assert!(message(&sample.replace("\"degree\": [3,2]", "\"degree\": [9,2]")).starts_with("surface.knots[0]: degree 9"));
+        assert!(
+            message(&sample.replace("\"degree\": [3,2]", "\"degree\": [9,2]"))
+                .starts_with("surface.knots[0]: degree 9")
+        );
         assert!(message(&sample.replace("\"D\":6.0", "\"D\":-6.0")).starts_with("D is -6 m"));
         assert!(message(&sample.replace("\"name\"", "\"nome\"")).contains("missing field `name`"));
         let long: Vec<String> = (0..5000).map(|k| k.to_string()).collect();

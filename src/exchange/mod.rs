@@ -7,6 +7,7 @@ mod hydrostatics;
 mod manifest;
 mod number;
 mod offsets;
+mod section;
 mod summary;
 
 pub use hgf::{HgfError, HgfShip, read_hgf};
@@ -14,4 +15,5 @@ pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
 pub use manifest::{Manifest, ManifestEntry, sha256};
 pub use offsets::{heights_csv, offsets_csv};
+pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};

@@ -18,7 +18,11 @@ pub(super) fn cell(value: Option<f64>) -> String {
 /// One CSV line with quotes where they are needed.
 pub(super) fn line(fields: &[String]) -> String {
     let quote = |field: &String| {
-        if field.contains([',', '"', '\n', '\r']) { format!("\"{}\"", field.replace('"', "\"\"")) } else { field.clone() }
+        if field.contains([',', '"', '\n', '\r']) {
+            format!("\"{}\"", field.replace('"', "\"\""))
+        } else {
+            field.clone()
+        }
     };
     let mut line = fields.iter().map(quote).collect::<Vec<_>>().join(",");
     line.push('\n');

@@ -13,6 +13,7 @@ mod section;
 pub use area::SectionalAreaCurve;
 pub use form::{Hull, HullError};
 pub use functional::Functional;
+pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};

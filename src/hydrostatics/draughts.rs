@@ -12,10 +12,13 @@ pub fn default_draughts(draught: f64, depth: f64) -> Vec<f64> {
     }
     let (from, to) = (0.2 * draught, depth.max(draught));
     let decade = (to - from).log10().floor() as i32;
-    let steps = (decade - 3..=decade).rev().flat_map(|exponent| [5.0, 2.5, 2.0, 1.0].map(|mantissa| (mantissa, exponent)));
+    let steps =
+        (decade - 3..=decade).rev().flat_map(|exponent| [5.0, 2.5, 2.0, 1.0].map(|mantissa| (mantissa, exponent)));
     let multiples = |(mantissa, exponent): (f64, i32)| -> Vec<f64> {
         // Multiples are k m 10^e, with the division by a power of ten last: it is then the decimal number that is meant.
-        let at = |k: f64| if exponent < 0 { k * mantissa / 10f64.powi(-exponent) } else { k * mantissa * 10f64.powi(exponent) };
+        let at = |k: f64| {
+            if exponent < 0 { k * mantissa / 10f64.powi(-exponent) } else { k * mantissa * 10f64.powi(exponent) }
+        };
         let unit = at(1.0);
         let (first, last) = ((from / unit - 1e-9).ceil(), (to / unit + 1e-9).floor());
         let count = (last - first + 1.0).clamp(0.0, 1000.0) as usize;

@@ -3,9 +3,12 @@
 mod conventions;
 mod draughts;
 mod quantity;
+mod sections;
 mod table;
+mod volume;
+mod waterplane;
 
+pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell, Statement};
 pub use draughts::default_draughts;
-pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
 pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
 pub use table::CurvesOfForm;
