@@ -4,7 +4,7 @@
     warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)
 )]
 
-// pub mod cli;
+pub mod cli;
 pub mod config;
 pub mod exchange;
 pub mod hull;
@@ -12,6 +12,6 @@ pub mod hydrostatics;
 pub mod numeric;
 pub mod parametric;
 pub mod plot;
-// pub mod report;
+pub mod report;
 pub mod spline;
 pub mod units;
