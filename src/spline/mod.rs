@@ -10,6 +10,8 @@ mod curve;
 mod evaluate;
 mod fit;
 mod knots;
+mod least_squares;
+mod parametrize;
 mod refine;
 mod surface;
 mod table;
@@ -19,6 +21,8 @@ pub use curve::BsplineCurve;
 pub use evaluate::{SurfaceJet, SurfaceTangents};
 pub use fit::{Collocation, Condition};
 pub use knots::{KnotVector, MAX_DEGREE, SplineError};
+pub use least_squares::Ends;
+pub use parametrize::Parametrization;
 pub use surface::BsplineSurface;
 
 #[cfg(test)]
