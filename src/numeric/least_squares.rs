@@ -72,7 +72,8 @@ impl BandedLeastSquares {
         let (band, width) = (self.band, self.width);
         let mut x = self.right.clone();
         let small = 1e-13 * self.largest;
-        if let Some(column) = (0..self.columns).find(|&k| !(self.triangle[k * band].abs() > small)) {
+        let weak = |pivot: f64| pivot.is_nan() || pivot <= small;
+        if let Some(column) = (0..self.columns).find(|&k| weak(self.triangle[k * band].abs())) {
             return Err(SingularMatrix { column });
         }
         for k in (0..self.columns).rev() {

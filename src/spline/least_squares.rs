@@ -44,7 +44,7 @@ fn fit_items<const D: usize>(
         Ends::Held => {
             for (index, end) in [(0, a), (last, b)] {
                 let value = sites.get(index).copied().unwrap_or(f64::NAN);
-                if !((value - end).abs() <= 1e-14 * (b - a)) {
+                if value.is_nan() || (value - end).abs() > 1e-14 * (b - a) {
                     return Err(SplineError::Site { index, value, problem: "a held end is not the end of the domain" });
                 }
             }

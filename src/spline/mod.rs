@@ -6,23 +6,29 @@
 
 mod basis;
 mod bezier;
+mod curvature;
 mod curve;
 mod evaluate;
 mod fit;
+mod gram;
 mod knots;
 mod least_squares;
 mod parametrize;
+mod periodic;
 mod refine;
 mod surface;
 mod table;
 
 pub use bezier::{BezierCurve, BezierPatch};
+pub use curvature::SurfaceCurvature;
 pub use curve::BsplineCurve;
 pub use evaluate::{SurfaceJet, SurfaceTangents};
 pub use fit::{Collocation, Condition};
+pub use gram::Gram;
 pub use knots::{KnotVector, MAX_DEGREE, SplineError};
 pub use least_squares::Ends;
 pub use parametrize::Parametrization;
+pub use periodic::PeriodicCollocation;
 pub use surface::BsplineSurface;
 
 #[cfg(test)]

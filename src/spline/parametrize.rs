@@ -33,7 +33,7 @@ impl Parametrization {
         width: usize,
     ) -> Result<Vec<f64>, SplineError> {
         let count = points.len() / width.max(1);
-        if count < 2 || width == 0 || points.len() % width != 0 {
+        if count < 2 || width == 0 || !points.len().is_multiple_of(width) {
             return Err(SplineError::PointCount { found: points.len(), expected: 2 * width.max(1) });
         }
         let mut mean = vec![0.0; count];
@@ -60,7 +60,7 @@ impl Parametrization {
         }
         mean.iter_mut().for_each(|m| *m /= used);
         mean[count - 1] = 1.0;
-        match mean.windows(2).position(|w| !(w[1] > w[0])) {
+        match mean.windows(2).position(|w| w[1].is_nan() || w[1] <= w[0]) {
             Some(k) => Err(SplineError::Site { index: k + 1, value: mean[k + 1], problem: "points coincide" }),
             None => Ok(mean),
         }
