@@ -1,8 +1,8 @@
 //! From a chain of graph segments to a curve: quintic Hermite arcs between points of the contour.
 //!
 //! Position, first and second derivatives with respect to the running coordinate are exact at both ends of an arc (implicit
-//! differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter and halved until
-//! the distance is below half the tolerance; the error of an arc of length h is P^(6) (tau (1 - tau))^3 h^6 / 720.
+//! differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter and divided until
+//! the distance is below 0.7 of the tolerance; the error of an arc of length h is P^(6) (tau (1 - tau))^3 h^6 / 720.
 
 use super::bernstein::Arc;
 use super::contour::{Chain, Link, Running};
@@ -12,8 +12,12 @@ use super::field::{Node, Patch};
 const DEGREE: usize = 5;
 /// Steepest graph that is followed over a coordinate when the other one would do as well.
 const STEEPEST: f64 = 3.0;
-/// Halvings of a segment at most.
+/// Divisions of a segment at most.
 const DEEPEST: u32 = 48;
+/// Parts into which an arc with too large an error is divided at most.
+const MOST_PARTS: usize = 6;
+/// Share of the tolerance that the error at the compared points may have; the rest is for the points between them.
+const SHARE: f64 = 0.7;
 
 /// The arcs of a chain; parameters run on from 0 in units of the parameters of the surface.
 pub(super) fn trace(chain: &Chain, patches: &[Patch], tolerance: f64) -> Vec<Arc<3>> {
@@ -74,14 +78,25 @@ impl Tracer {
             self.push(arc);
             return;
         }
-        let middle = self.middle(patch, link, mode, a, b, 0.5);
-        let close = |st: [f64; 2], tau: f64| apart(patch.point(st), arc.at(tau)) <= 0.5 * self.tolerance;
-        let holds =
-            close(middle, 0.5) && [0.22, 0.78].iter().all(|&tau| close(self.middle(patch, link, mode, a, b, tau), tau));
-        if !holds {
-            let node = patch.node(middle);
-            self.segment(patch, link, a, &node, depth + 1);
-            self.segment(patch, link, &node, b, depth + 1);
+        let error = |tau: f64| {
+            let st = self.middle(patch, link, mode, a, b, tau);
+            (apart(patch.point(st), arc.at(tau)), st)
+        };
+        let limit = SHARE * self.tolerance;
+        let (at_middle, middle) = error(0.5);
+        let worst = if at_middle > limit { at_middle } else { at_middle.max(error(0.22).0).max(error(0.78).0) };
+        if worst > limit {
+            // The error falls with the sixth power of the length.
+            let parts = ((worst / (0.7 * limit)).powf(1.0 / 6.0).ceil() as usize).clamp(2, MOST_PARTS);
+            let mut from = *a;
+            for k in 1..parts {
+                let st =
+                    if 2 * k == parts { middle } else { self.middle(patch, link, mode, a, b, k as f64 / parts as f64) };
+                let node = patch.node(st);
+                self.segment(patch, link, &from, &node, depth + 1);
+                from = node;
+            }
+            self.segment(patch, link, &from, b, depth + 1);
             return;
         }
         self.push(arc);
