@@ -9,7 +9,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
 use super::scale::sheet_scale;
-use super::{FigureInputs, PlotError, Svg, caption};
+use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Width of the frame [mm].
@@ -125,7 +125,7 @@ fn scales(rows: &[Hydrostatics], midship: f64) -> [f64; CURVES.len()] {
 }
 
 /// Draws the sheet.
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let rows = inputs.dense_rows()?;
     let midship = 0.5 * inputs.hull.particulars().length_between_perpendiculars;
     let draught = inputs.design.draught;
@@ -173,7 +173,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
         );
     }
     draw_legend(&mut canvas, &frame, &scales, draught_scale);
-    Ok(Svg::new(canvas, "diagram sheet"))
+    Ok(canvas)
 }
 
 fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {

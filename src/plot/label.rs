@@ -108,13 +108,25 @@ impl LabelPlacer {
         for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style);
             if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
-                self.take(place.grown(0.1 * style.size));
+                // Names side by side need more room between them than names in rows.
+                let (beside, above) = (0.45 * style.size, 0.08 * style.size);
+                self.take(Rectangle::new(
+                    place.left - beside,
+                    place.top - above,
+                    place.right + beside,
+                    place.bottom + above,
+                ));
                 canvas.text(at, name, style);
                 return Some(k);
             }
         }
         None
     }
+}
+
+/// Length of a polyline [mm].
+pub(super) fn length(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum()
 }
 
 /// A polyline by the parts of its length.

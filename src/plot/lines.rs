@@ -6,7 +6,7 @@ use super::lines_grid::LinesGrid;
 use super::scale::{DRAWING_SCALES, drawing_scale};
 use super::title_block::{self, Scales};
 use super::view::View;
-use super::{FigureInputs, PlotError, Svg, body_plan, profile};
+use super::{FigureInputs, PlotError, body_plan, profile};
 
 /// A3, landscape [mm].
 const SHEET: [f64; 2] = [420.0, 297.0];
@@ -29,6 +29,8 @@ struct Extents {
     height: f64,
     half_breadth: f64,
     diagonals: f64,
+    /// Smallest table of half-breadths [mm].
+    table: [f64; 2],
 }
 
 impl Extents {
@@ -38,6 +40,7 @@ impl Extents {
             height: grid.height[1] - grid.height[0].min(0.0),
             half_breadth: grid.half_breadth,
             diagonals: profile::diagonal_reach(grid),
+            table: title_block::smallest_table(grid),
         }
     }
 
@@ -50,6 +53,16 @@ impl Extents {
             self.height * millimetres + ends,
             (self.half_breadth + self.diagonals) * millimetres + ends,
         ]
+    }
+
+    /// Height of the body plan with its names at 1 : `scale` [mm].
+    fn body_height(&self, scale: u32) -> f64 {
+        self.height * 1000.0 / f64::from(scale) + body_plan::TOP_ROOM + body_plan::BOTTOM_ROOM + VIEW_TITLE
+    }
+
+    /// Width of the body plan with its names at 1 : `scale` [mm].
+    fn body_width(&self, scale: u32) -> f64 {
+        2.0 * self.half_breadth * 1000.0 / f64::from(scale) + 2.0 * body_plan::SIDE_ROOM
     }
 
     /// The largest scale at which the body plan fits into `room`.
@@ -114,23 +127,26 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
         return None;
     }
     let column = inner.right - title_block::SIZE[0] - GAP;
-    // Wide views stand in the middle, narrow ones leave their right to the table.
-    let narrow = width < column - inner.left;
-    let left = if narrow { inner.left } else { inner.left + 0.5 * (inner.width() - width) };
+    let room = Rectangle::new(inner.left, inner.bottom - body_height, column, inner.bottom);
+    let body_scale = extents.body_scale(&room);
+    // What the body plan leaves parts the views.
+    let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+    let left = inner.left + 0.5 * (inner.width() - width);
     let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
-    let lower = Rectangle::new(left, upper.bottom + GAP, left + width, upper.bottom + GAP + half);
-    let top = lower.bottom + GAP;
-    let body = Rectangle::new(inner.left, top, column, inner.bottom);
-    let table_top = if narrow { inner.top } else { top };
-    let table_left = if narrow { inner.left + width + GAP } else { column };
-    let table = Rectangle::new(table_left, table_top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
-    let body_scale = extents.body_scale(&body);
+    let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
+    let top = lower.bottom + gap;
+    // The table stands over the title block, or else between it and the body plan.
+    let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
+    let beside = column - extents.table[0] - GAP;
+    let between = over.height() < extents.table[1] && beside - inner.left >= extents.body_width(body_scale);
+    let body = Rectangle::new(inner.left, top, if between { beside } else { column }, inner.bottom);
+    let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
     Some(Layout { scale, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
 /// Draws the sheet.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth));
     let layout = layout(&extents);
@@ -153,17 +169,22 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
     profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([origin_x, centre], layout.scale), TEXT);
 
-    name(&mut canvas, &layout.body, "BODY PLAN", body_scale);
-    let body_height = extents.height * 1000.0 / f64::from(body_scale);
-    let needed = body_height + body_plan::TOP_ROOM + body_plan::BOTTOM_ROOM + VIEW_TITLE;
-    let foot = layout.body.bottom - 0.5 * (layout.body.height() - needed) - body_plan::BOTTOM_ROOM;
+    let needed = extents.body_height(body_scale);
+    let foot = layout.body.top + needed.max(0.5 * (layout.body.height() + needed)) - body_plan::BOTTOM_ROOM;
     let middle = 0.5 * (layout.body.left + layout.body.right);
     let body_base = foot + grid.height[0].min(0.0) * 1000.0 / f64::from(body_scale);
+    let top = foot - needed + body_plan::BOTTOM_ROOM;
+    name(
+        &mut canvas,
+        &Rectangle { top, left: middle - 0.5 * extents.body_width(body_scale), ..layout.body },
+        "BODY PLAN",
+        body_scale,
+    );
     body_plan::draw(&mut canvas, hull, &grid, &View::new([middle, body_base], body_scale), TEXT);
 
     let corner = [FRAME.right, FRAME.bottom];
     let scales = Scales { long: layout.scale, body: body_scale };
     title_block::draw(&mut canvas, inputs, &grid, scales, corner);
     title_block::draw_offsets(&mut canvas, inputs, &grid, &layout.table);
-    Ok(Svg::new(canvas, "lines plan"))
+    Ok(canvas)
 }

@@ -123,7 +123,7 @@ impl LinesGrid {
             .chain(&deck)
             .map(|point| point[1])
             .fold(0.0, f64::max);
-        let buttock_spacing = nice_step(0.5 * p.breadth, 5.0);
+        let buttock_spacing = nice_step(0.5 * p.breadth, 7.0);
         let buttocks = multiples(buttock_spacing, buttock_spacing, 0.995 * half_breadth)
             .into_iter()
             .enumerate()

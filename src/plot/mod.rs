@@ -90,10 +90,6 @@ pub struct Svg {
 }
 
 impl Svg {
-    fn new(canvas: canvas::Canvas, title: &str) -> Self {
-        Self { text: canvas.finish(title) }
-    }
-
     /// The SVG document; its size is in millimetres.
     #[must_use]
     pub fn as_str(&self) -> &str {
@@ -158,6 +154,10 @@ impl Figure {
     /// # Errors
     /// [`PlotError`] when there is nothing to draw.
     pub fn draw(self, inputs: &FigureInputs) -> Result<Svg, PlotError> {
+        Ok(Svg { text: self.compose(inputs)?.finish(self.key()) })
+    }
+
+    fn compose(self, inputs: &FigureInputs) -> Result<canvas::Canvas, PlotError> {
         match self {
             Self::Lines => lines::draw(inputs),
             Self::Sections => sections::draw(inputs),

@@ -129,7 +129,7 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     }
     let mut placer = LabelPlacer::default();
     let mut owners: Vec<(&GridPlane, &Pen)> = Vec::new();
-    for plane in grid.waterlines.iter().chain([&grid.design_waterline]) {
+    for plane in [&grid.design_waterline].into_iter().chain(&grid.waterlines) {
         for curve in &plane.curves {
             placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), &WATERLINE));
             owners.push((plane, &WATERLINE));

@@ -4,7 +4,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
-use super::{FigureInputs, PlotError, Svg, caption, outline};
+use super::{FigureInputs, PlotError, caption, outline};
 use crate::hull::SectionalAreaCurve;
 
 /// Size of the sheet [mm].
@@ -15,7 +15,7 @@ const STATIONS: usize = 401;
 const INTERVALS: f64 = 20.0;
 
 /// Draws the curve.
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (hull, design) = (inputs.hull, inputs.design);
     let length = hull.particulars().length_between_perpendiculars;
     let [aft, fore] = outline::immersed_length(hull, design.draught);
@@ -66,7 +66,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     chart.draw(&mut canvas, &mut placer, &series)?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
-    Ok(Svg::new(canvas, "sectional-area curve"))
+    Ok(canvas)
 }
 
 /// The parallel middle body, shaded from keel to curve.

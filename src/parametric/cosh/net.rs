@@ -118,8 +118,7 @@ pub(super) fn interpolate(
         in_v(&|z| z)
     } else {
         // The bilge leaves the flat of bottom with dz/dv = 0: that is a condition, not a matter of interpolation.
-        let mut conditions: Vec<Condition> =
-            sites_v.iter().map(|&site| Condition { site, order: 0 }).collect();
+        let mut conditions: Vec<Condition> = sites_v.iter().map(|&site| Condition { site, order: 0 }).collect();
         conditions[1] = Condition { site: 0.0, order: 1 };
         let mut values = heights.clone();
         values[1] = 0.0;
