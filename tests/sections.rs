@@ -190,7 +190,7 @@ fn assert_complete(hull: &Hull, section: &Section, coordinate: usize, fraction: 
 fn no_branch_of_a_random_surface_is_missed_or_invented() {
     use proptest::prelude::*;
     use proptest::test_runner::{Config, TestRunner};
-    let net = prop::collection::vec(0.0..5.0f64, 200);
+    let net = prop::collection::vec(0.0..5.0f64, 441);
     let seeds = (prop::collection::vec(0..4usize, 0..4), prop::collection::vec(0..4usize, 0..4));
     let plane = (0..4usize, 0.1..0.9f64, -0.5..0.5f64, -0.5..0.5f64);
     let lines = (0.01..0.99f64, 0.01..0.99f64);
@@ -225,5 +225,144 @@ fn no_branch_of_a_random_surface_is_missed_or_invented() {
     });
     if let Err(error) = outcome {
         panic!("{error}");
+    }
+}
+
+#[test]
+fn planes_through_lines_and_points_of_the_net_are_no_exception() {
+    let hull = wigley_hull();
+    for k in 0..=21 {
+        let section = hull.section(Cut::Station { x: LENGTH * f64::from(k) / 21.0 }, 1e-9);
+        assert_eq!(sides(&section).len(), 1, "station {k}");
+        assert!(deviation(&section) <= 1e-9, "station {k}: {}", deviation(&section));
+        assert_connected(&section);
+        let curve = sides(&section)[0].curve.points();
+        assert!(curve[0][2].abs() < 1e-12 && (curve[curve.len() - 1][2] - DRAUGHT).abs() < 1e-12, "station {k}");
+    }
+    for k in 0..=11 {
+        let section = hull.section(Cut::Waterline { z: DRAUGHT * f64::from(k) / 11.0 }, 1e-9);
+        assert_eq!(sides(&section).len(), 1, "waterline {k}");
+        assert!(deviation(&section) <= 1e-9, "waterline {k}");
+    }
+    // Planes through vertices of the patches, exactly: the half-breadth of a vertex, and planes across the grid.
+    for (i, j) in [(3, 4), (7, 2), (10, 10), (1, 9), (20, 1)] {
+        let [x, y, z] = hull.surface().eval(f64::from(i) / 21.0, f64::from(j) / 11.0);
+        let planes = [
+            Cut::Buttock { y },
+            Cut::Plane { normal: [0.0, 1.0, 1.0], offset: y + z },
+            Cut::Plane { normal: [0.02, 1.0, -1.0], offset: 0.02 * x + y - z },
+            Cut::Plane { normal: [DRAUGHT / 11.0, 0.0, LENGTH / 21.0], offset: DRAUGHT / 11.0 * x + LENGTH / 21.0 * z },
+        ];
+        for cut in planes {
+            let section = hull.section(cut, 1e-9);
+            assert!(!sides(&section).is_empty(), "{cut:?}");
+            assert!(deviation(&section) <= 1e-9, "{cut:?}: {}", deviation(&section));
+            assert_connected(&section);
+        }
+    }
+}
+
+#[test]
+fn a_plane_that_touches_has_no_branch_and_one_just_inside_a_small_one() {
+    let hull = wigley_hull();
+    // The form is widest at (L/2, B/2, T), on the upper edge.
+    for y in [0.5 * BREADTH, 0.5 * BREADTH + 1e-9, 6.0] {
+        let section = hull.section(Cut::Buttock { y }, 1e-9);
+        assert!(section.branches.iter().all(|b| points(b).iter().all(|p| (p[1] - y).abs() < 1e-9)), "{y}");
+        assert!(sides(&section).len() <= 1);
+    }
+    let section = hull.section(Cut::Buttock { y: 0.5 * BREADTH - 1e-4 }, 1e-9);
+    assert_eq!(sides(&section).len(), 1);
+    assert!(deviation(&section) <= 1e-9);
+    assert_connected(&section);
+}
+
+/// Two bumps of different height on a sheet: y = 1 + bumps.
+fn bumps() -> Hull {
+    let (u, v) = (KnotVector::uniform(3, 16).unwrap(), KnotVector::uniform(3, 9).unwrap());
+    interpolated(&u, &v, |a, b| {
+        let bump = |a0: f64, b0: f64| (-((a - a0) / 0.12).powi(2) - ((b - b0) / 0.2).powi(2)).exp();
+        [LENGTH * a, 1.0 + 2.0 * bump(0.25, 0.5) + 3.0 * bump(0.75, 0.55), DRAUGHT * b]
+    })
+}
+
+#[test]
+fn loops_and_several_branches() {
+    let hull = bumps();
+    for (y, loops) in [(2.0, 2), (2.9, 2), (3.3, 1), (3.9, 1), (4.2, 0)] {
+        let section = hull.section(Cut::Buttock { y }, 1e-9);
+        assert_eq!(section.branches.len(), loops, "buttock {y}");
+        for branch in &section.branches {
+            assert!(branch.closed);
+            let line = branch.polyline(1e-3);
+            assert_eq!(line[0].map(f64::to_bits), line[line.len() - 1].map(f64::to_bits));
+            for p in points(branch) {
+                let on = hull.half_breadth(p[0], p[2]).unwrap();
+                assert!((on - p[1]).abs() < 1e-9 && (p[1] - y).abs() <= 1e-9, "{p:?}");
+            }
+        }
+        assert_connected(&section);
+    }
+    // Two open branches: y = 1 + (x - 50)^2 z^2 / ... is cut at the two sides of the saddle.
+    let (u, v) = (KnotVector::uniform(3, 7).unwrap(), KnotVector::uniform(2, 5).unwrap());
+    let hull =
+        interpolated(&u, &v, |a, b| [LENGTH * a, 2.0 + (2.0 * a - 1.0).powi(2) - (b - 0.5).powi(2), DRAUGHT * b]);
+    for (y, count) in [(2.3, 2), (1.9, 2), (2.0 + 1e-7, 2), (2.0 - 1e-7, 2)] {
+        let section = hull.section(Cut::Buttock { y }, 1e-9);
+        assert_eq!(sides(&section).len(), count, "buttock {y}");
+        assert_connected(&section);
+    }
+    // Through the saddle itself: two branches that meet in a point.
+    let section = hull.section(Cut::Buttock { y: 2.0 }, 1e-9);
+    assert_eq!(sides(&section).len(), 2);
+    for p in sides(&section).into_iter().flat_map(points) {
+        assert!((p[1] - 2.0).abs() <= 1e-9 && (hull.half_breadth(p[0], p[2]).unwrap() - 2.0).abs() <= 1e-9, "{p:?}");
+    }
+}
+
+/// A ship-shaped body: transom aft, raked above z = 4, raked stem, flat of bottom, flat side, rising deck.
+/// Degree 3 in both directions; graded so that the waterlines are round forward and the bilge is round.
+fn ship() -> Hull {
+    let (u, v) = (KnotVector::uniform(3, 12).unwrap(), KnotVector::uniform(3, 8).unwrap());
+    let (gu, gv) = (u.greville(), v.greville());
+    let mut points = Vec::new();
+    for &a in &gu {
+        for &b in &gv {
+            let z = 10.0 * b * b;
+            let stern = if z > 4.0 { 0.5 * (4.0 - z) } else { 0.0 };
+            let stem = 92.0 + 0.8 * z;
+            let x = stern + (stem - stern) * a * (2.0 - a).min(1.5) / 1.0_f64.max((2.0 - a).min(1.5));
+            let body = if a < 0.35 { 1.0 - 0.6 * (1.0 - a / 0.35).powi(2) } else { 1.0 };
+            let entrance = if a > 0.6 { 1.0 - ((a - 0.6) / 0.4).powi(2) } else { 1.0 };
+            let section = if b < 0.5 { 0.5 + 0.5 * (b / 0.5) * (2.0 - b / 0.5) } else { 1.0 };
+            points.push([x, 8.0 * body * entrance * section, z]);
+        }
+    }
+    let deck =
+        BsplineCurve::new(KnotVector::uniform(2, 1).unwrap(), vec![[-3.0, 9.0], [45.0, 8.0], [100.0, 10.0]]).unwrap();
+    with_deck(BsplineSurface::new(u, v, points).unwrap(), deck)
+}
+
+#[test]
+fn a_ship_with_flats_a_transom_and_sheer() {
+    let hull = ship();
+    let mut cuts: Vec<Cut> = (0..=40).map(|k| Cut::Station { x: -3.0 + 103.0 * f64::from(k) / 40.0 }).collect();
+    cuts.extend((0..=20).map(|k| Cut::Waterline { z: 0.5 * f64::from(k) }));
+    cuts.extend((0..=32).map(|k| Cut::Buttock { y: 0.25 * f64::from(k) }));
+    cuts.extend((1..10).map(|k| Cut::Diagonal { height: f64::from(k), angle: 0.5 }));
+    cuts.extend((1..10).map(|k| Cut::Plane { normal: [0.1, 0.0, 1.0], offset: f64::from(k) }));
+    for cut in cuts {
+        let section = hull.section(cut, 1e-9);
+        for branch in &section.branches {
+            for p in points(branch) {
+                assert!(distance_to_plane(cut, p) <= 1e-9, "{cut:?} {:?} {p:?}", branch.face);
+                assert!(p[2] <= hull.deck_height(p[0]) + 1e-9, "{cut:?} {:?} {p:?}", branch.face);
+                if branch.face == Face::Side {
+                    let [a, b] = hull.endings(p[2].clamp(0.0, 10.0)).unwrap();
+                    let on = hull.half_breadth(p[0].clamp(a, b), p[2].clamp(0.0, 10.0)).unwrap();
+                    assert!((on - p[1]).abs() <= 1e-6, "{cut:?} {p:?} {on}");
+                }
+            }
+        }
     }
 }

@@ -336,7 +336,7 @@ mod tests {
                     let value = Functional::SectionArea { x }.value(&hull, draught);
                     let top = draught.min(hull.deck_height(x));
                     let brute = simpson(0.0, top, 4_000, |z| 2.0 * hull.half_breadth(x, z).unwrap_or(0.0));
-                    assert!((value - brute).abs() < 5e-4 * brute.max(0.1), "{x} {draught}: {value} {brute}");
+                    assert!((value - brute).abs() < 5e-4 * brute + 4e-3, "{x} {draught}: {value} {brute}");
                 }
             }
         }

@@ -61,6 +61,11 @@ impl<'a> Immersion<'a> {
         Some(immersion)
     }
 
+    /// The draught, the top of the surface when it is above that [m].
+    pub(crate) fn draught(&self) -> f64 {
+        self.draught
+    }
+
     /// v_T, or the upper end of the domain when the draught is above the surface.
     pub(crate) fn waterline(&self) -> f64 {
         self.waterline

@@ -12,5 +12,6 @@ mod section;
 pub use area::SectionalAreaCurve;
 pub use form::{Hull, HullError};
 pub use functional::Functional;
+pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};

@@ -58,3 +58,100 @@ impl Default for Conventions {
         }
     }
 }
+
+/// One statement of the conventions of a table: what, and how it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Statement {
+    /// What it is about, in words.
+    pub subject: &'static str,
+    /// How it is.
+    pub text: String,
+}
+
+impl Conventions {
+    /// What the numbers of a table are referred to, one statement a line; to be printed with every table.
+    #[must_use]
+    pub fn statements(&self) -> Vec<Statement> {
+        let say = |subject, text: &str| Statement { subject, text: text.to_owned() };
+        let (metacentre, known) = match self.centre_of_gravity_height {
+            Some(height) => ("GM_L", format!("KG = {height} m")),
+            None => ("BM_L", "KG not given".to_owned()),
+        };
+        vec![
+            say("frame", "x forward from the aft perpendicular AP, z up from the moulded base line; metres"),
+            say("water", &format!("density {} t/m^3", self.density)),
+            say(
+                "coefficient length",
+                match self.coefficient_length {
+                    CoefficientLength::BetweenPerpendiculars => "L = Lpp",
+                    CoefficientLength::Waterline => "L = L_WL at each draught",
+                },
+            ),
+            say(
+                "coefficient breadth and draught",
+                "moulded breadth B of the particulars; T of the row, from the base line",
+            ),
+            say(
+                "prismatic coefficients",
+                match self.prismatic_section {
+                    PrismaticSection::Maximum => "C_P, C_PF, C_PA refer to the largest section, A_X",
+                    PrismaticSection::Midship => "C_P, C_PF, C_PA refer to the section at midship, A_M",
+                },
+            ),
+            say("midship", "at Lpp/2"),
+            say("longitudinal centres", "LCB and LCF from AP, + forward; LCB also in % of Lpp from midship, + forward"),
+            say(
+                "shell",
+                &match self.shell {
+                    Shell::None => "none: the extreme displacement is the moulded one".to_owned(),
+                    Shell::Factor(factor) => format!("extreme volume = {factor} x moulded volume"),
+                    Shell::Thickness(thickness) => {
+                        format!("extreme volume = moulded volume + {thickness} m x wetted surface")
+                    }
+                },
+            ),
+            say("keel", &format!("T_K = T + {} m", self.keel_thickness)),
+            say("moment to change trim", &format!("MTC = displacement x {metacentre} / (100 Lpp); {known}")),
+            say("trim", "trim = T_A - T_F, + by the stern; rows are at even keel"),
+            say("wetted surface", "side, flat of bottom, immersed transom and flat bow; the deck is not counted"),
+            say(
+                "parallel middle body",
+                "sections equal to the largest one within 1e-6 of it over at least 1 % of Lpp; L_E from its fore end to FP, \
+                 L_R from AP to its aft end, from the largest section where there is none",
+            ),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_formula_of_mtc_follows_the_centre_of_gravity() {
+        let text = |conventions: Conventions| {
+            let all = conventions.statements();
+            all.iter().find(|s| s.subject == "moment to change trim").map(|s| s.text.clone()).unwrap()
+        };
+        assert!(text(Conventions::default()).contains("BM_L"));
+        let known = Conventions { centre_of_gravity_height: Some(6.5), ..Conventions::default() };
+        assert!(text(known).contains("GM_L / (100 Lpp); KG = 6.5 m"));
+    }
+
+    #[test]
+    fn every_switch_is_stated() {
+        let text = |conventions: &Conventions| format!("{:?}", conventions.statements());
+        let base = Conventions::default();
+        for changed in [
+            Conventions { density: 1.0, ..base },
+            Conventions { coefficient_length: CoefficientLength::Waterline, ..base },
+            Conventions { prismatic_section: PrismaticSection::Midship, ..base },
+            Conventions { shell: Shell::Factor(1.006), ..base },
+            Conventions { shell: Shell::Thickness(0.012), ..base },
+            Conventions { keel_thickness: 0.02, ..base },
+            Conventions { centre_of_gravity_height: Some(4.0), ..base },
+        ] {
+            assert_ne!(text(&changed), text(&base), "{changed:?}");
+        }
+    }
+}

@@ -2,8 +2,11 @@
 
 mod conventions;
 mod quantity;
+mod sections;
 mod table;
+mod volume;
+mod waterplane;
 
-pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
+pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell, Statement};
 pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
 pub use table::CurvesOfForm;

@@ -97,7 +97,12 @@ mod tests {
     fn no_bracket_and_no_number_are_errors() {
         assert!(matches!(bracketed_root(|x| x + 5.0, 0.0, 1.0, 1e-9), Err(RootError::NoSignChange { .. })));
         assert!(matches!(
-            bracketed_root(|x| if x == 0.0 || x == 2.0 { x - 1.0 } else { f64::NAN }, 0.0, 2.0, 1e-9),
+            bracketed_root(
+                |x| if x.abs() < 1e-9 || (x - 2.0).abs() < 1e-9 { x - 1.0 } else { f64::NAN },
+                0.0,
+                2.0,
+                1e-9
+            ),
             Err(RootError::NotFinite { .. })
         ));
     }

@@ -46,7 +46,7 @@ fn largest_radius(w: f64, draught: f64, deadrise: f64) -> f64 {
 
 impl MidshipSection {
     /// The section of coefficient `coefficient` = area / (h T); a rise of floor or a radius that is given is kept. When
-    /// neither is given the floor is flat if the bilge fits, otherwise the rise lies 40 % up the feasible interval.
+    /// neither is given the floor is flat if the bilge fits, otherwise the rise lies 15 % up the feasible interval (a round bilge).
     pub(super) fn solve(
         half_breadth: f64,
         draught: f64,
@@ -93,7 +93,7 @@ impl MidshipSection {
                 let feasible: Vec<f64> =
                     (1..=steps).map(|k| highest * f64::from(k) / f64::from(steps)).filter(|&b| fits(b)).collect();
                 match (feasible.first(), feasible.last()) {
-                    (Some(first), Some(last)) => first + 0.4 * (last - first),
+                    (Some(first), Some(last)) => first + 0.15 * (last - first),
                     _ => 0.0,
                 }
             }
@@ -149,7 +149,7 @@ impl MidshipSection {
     pub(super) fn at_girth(&self, girth: f64) -> (f64, f64) {
         let (floor, bilge) = self.girths();
         let (sin, cos) = self.deadrise.sin_cos();
-        if girth <= floor {
+        if girth < floor {
             (self.keel + girth * cos, girth * sin)
         } else if girth <= floor + bilge {
             let angle = self.deadrise + (girth - floor) / self.radius;

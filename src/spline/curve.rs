@@ -51,13 +51,9 @@ impl<const D: usize> BsplineCurve<D> {
     /// The point and the derivatives of order 1 to N - 1 at parameter `t`, in one call; nothing is allocated.
     #[must_use]
     pub fn derivatives<const N: usize>(&self, t: f64) -> [[f64; D]; N] {
-        let (a, b) = self.knots.domain();
-        let t = t.clamp(a, b);
-        let span = self.knots.find_span(t);
-        let basis = self.knots.basis_derivatives::<N>(span, t);
-        let first = span - self.knots.degree();
+        let (first, basis) = self.knots.orders_at::<N>(t);
         let mut result = [[0.0; D]; N];
-        for (i, point) in self.points[first..=span].iter().enumerate() {
+        for (i, point) in self.points[first..=first + self.knots.degree()].iter().enumerate() {
             for (row, order) in result.iter_mut().zip(&basis) {
                 for (sum, coordinate) in row.iter_mut().zip(point) {
                     *sum += order[i] * coordinate;

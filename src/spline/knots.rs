@@ -1,5 +1,9 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
+use super::basis::{Row, basis_orders, padded_orders};
+use super::table::SpanTable;
+use std::sync::Arc;
+
 /// The highest degree of a spline.
 pub const MAX_DEGREE: usize = 7;
 
@@ -38,11 +42,24 @@ pub enum SplineError {
     },
 }
 
-/// A clamped, non-decreasing sequence of knots with a degree.
-#[derive(Debug, Clone, PartialEq)]
+/// A clamped, non-decreasing sequence of knots with a degree. Copies share their storage, so that cloning is cheap.
+#[derive(Clone)]
 pub struct KnotVector {
     degree: usize,
-    knots: Vec<f64>,
+    knots: Arc<[f64]>,
+    table: Arc<SpanTable>,
+}
+
+impl PartialEq for KnotVector {
+    fn eq(&self, other: &Self) -> bool {
+        self.degree == other.degree && self.knots == other.knots
+    }
+}
+
+impl std::fmt::Debug for KnotVector {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("KnotVector").field("degree", &self.degree).field("knots", &self.knots).finish()
+    }
 }
 
 impl KnotVector {
@@ -79,7 +96,13 @@ impl KnotVector {
         if let Some(index) = inner.windows(degree + 1).position(|w| w[0] >= w[degree]) {
             return bad(index + 1, "repeated more often than the degree allows");
         }
-        Ok(Self { degree, knots })
+        Ok(Self::from_checked(degree, knots))
+    }
+
+    /// Knots known to be in order; used inside the kernel only.
+    pub(super) fn from_checked(degree: usize, knots: Vec<f64>) -> Self {
+        let table = Arc::new(SpanTable::new(degree, &knots));
+        Self { degree, knots: knots.into(), table }
     }
 
     /// Clamped knots from increasing breakpoints; `multiplicities` belong to the interior breakpoints.
@@ -135,7 +158,7 @@ impl KnotVector {
     /// The distinct knots in increasing order.
     #[must_use]
     pub fn breakpoints(&self) -> Vec<f64> {
-        let mut breaks = self.knots.clone();
+        let mut breaks = self.knots.to_vec();
         breaks.dedup_by(|a, b| a <= b);
         breaks
     }
@@ -143,20 +166,22 @@ impl KnotVector {
     /// Indices k of the spans [t_k, t_k+1] of positive length, in order.
     #[must_use]
     pub fn spans(&self) -> Vec<usize> {
-        (self.degree..self.basis_count()).filter(|&k| self.knots[k] < self.knots[k + 1]).collect()
+        (0..self.table.len()).map(|number| self.table.knot_index(number)).collect()
+    }
+
+    /// How often `t` occurs among the knots.
+    #[must_use]
+    pub fn multiplicity(&self, t: f64) -> usize {
+        self.knots.partition_point(|&knot| knot <= t) - self.knots.partition_point(|&knot| knot < t)
     }
 
     /// The index k with t_k <= t < t_k+1 (the last span of positive length is closed); the basis functions k - p ..= k
-    /// are the ones that do not vanish there. `t` outside the domain is taken to its nearest end.
+    /// are the ones that do not vanish there. `t` outside the domain is taken to its nearest end. Constant time unless
+    /// the spans are strongly graded, then that of a binary search.
     #[must_use]
+    #[inline]
     pub fn find_span(&self, t: f64) -> usize {
-        let inside = &self.knots[self.degree..=self.basis_count()];
-        let above = inside.partition_point(|&knot| knot <= t);
-        let mut span = (self.degree + above).saturating_sub(1).clamp(self.degree, self.basis_count() - 1);
-        while self.knots[span] >= self.knots[span + 1] {
-            span -= 1;
-        }
-        span
+        self.table.knot_index(self.table.locate(t))
     }
 
     /// Greville abscissae, the means of `degree` successive knots: the site that belongs to each control point.
@@ -177,82 +202,175 @@ impl KnotVector {
     /// Values of the `degree + 1` basis functions span - p ..= span at `t`; the rest of the array is 0.
     #[must_use]
     pub fn basis(&self, span: usize, t: f64) -> [f64; MAX_DEGREE + 1] {
-        let (p, k) = (self.degree, &self.knots);
-        let mut values = [0.0; MAX_DEGREE + 1];
-        values[0] = 1.0;
-        for j in 1..=p {
-            let mut saved = 0.0;
-            for r in 0..j {
-                let (right, left) = (k[span + r + 1], k[span + 1 + r - j]);
-                let term = values[r] / (right - left);
-                values[r] = saved + (right - t) * term;
-                saved = (t - left) * term;
-            }
-            values[j] = saved;
-        }
-        values
+        self.basis_derivatives::<1>(span, t)[0]
     }
 
     /// Values and derivatives of order 0 to N - 1 of the basis functions span - p ..= span at `t`:
-    /// `result[order][function]`. Orders above the degree are 0.
+    /// `result[order][function]`. Orders above the degree are 0. Nothing is allocated.
     #[must_use]
     pub fn basis_derivatives<const N: usize>(&self, span: usize, t: f64) -> [[f64; MAX_DEGREE + 1]; N] {
-        let (p, k) = (self.degree, &self.knots);
-        // ndu[j][r]: basis values in the upper triangle, knot differences in the lower (Piegl & Tiller A2.3).
-        let mut ndu = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
-        ndu[0][0] = 1.0;
-        for j in 1..=p {
-            let mut saved = 0.0;
-            for r in 0..j {
-                let (right, left) = (k[span + r + 1], k[span + 1 + r - j]);
-                ndu[j][r] = right - left;
-                let term = ndu[r][j - 1] / ndu[j][r];
-                ndu[r][j] = saved + (right - t) * term;
-                saved = (t - left) * term;
-            }
-            ndu[j][j] = saved;
+        self.orders_in(self.table.number_of(span), t)
+    }
+
+    /// `t` taken to the nearest end of the domain; NaN stays NaN.
+    #[inline]
+    pub(super) fn clamp(&self, t: f64) -> f64 {
+        let (a, b) = self.domain();
+        if t < a {
+            a
+        } else if t > b {
+            b
+        } else {
+            t
         }
-        let mut result = [[0.0; MAX_DEGREE + 1]; N];
-        for r in 0..=p {
-            if N > 0 {
-                result[0][r] = ndu[r][p];
+    }
+
+    /// Index of the first basis function that does not vanish at `t`, and basis values and derivatives there.
+    #[inline]
+    pub(super) fn orders_at<const N: usize>(&self, t: f64) -> (usize, [Row; N]) {
+        let t = self.clamp(t);
+        let number = self.table.locate(t);
+        (self.table.knot_index(number) - self.degree, self.orders_in(number, t))
+    }
+
+    /// As [`Self::orders_at`] where the order K, the degree plus 1, is known.
+    ///
+    /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the ends).
+    #[inline(never)]
+    pub(super) fn orders_at_fixed<const K: usize, const N: usize>(&self, t: f64) -> (usize, [[f64; K]; N]) {
+        let t = self.clamp(t);
+        let number = self.table.locate(t);
+        let first = self.table.knot_index(number) + 1 - K;
+        if K == 4 && N <= 3 {
+            let x = t - self.table.start(number);
+            let [c0, c1, c2, c3] = self.table.cubic(number);
+            let mut result = [[0.0; K]; N];
+            // Horner's scheme, carried on for the derivatives.
+            for r in 0..K {
+                let b2 = c3[r] * x + c2[r];
+                let b1 = b2 * x + c1[r];
+                result[0][r] = b1 * x + c0[r];
+                if N > 1 {
+                    let e2 = c3[r] * x + b2;
+                    result[1][r] = e2 * x + b1;
+                    if N > 2 {
+                        result[2][r] = 2.0 * (c3[r] * x + e2);
+                    }
+                }
             }
-            let mut a = [[0.0; MAX_DEGREE + 1]; 2];
-            a[0][0] = 1.0;
-            let (mut s1, mut s2) = (0, 1);
-            for order in 1..N.min(p + 1) {
-                let mut d = 0.0;
-                let rk = r as isize - order as isize;
-                let pk = p - order;
-                if r >= order {
-                    a[s2][0] = a[s1][0] / ndu[pk + 1][rk as usize];
-                    d = a[s2][0] * ndu[rk as usize][pk];
-                }
-                let j1 = if rk >= -1 { 1 } else { (-rk) as usize };
-                let j2 = if r as isize - 1 <= pk as isize { order - 1 } else { p - r };
-                for j in j1..=j2 {
-                    let column = (rk + j as isize) as usize;
-                    a[s2][j] = (a[s1][j] - a[s1][j - 1]) / ndu[pk + 1][column];
-                    d += a[s2][j] * ndu[column][pk];
-                }
-                if r <= pk {
-                    a[s2][order] = -a[s1][order - 1] / ndu[pk + 1][r];
-                    d += a[s2][order] * ndu[r][pk];
-                }
-                result[order][r] = d;
-                std::mem::swap(&mut s1, &mut s2);
+            return (first, result);
+        }
+        (first, basis_orders::<K, N>(&self.knots[first + 1..], self.table.reciprocals(number), t))
+    }
+
+    fn orders_in<const N: usize>(&self, number: usize, t: f64) -> [Row; N] {
+        let window = &self.knots[self.table.knot_index(number) + 1 - self.degree..];
+        let reciprocals = self.table.reciprocals(number);
+        match self.degree {
+            1 => padded_orders::<2, N>(window, reciprocals, t),
+            2 => padded_orders::<3, N>(window, reciprocals, t),
+            3 => padded_orders::<4, N>(window, reciprocals, t),
+            4 => padded_orders::<5, N>(window, reciprocals, t),
+            5 => padded_orders::<6, N>(window, reciprocals, t),
+            6 => padded_orders::<7, N>(window, reciprocals, t),
+            _ => padded_orders::<8, N>(window, reciprocals, t),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spline::tests::{knots, parameters};
+    use proptest::prelude::*;
+
+    /// Worked examples 2.3 and 2.4 of Piegl & Tiller 1997: basis and derivatives at 5/2.
+    #[test]
+    fn basis_as_in_the_nurbs_book() {
+        let k = KnotVector::new(2, vec![0., 0., 0., 1., 2., 3., 4., 4., 5., 5., 5.]).unwrap();
+        assert_eq!(k.find_span(2.5), 4);
+        let [value, first, second] = k.basis_derivatives::<3>(4, 2.5);
+        for (found, exact) in [(value, [0.125, 0.75, 0.125]), (first, [-0.5, 0.0, 0.5]), (second, [1.0, -2.0, 1.0])] {
+            for r in 0..3 {
+                assert!((found[r] - exact[r]).abs() < 1e-15, "{found:?}");
             }
         }
-        let mut factor = p as f64;
-        for (order, row) in result.iter_mut().enumerate().skip(1) {
-            if order > p {
-                break;
-            }
-            for value in row.iter_mut() {
-                *value *= factor;
-            }
-            factor *= (p - order) as f64;
+    }
+
+    /// Open uniform and Bezier knots as commonly tabulated for five control points of order 3, 2 and 5.
+    #[test]
+    fn open_uniform_knots() {
+        let scaled = |degree: usize, spans: usize| -> Vec<f64> {
+            KnotVector::uniform(degree, spans).unwrap().knots().iter().map(|t| t * spans as f64).collect()
+        };
+        assert_eq!(scaled(2, 3), [0., 0., 0., 1., 2., 3., 3., 3.]);
+        assert_eq!(scaled(1, 4), [0., 0., 1., 2., 3., 4., 4.]);
+        assert_eq!(scaled(4, 1), [0., 0., 0., 0., 0., 1., 1., 1., 1., 1.]);
+    }
+
+    #[test]
+    fn bad_knots_are_errors() {
+        assert_eq!(KnotVector::uniform(8, 2), Err(SplineError::Degree(8)));
+        let problem = |knots: &[f64]| match KnotVector::new(2, knots.to_vec()) {
+            Err(SplineError::Knot { index, problem, .. }) => (index, problem),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(problem(&[0., 0., 0., 1., 1.]), (5, "too few knots"));
+        assert_eq!(problem(&[0., 0., 0., f64::NAN, 1., 1., 1.]), (3, "not finite"));
+        assert_eq!(problem(&[0., 0., 0., 2., 1., 3., 3., 3.]), (4, "smaller than the knot before it"));
+        assert_eq!(problem(&[0., 0., 1., 2., 3., 3., 3.]), (2, "the start is not clamped"));
+        assert_eq!(problem(&[0., 0., 0., 1., 2., 3., 3.]), (4, "the end is not clamped"));
+        assert_eq!(problem(&[0., 0., 0., 1., 1., 1., 2., 2., 2.]), (3, "repeated more often than the degree allows"));
+        assert!(matches!(
+            KnotVector::from_breakpoints(2, &[0.0, 1.0], &[1]),
+            Err(SplineError::PointCount { found: 3, expected: 2 })
+        ));
+    }
+
+    #[test]
+    fn strongly_graded_spans_are_found() {
+        let breaks: Vec<f64> = (0..60).map(|k| 0.5f64.powi(59 - k)).collect();
+        let k = KnotVector::from_breakpoints(3, &breaks, &[1; 58]).unwrap();
+        for (number, w) in breaks.windows(2).enumerate() {
+            assert_eq!(k.find_span(w[0]), number + 3);
+            assert_eq!(k.find_span(0.5 * (w[0] + w[1])), number + 3);
+            assert_eq!(k.find_span(w[1].next_down()), number + 3);
         }
-        result
+        assert_eq!((k.find_span(-1.0), k.find_span(2.0)), (3, 61));
+    }
+
+    proptest! {
+        #[test]
+        fn basis_is_a_partition_of_unity(k in knots(7)) {
+            for t in parameters(&k) {
+                let span = k.find_span(t);
+                prop_assert!(k.knots()[span] < k.knots()[span + 1]);
+                prop_assert!(k.knots()[span] <= t && (t < k.knots()[span + 1] || t >= k.domain().1));
+                let orders = k.basis_derivatives::<4>(span, t);
+                prop_assert!((orders[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);
+                prop_assert!(orders[0].iter().all(|value| *value >= 0.0));
+                for order in &orders[1..] {
+                    let size: f64 = order.iter().map(|value| value.abs()).sum();
+                    prop_assert!(order.iter().sum::<f64>().abs() <= 1e-14 * size);
+                }
+            }
+        }
+
+        #[test]
+        fn derivatives_are_the_slopes_of_those_below(k in knots(7)) {
+            for w in k.breakpoints().windows(2) {
+                let (t, h) = (0.6 * w[0] + 0.4 * w[1], 1e-5 * (w[1] - w[0]));
+                let span = k.find_span(t);
+                let [low, mid, high] = [t - h, t, t + h].map(|t| k.basis_derivatives::<8>(span, t));
+                for order in 0..7 {
+                    let size = low[order + 1].iter().chain(&low[order]).fold(0.0f64, |m, x| m.max(x.abs()));
+                    for r in 0..=k.degree() {
+                        let slope = (high[order][r] - low[order][r]) / (2.0 * h);
+                        let scale = size / (w[1] - w[0]);
+                        prop_assert!((slope - mid[order + 1][r]).abs() <= 1e-7 * scale.max(size));
+                    }
+                }
+            }
+        }
     }
 }

@@ -8,24 +8,8 @@ use super::knots::{KnotVector, SplineError};
 pub struct BsplineSurface<const D: usize> {
     u: KnotVector,
     v: KnotVector,
+    /// The net and one point of padding behind it, so that evaluation may read whole pairs of numbers.
     points: Vec<[f64; D]>,
-}
-
-/// Point and partial derivatives up to the second order of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfaceJet<const D: usize> {
-    /// S
-    pub point: [f64; D],
-    /// S_u
-    pub du: [f64; D],
-    /// S_v
-    pub dv: [f64; D],
-    /// S_uu
-    pub duu: [f64; D],
-    /// S_uv
-    pub duv: [f64; D],
-    /// S_vv
-    pub dvv: [f64; D],
 }
 
 impl<const D: usize> BsplineSurface<D> {
@@ -41,7 +25,22 @@ impl<const D: usize> BsplineSurface<D> {
         if let Some(index) = points.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
             return Err(SplineError::NotFinite(index));
         }
-        Ok(Self { u, v, points })
+        Ok(Self::from_parts(u, v, points))
+    }
+
+    /// A surface whose parts are known to fit; used inside the kernel only.
+    pub(super) fn from_parts(u: KnotVector, v: KnotVector, mut points: Vec<[f64; D]>) -> Self {
+        debug_assert_eq!(points.len(), u.basis_count() * v.basis_count());
+        points.push([0.0; D]);
+        Self { u, v, points }
+    }
+
+    /// The same surface with the parameters exchanged: (u, v) -> S(v, u).
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let [rows, columns] = self.shape();
+        let points = (0..columns).flat_map(|j| (0..rows).map(move |i| self.point(i, j))).collect();
+        Self::from_parts(self.v.clone(), self.u.clone(), points)
     }
 
     /// Knots in u.
@@ -59,7 +58,13 @@ impl<const D: usize> BsplineSurface<D> {
     /// The net, `u` slowest.
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
-        &self.points
+        &self.points[..self.points.len() - 1]
+    }
+
+    /// The numbers of the net, then D zeros.
+    #[inline]
+    pub(super) fn padded(&self) -> &[f64] {
+        self.points.as_flattened()
     }
 
     /// Numbers of control points in u and in v.
@@ -77,58 +82,10 @@ impl<const D: usize> BsplineSurface<D> {
         self.points[i * self.v.basis_count() + j]
     }
 
-    /// The point at (u, v).
-    #[must_use]
-    pub fn eval(&self, u: f64, v: f64) -> [f64; D] {
-        self.derivatives::<1>(u, v)[0][0]
-    }
-
-    /// `result[a][b]` is the derivative of order a in u and b in v, 0 to N - 1 each, in one call; nothing is allocated.
-    #[must_use]
-    pub fn derivatives<const N: usize>(&self, u: f64, v: f64) -> [[[f64; D]; N]; N] {
-        let clamp = |k: &KnotVector, t: f64| t.clamp(k.domain().0, k.domain().1);
-        let (u, v) = (clamp(&self.u, u), clamp(&self.v, v));
-        let (span_u, span_v) = (self.u.find_span(u), self.v.find_span(v));
-        let (basis_u, basis_v) = (self.u.basis_derivatives::<N>(span_u, u), self.v.basis_derivatives::<N>(span_v, v));
-        let (first_u, first_v) = (span_u - self.u.degree(), span_v - self.v.degree());
-        let columns = self.v.basis_count();
-        let mut result = [[[0.0; D]; N]; N];
-        for i in 0..=self.u.degree() {
-            let row = &self.points[(first_u + i) * columns + first_v..=(first_u + i) * columns + span_v];
-            let mut across = [[0.0; D]; N];
-            for (j, point) in row.iter().enumerate() {
-                for (sum, order) in across.iter_mut().zip(&basis_v) {
-                    for (s, c) in sum.iter_mut().zip(point) {
-                        *s += order[j] * c;
-                    }
-                }
-            }
-            for (a, order) in basis_u.iter().enumerate() {
-                for b in 0..N {
-                    for d in 0..D {
-                        result[a][b][d] += order[i] * across[b][d];
-                    }
-                }
-            }
-        }
-        result
-    }
-
-    /// Point, first and second derivatives at (u, v); nothing is allocated.
-    #[must_use]
-    pub fn jet(&self, u: f64, v: f64) -> SurfaceJet<D> {
-        let d = self.derivatives::<3>(u, v);
-        SurfaceJet { point: d[0][0], du: d[1][0], dv: d[0][1], duu: d[2][0], duv: d[1][1], dvv: d[0][2] }
-    }
-
     /// The curve u -> S(u, v) at fixed `v`, exactly.
     #[must_use]
     pub fn curve_at_v(&self, v: f64) -> BsplineCurve<D> {
-        let (a, b) = self.v.domain();
-        let v = v.clamp(a, b);
-        let span = self.v.find_span(v);
-        let basis = self.v.basis(span, v);
-        let first = span - self.v.degree();
+        let (first, [basis]) = self.v.orders_at::<1>(v);
         let points = (0..self.u.basis_count())
             .map(|i| {
                 let mut sum = [0.0; D];
@@ -147,11 +104,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// The curve v -> S(u, v) at fixed `u`, exactly.
     #[must_use]
     pub fn curve_at_u(&self, u: f64) -> BsplineCurve<D> {
-        let (a, b) = self.u.domain();
-        let u = u.clamp(a, b);
-        let span = self.u.find_span(u);
-        let basis = self.u.basis(span, u);
-        let first = span - self.u.degree();
+        let (first, [basis]) = self.u.orders_at::<1>(u);
         let points = (0..self.v.basis_count())
             .map(|j| {
                 let mut sum = [0.0; D];

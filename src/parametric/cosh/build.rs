@@ -8,6 +8,9 @@ use crate::hull::PrincipalParticulars;
 use crate::numeric::bracketed_root;
 use crate::parametric::{DesignValue, Generated, Infeasible, Origin, Target, achieved};
 
+/// Extremeness below which no other waterplane coefficient is tried.
+const ORDINARY: f64 = 4.0;
+
 impl Resolved {
     /// The form with shoulders and profiles, its fullness still open.
     fn form(&self, aft_shoulder: f64, fore_shoulder: f64) -> Form {
@@ -89,13 +92,11 @@ impl Resolved {
             .collect()
     }
 
-    /// Searches what was left free; the form with its waterplane coefficient and LCB.
+    /// Searches what was left free: the first ordinary form, else the least extreme one; with its waterplane coefficient
+    /// and LCB.
     fn search(&self) -> Option<(Form, Sourced, Sourced)> {
-        let searched = |value: f64, wish: Sourced| {
-            let same = (value - wish.value).abs() < 1e-12 * wish.value.abs();
-            Sourced { value, origin: if same { wish.origin } else { Origin::Solved } }
-        };
         let bodies = self.bodies();
+        let mut best: Option<(f64, Form, Sourced, Sourced)> = None;
         for fine in [false, true] {
             for &(aft, fore) in &bodies {
                 let form = self.form(aft, fore);
@@ -105,33 +106,45 @@ impl Resolved {
                 let nodes = form.height_nodes();
                 for waterplane in self.waterplanes() {
                     let goal = self.goal(waterplane, self.lcb.value);
-                    if let Some(found) =
-                        solve::solve(&form, &nodes, &goal, fine && self.waterplane.origin == Origin::Given)
-                    {
-                        return Some((found, searched(waterplane, self.waterplane), self.lcb));
+                    let given = self.waterplane.origin == Origin::Given;
+                    let Some(found) = solve::solve(&form, &nodes, &goal, fine && given) else { continue };
+                    let same = (waterplane - self.waterplane.value).abs() < 1e-12;
+                    let origin = if same { self.waterplane.origin } else { Origin::Solved };
+                    let far = ((waterplane - self.waterplane.value) / 0.04).powi(2);
+                    let cost = found.extremeness + far;
+                    if best.as_ref().is_none_or(|b| cost < b.0) {
+                        best = Some((cost, found.form, Sourced { value: waterplane, origin }, self.lcb));
                     }
+                    if found.extremeness < ORDINARY {
+                        break;
+                    }
+                }
+                if best.is_some() {
+                    break;
                 }
             }
-            if self.lcb.origin != Origin::Given {
-                // An LCB of our own choice gives way: to the middle of what the usual form can have.
-                let form = self.form(bodies[0].0, bodies[0].1);
-                let nodes = form.height_nodes();
-                for waterplane in self.waterplanes() {
-                    let goal = self.goal(waterplane, self.lcb.value);
-                    if let Some((low, high)) = solve::reach(&form, &nodes, &goal).lcb {
-                        let lcb = self.lcb.value.clamp(low + 0.25 * (high - low), high - 0.25 * (high - low));
-                        if let Some(found) = solve::solve(&form, &nodes, &self.goal(waterplane, lcb), true) {
-                            return Some((
-                                found,
-                                searched(waterplane, self.waterplane),
-                                Sourced { value: lcb, origin: Origin::Solved },
-                            ));
-                        }
-                    }
-                }
+            if best.is_none() && self.lcb.origin != Origin::Given {
+                best = self.search_lcb(bodies[0]);
+            }
+            if best.is_some() {
+                break;
             }
         }
-        None
+        best.map(|(_, form, waterplane, lcb)| (form, waterplane, lcb))
+    }
+
+    /// An LCB of our own choice gives way: into the range that the usual body can have.
+    fn search_lcb(&self, body: (f64, f64)) -> Option<(f64, Form, Sourced, Sourced)> {
+        let form = self.form(body.0, body.1);
+        let nodes = form.height_nodes();
+        self.waterplanes().into_iter().find_map(|waterplane| {
+            let goal = self.goal(waterplane, self.lcb.value);
+            let (low, high) = solve::reach(&form, &nodes, &goal).lcb?;
+            let value = self.lcb.value.clamp(low + 0.25 * (high - low), high - 0.25 * (high - low));
+            let found = solve::solve(&form, &nodes, &self.goal(waterplane, value), true)?;
+            let origin = Origin::Solved;
+            Some((found.extremeness, found.form, Sourced { value: waterplane, origin }, Sourced { value, origin }))
+        })
     }
 
     /// The sweep of the stern profile that gives the transom its breadth, by repeated solution at one entrance.
@@ -159,7 +172,7 @@ impl Resolved {
             form.stern.sweep = sweep;
             let nodes = form.height_nodes();
             form = match solve::at_entrance(&form, &nodes, goal, form.entrance.waterline)
-                .or_else(|| solve::solve(&form, &nodes, goal, true))
+                .or_else(|| solve::solve(&form, &nodes, goal, true).map(|found| found.form))
             {
                 Some(found) => found,
                 None => return Err(self.infeasible(&form, &nodes, goal)),

@@ -57,8 +57,9 @@ impl Stern {
     }
 }
 
-/// Fullness over height: phi = keel + (waterline - keel) H(z/T), H(s) = (1 - exp(-c s)) / (1 - exp(-c)); above the design
-/// waterline `flare` adds (1 - phi) flare ((z - T) / (D - T))^3.
+/// Fullness over height: phi = keel + (waterline - keel) H(z/T), H(s) = (1 - exp(-c s)) / (1 - exp(-c)) up to the design
+/// waterline. Above it, with d = s - 1, H = 1 + H'(1) (a (1 - exp(-k d)) / k + b d exp(-k d)), k = max(2, c), b = c/k - 1,
+/// a = 1 - b: continuous curvature, rising, bounded. `flare` adds (1 - phi) flare ((z - T) / (D - T))^3 there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Law {
     pub(super) keel: f64,
@@ -70,7 +71,17 @@ pub(super) struct Law {
 impl Law {
     fn at(&self, z: f64, draught: f64, depth: f64) -> f64 {
         let (s, c) = (z / draught, self.character);
-        let h = if c.abs() < 1e-9 { s } else { (-c * s).exp_m1() / (-c).exp_m1() };
+        let straight = c.abs() < 1e-9;
+        let h = if s > 1.0 {
+            let slope = if straight { 1.0 } else { c / c.exp_m1() };
+            let (d, k) = (s - 1.0, c.max(2.0));
+            let b = c / k - 1.0;
+            1.0 + slope * ((1.0 - b) * -(-k * d).exp_m1() / k + b * d * (-k * d).exp())
+        } else if straight {
+            s
+        } else {
+            (-c * s).exp_m1() / (-c).exp_m1()
+        };
         let mut phi = self.keel + (self.waterline - self.keel) * h;
         if s > 1.0 && self.flare > 0.0 {
             phi += (1.0 - phi) * self.flare * ((z - draught) / (depth - draught)).min(1.5).powi(3);

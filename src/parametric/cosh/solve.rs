@@ -93,8 +93,13 @@ fn extremeness(form: &Form, nodes: &[HeightNode], goal: &Goal) -> f64 {
     let lcf = (i.waterplane_moment / i.waterplane - goal.lcf) / (0.03 * form.length);
     let (e, r) = (form.entrance, form.run);
     let laws = ((e.waterline - e.keel) - (r.waterline - r.keel)) / 0.15;
-    let near = |law: f64| (LOWEST_FULLNESS + 0.03 - law).max(0.0) / 0.02;
-    lcf * lcf + laws * laws + near(e.keel).powi(2) + near(r.keel).powi(2)
+    let beyond = |law: f64, low: f64| ((low - law).max(0.0) + (law - 0.86).max(0.0)) / 0.02;
+    lcf * lcf
+        + laws * laws
+        + [(e.keel, 0.53), (r.keel, 0.53), (e.waterline, 0.58), (r.waterline, 0.58)]
+            .into_iter()
+            .map(|(law, low)| beyond(law, low).powi(2))
+            .sum::<f64>()
 }
 
 struct Search<'a> {
@@ -120,8 +125,15 @@ impl CostFunction for Search<'_> {
     }
 }
 
+/// A form with its distance from an ordinary one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Found {
+    pub(super) form: Form,
+    pub(super) extremeness: f64,
+}
+
 /// The least extreme form that reaches the goal; none when the scan meets none (`fine`: a scan for narrow ranges as well).
-pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) -> Option<Form> {
+pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) -> Option<Found> {
     let search = Search { form, nodes, goal };
     let cells = 14;
     let place = |k: usize| LOWEST_FULLNESS + 0.01 + (FULLEST - LOWEST_FULLNESS - 0.01) * k as f64 / cells as f64;
@@ -139,21 +151,21 @@ pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) 
         .and_then(|result| result.state().get_best_param().copied())
         .unwrap_or(place(best));
     let ew = if search.cost_at(refined) <= costs[best] { refined } else { place(best) };
-    at_entrance(form, nodes, goal, ew)
+    let form = at_entrance(form, nodes, goal, ew)?;
+    Some(Found { form, extremeness: extremeness(&form, nodes, goal) })
 }
 
 /// A finer scan, for goals that only a narrow range of entrances can reach.
-fn narrow(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Option<Form> {
+fn narrow(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Option<Found> {
     let cells = 120;
     (0..=cells)
         .filter_map(|k| {
             let ew = LOWEST_FULLNESS + (FULLEST - LOWEST_FULLNESS) * f64::from(k) / f64::from(cells);
             at_entrance(form, nodes, goal, ew)
         })
-        .map(|found| (extremeness(&found, nodes, goal), found))
-        .filter(|(cost, _)| cost.is_finite())
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, found)| found)
+        .map(|form| Found { form, extremeness: extremeness(&form, nodes, goal) })
+        .filter(|found| found.extremeness.is_finite())
+        .min_by(|a, b| a.extremeness.total_cmp(&b.extremeness))
 }
 
 /// Intervals that the family can reach with the profiles, the parallel body and the section of `form`.

@@ -1,0 +1,351 @@
+//! Midship section, largest section and parallel middle body at each of many draughts.
+//!
+//! On the spans of u whose lines are vertical (x does not depend on v) the area of the section through u is itself a spline in
+//! u, A(u) = 2 sum_i N_i(u) sum_j y_ij int M_j z_v dv, whose maximum is found exactly. Elsewhere areas are sampled from
+//! half-breadths at the nodes in v, interpolated in each span of u, and the area at the place so found is taken from
+//! [`Functional::SectionArea`]; its place is then known to about 1e-4 of the length of the span and the area to the square
+//! of that.
+
+use super::volume::{Node, count_up, nodes};
+use crate::hull::{Functional, Hull, Immersion};
+use crate::spline::MAX_DEGREE;
+
+/// Sections equal to the largest one within this relative difference belong to the parallel middle body.
+pub(super) const PARALLEL_TOLERANCE: f64 = 1e-6;
+
+/// Shortest parallel middle body, as a part of L_PP.
+pub(super) const PARALLEL_LENGTH: f64 = 0.01;
+
+/// Two areas are equal when they differ by less than this, relative to the larger one.
+const ROUNDING: f64 = 1e-13;
+
+/// Sections below one draught.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Sections {
+    /// Area of the section at L_PP / 2 [m^2].
+    pub(super) midship: f64,
+    /// Largest section area [m^2].
+    pub(super) largest: f64,
+    /// Its place [m].
+    pub(super) place: Option<f64>,
+    /// Ends of the parallel middle body [m].
+    pub(super) parallel: Option<[f64; 2]>,
+}
+
+/// Samples on one span of u: Chebyshev extremes, ends included.
+struct Span {
+    span: usize,
+    ends: (f64, f64),
+    vertical: bool,
+    /// Parameters.
+    u: Vec<f64>,
+    /// Basis functions in u there.
+    basis: Vec<[f64; MAX_DEGREE + 1]>,
+    /// x there; on the line `reference` where the lines are not vertical.
+    x: Vec<f64>,
+}
+
+/// What is the same for every draught.
+struct Table<'a, const N: usize> {
+    hull: &'a Hull,
+    spans: Vec<Span>,
+    /// Nodes in v, `count` a span of v.
+    nodes: Vec<Node<N>>,
+    count: usize,
+    /// Half-breadths at the nodes, for every sample of the spans that are not vertical, in order.
+    breadths: Vec<Vec<f64>>,
+}
+
+/// The sections below each immersion.
+pub(super) fn sections(hull: &Hull, immersions: &[Option<Immersion>]) -> Vec<Sections> {
+    match hull.surface().v().degree() {
+        1 => sections_of::<2>(hull, immersions),
+        2 => sections_of::<3>(hull, immersions),
+        3 => sections_of::<4>(hull, immersions),
+        4 => sections_of::<5>(hull, immersions),
+        5 => sections_of::<6>(hull, immersions),
+        6 => sections_of::<7>(hull, immersions),
+        _ => sections_of::<{ MAX_DEGREE + 1 }>(hull, immersions),
+    }
+}
+
+fn sections_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>]) -> Vec<Sections> {
+    let table = Table::<N>::new(hull);
+    immersions.iter().map(|immersion| immersion.as_ref().map_or_else(Sections::default, |i| table.below(i))).collect()
+}
+
+impl<'a, const N: usize> Table<'a, N> {
+    fn new(hull: &'a Hull) -> Self {
+        let surface = hull.surface();
+        let (knots, p, columns) = (surface.u(), surface.u().degree(), surface.shape()[1]);
+        let reference = surface.curve_at_v(surface.v().domain().1);
+        let straight: Vec<bool> = (0..surface.shape()[0])
+            .map(|i| {
+                let row = &surface.points()[i * columns..(i + 1) * columns];
+                row.iter().all(|point| point[0].to_bits() == row[0][0].to_bits())
+            })
+            .collect();
+        let samples = p.max(3);
+        let spans: Vec<Span> = knots
+            .spans()
+            .into_iter()
+            .map(|span| {
+                let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
+                let u: Vec<f64> = (0..=samples)
+                    .map(|k| {
+                        let place = 0.5 - 0.5 * (std::f64::consts::PI * k as f64 / samples as f64).cos();
+                        if k == samples { to } else { from + (to - from) * place }
+                    })
+                    .collect();
+                let basis: Vec<[f64; MAX_DEGREE + 1]> = u.iter().map(|&u| knots.basis(span, u)).collect();
+                let points = &reference.points()[span - p..=span];
+                let x = basis.iter().map(|b| b.iter().zip(points).map(|(b, c)| b * c[0]).sum()).collect();
+                let vertical = straight[span - p..=span].iter().all(|&flag| flag);
+                Span { span, ends: (from, to), vertical, u, basis, x }
+            })
+            .collect();
+        let count = count_up(hull);
+        let mut all = Vec::new();
+        for span in surface.v().spans() {
+            nodes::<N>(hull, span, f64::INFINITY, count, &mut all);
+        }
+        let mut table = Self { hull, spans, nodes: all, count, breadths: Vec::new() };
+        let sampled = table.spans.iter().filter(|span| !span.vertical).flat_map(|span| &span.x);
+        table.breadths = sampled
+            .map(|&x| {
+                let breadth =
+                    |node: &Node<N>| hull.length_parameter(x, node.v).map_or(0.0, |u| surface.eval(u, node.v)[1]);
+                table.nodes.iter().map(breadth).collect()
+            })
+            .collect();
+        table
+    }
+
+    /// Exact area of the section at `x` below `immersion`.
+    fn area(&self, x: f64, immersion: &Immersion) -> f64 {
+        Functional::SectionArea { x }.value(self.hull, immersion.draught())
+    }
+
+    fn below(&self, immersion: &Immersion) -> Sections {
+        let surface = self.hull.surface();
+        let (p, columns) = (surface.u().degree(), surface.shape()[1]);
+        let midship = 0.5 * self.hull.particulars().length_between_perpendiculars;
+        let deck = immersion.deck_immersed();
+        // Weights of the control points in v and of the half-breadths at the nodes.
+        let (across, at_nodes) = self.weights(immersion.waterline());
+        // Areas of the vertical lines: control values of a spline in u.
+        let line: Vec<f64> = surface
+            .points()
+            .chunks_exact(columns)
+            .map(|row| row.iter().zip(&across).map(|(point, weight)| weight * point[1]).sum())
+            .collect();
+        let spline = |span: &Span, u: f64| -> [f64; 2] {
+            let rows = surface.u().basis_derivatives::<2>(span.span, u);
+            let points = &line[span.span - p..=span.span];
+            rows.map(|row| row.iter().zip(points).map(|(b, c)| b * c).sum())
+        };
+        let mut breadths = self.breadths.iter();
+        let samples: Vec<Vec<f64>> = self
+            .spans
+            .iter()
+            .map(|span| {
+                let points = &line[span.span - p..=span.span];
+                let sampled = |index: usize| -> f64 {
+                    if deck {
+                        self.area(span.x[index], immersion)
+                    } else {
+                        span.basis[index].iter().zip(points).map(|(b, c)| b * c).sum()
+                    }
+                };
+                if span.vertical {
+                    return (0..span.u.len()).map(sampled).collect();
+                }
+                (0..span.u.len())
+                    .map(|index| {
+                        let heights = breadths.next();
+                        if deck {
+                            return self.area(span.x[index], immersion);
+                        }
+                        heights.map_or(0.0, |y| y.iter().zip(&at_nodes).map(|(y, weight)| weight * y).sum())
+                    })
+                    .collect()
+            })
+            .collect();
+        // Exact value at a place of a span.
+        let exact = |k: usize, u: f64| -> (f64, f64) {
+            let span = &self.spans[k];
+            let x = self.place(span, u);
+            (x, if span.vertical && !deck { spline(span, u)[0] } else { self.area(x, immersion) })
+        };
+        let at_midship = self
+            .spans
+            .iter()
+            .position(|span| span.vertical && span.x[0] <= midship && midship <= span.x[span.x.len() - 1])
+            .filter(|_| !deck)
+            .and_then(|k| Some(spline(&self.spans[k], self.hull.length_parameter(midship, immersion.waterline())?)[0]));
+        let midship_area = at_midship.unwrap_or_else(|| self.area(midship, immersion));
+
+        let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let top = samples.iter().map(|values| highest(values)).fold(0.0, f64::max);
+        let (mut best, mut place) = (midship_area, midship);
+        if top > 0.0 {
+            for (k, values) in samples.iter().enumerate() {
+                // Spans next to the highest sample hold the maximum; others are lower by more than a span can rise.
+                if highest(values) < top * (1.0 - 1e-2) {
+                    continue;
+                }
+                let span = &self.spans[k];
+                let polynomial = Interpolant { u: &span.u, values };
+                for u in polynomial.maxima(span.ends) {
+                    if polynomial.value(u) < best * (1.0 - 1e-3) {
+                        continue;
+                    }
+                    let (x, area) = exact(k, u);
+                    if area > best * (1.0 + ROUNDING) {
+                        (best, place) = (area, x);
+                    }
+                }
+            }
+        }
+        if best <= 0.0 {
+            return Sections { midship: midship_area.max(0.0), ..Sections::default() };
+        }
+        let parallel = self.parallel(&samples, best, place);
+        let place = parallel.map_or(place, |[aft, fore]| 0.5 * (aft + fore));
+        Sections { midship: midship_area, largest: best, place: Some(place), parallel }
+    }
+
+    /// x at `u`, on the reference line.
+    fn place(&self, span: &Span, u: f64) -> f64 {
+        let v = self.hull.surface().v().domain().1;
+        let _ = span;
+        self.hull.surface().eval(u, v)[0]
+    }
+
+    /// Extent around `place` of the sections that equal `best`.
+    fn parallel(&self, samples: &[Vec<f64>], best: f64, place: f64) -> Option<[f64; 2]> {
+        let enough = best * (1.0 - PARALLEL_TOLERANCE);
+        let flat: Vec<(usize, usize)> =
+            samples.iter().enumerate().flat_map(|(k, values)| (0..values.len()).map(move |index| (k, index))).collect();
+        let x = |at: (usize, usize)| self.spans[at.0].x[at.1];
+        let value = |at: (usize, usize)| samples[at.0][at.1];
+        // The run of samples that contains the place.
+        let after = flat.partition_point(|&at| x(at) < place).min(flat.len() - 1);
+        let start = [after, after.saturating_sub(1)].into_iter().find(|&i| value(flat[i]) >= enough)?;
+        let (mut low, mut high) = (start, start);
+        while low > 0 && value(flat[low - 1]) >= enough {
+            low -= 1;
+        }
+        while high + 1 < flat.len() && value(flat[high + 1]) >= enough {
+            high += 1;
+        }
+        // Between the last equal sample and the first lower one, both of one span.
+        let edge = |inside: (usize, usize), outside: Option<(usize, usize)>| -> f64 {
+            let Some(outside) = outside.filter(|outside| outside.0 == inside.0) else { return x(inside) };
+            let span = &self.spans[inside.0];
+            let polynomial = Interpolant { u: &span.u, values: &samples[inside.0] };
+            let (mut good, mut bad) = (span.u[inside.1], span.u[outside.1]);
+            for _ in 0..50 {
+                let middle = 0.5 * (good + bad);
+                if polynomial.value(middle) >= enough {
+                    good = middle;
+                } else {
+                    bad = middle;
+                }
+            }
+            self.place(span, good)
+        };
+        let ends =
+            [edge(flat[low], low.checked_sub(1).map(|i| flat[i])), edge(flat[high], flat.get(high + 1).copied())];
+        let shortest = PARALLEL_LENGTH * self.hull.particulars().length_between_perpendiculars;
+        (ends[1] - ends[0] >= shortest).then_some(ends)
+    }
+
+    /// Weights w_j with A = sum_j w_j y_j for the control points of a vertical line below `end`, and weights for the
+    /// half-breadths at the nodes, both sides counted.
+    fn weights(&self, end: f64) -> (Vec<f64>, Vec<f64>) {
+        let knots = self.hull.surface().v();
+        let mut across = vec![0.0; self.hull.surface().shape()[1]];
+        let mut at_nodes = vec![0.0; self.nodes.len()];
+        let mut add = |node: &Node<N>| {
+            for (target, b) in across[node.first..].iter_mut().zip(&node.value) {
+                *target += 2.0 * node.weight * node.rise * b;
+            }
+        };
+        for (k, span) in knots.spans().into_iter().enumerate() {
+            let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
+            let own = k * self.count..(k + 1) * self.count;
+            if to <= end {
+                for (node, target) in self.nodes[own.clone()].iter().zip(&mut at_nodes[own]) {
+                    add(node);
+                    *target = 2.0 * node.weight * node.rise;
+                }
+            } else if from < end {
+                let mut part = Vec::with_capacity(self.count);
+                nodes::<N>(self.hull, span, end, self.count, &mut part);
+                let sites: Vec<f64> = self.nodes[own.clone()].iter().map(|node| node.v).collect();
+                for node in &part {
+                    add(node);
+                    for (k, target) in at_nodes[own.clone()].iter_mut().enumerate() {
+                        *target += 2.0 * node.weight * node.rise * lagrange(&sites, k, node.v);
+                    }
+                }
+            }
+        }
+        (across, at_nodes)
+    }
+}
+
+/// The Lagrange polynomial of site `k` at `t`.
+fn lagrange(sites: &[f64], k: usize, t: f64) -> f64 {
+    let others = sites.iter().enumerate().filter(|&(i, _)| i != k);
+    others.map(|(_, site)| (t - site) / (sites[k] - site)).product()
+}
+
+/// The polynomial through values at distinct parameters.
+struct Interpolant<'a> {
+    u: &'a [f64],
+    values: &'a [f64],
+}
+
+impl Interpolant<'_> {
+    fn value(&self, u: f64) -> f64 {
+        self.values.iter().enumerate().map(|(k, value)| value * lagrange(self.u, k, u)).sum()
+    }
+
+    /// The derivative, by the exact rule for the polynomial of degree n: a Gauss rule is not needed, a sum over pairs is.
+    fn slope(&self, u: f64) -> f64 {
+        let mut sum = 0.0;
+        for (k, value) in self.values.iter().enumerate() {
+            for m in (0..self.u.len()).filter(|&m| m != k) {
+                let others = (0..self.u.len()).filter(|&i| i != k && i != m);
+                let product: f64 = others.map(|i| (u - self.u[i]) / (self.u[k] - self.u[i])).product();
+                sum += value * product / (self.u[k] - self.u[m]);
+            }
+        }
+        sum
+    }
+
+    /// The ends and the interior maxima.
+    fn maxima(&self, ends: (f64, f64)) -> Vec<f64> {
+        let mut found = vec![ends.0, ends.1];
+        let count = 2 * self.u.len();
+        let at = |k: usize| ends.0 + (ends.1 - ends.0) * k as f64 / count as f64;
+        for k in 0..count {
+            let (mut low, mut high) = (at(k), at(k + 1));
+            if self.slope(low) <= 0.0 || self.slope(high) >= 0.0 {
+                continue;
+            }
+            for _ in 0..52 {
+                let middle = 0.5 * (low + high);
+                if self.slope(middle) > 0.0 {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            found.push(0.5 * (low + high));
+        }
+        found
+    }
+}

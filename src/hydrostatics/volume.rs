@@ -1,0 +1,350 @@
+//! Volume, its moments, wetted surface, lateral plane and ends below each of many draughts, from one pass over the surface.
+//!
+//! For every Gauss node in u the net is collapsed in u once; the products are then summed at fixed nodes in v: the nodes of
+//! each span, and for each draught the nodes of the part of its last span below the waterline. Sums up to the knots in v are
+//! kept, so that a draught costs its part of one span: O(spans_u (spans_v + draughts)) in all. Sums run in a fixed order.
+//!
+//! Volume and moments are exact to rounding, the rules being exact for the piecewise polynomial integrands. The wetted
+//! surface 2 int int |S_u x S_v| dv du is not polynomial; its relative error is below 1e-8 where the surface is smooth within
+//! its spans. Draughts that immerse the deck at side are integrated one by one, u-line by u-line up to the deck.
+
+use crate::hull::{Hull, Immersion, UpperEnd};
+use crate::numeric::gauss_legendre;
+use crate::spline::MAX_DEGREE;
+
+/// Nodes a piece in u where the body ends at the deck.
+const DECK_NODES: usize = 16;
+
+/// Nodes at least over the whole of u, and of v, so that the wetted surface of a net with few spans is accurate too.
+const NODES_ALONG: usize = 48;
+const NODES_UP: usize = 24;
+
+/// Integrals over the body below one draught, both sides.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Body {
+    /// Volume [m^3].
+    pub(super) volume: f64,
+    /// Its moment about x = 0 [m^4].
+    pub(super) moment_x: f64,
+    /// Its moment about z = 0 [m^4].
+    pub(super) moment_z: f64,
+    /// Volume aft of midship [m^3]; none where the deck is immersed.
+    pub(super) aft: Option<f64>,
+    /// Area of the side [m^2].
+    pub(super) side: f64,
+    /// True area of transom and flat bow [m^2].
+    pub(super) ends: f64,
+    /// Area of the transom projected along x [m^2].
+    pub(super) transom: f64,
+    /// Area of the profile [m^2].
+    pub(super) lateral: f64,
+    /// Its moment about x = 0 [m^3].
+    pub(super) lateral_x: f64,
+    /// Its moment about z = 0 [m^3].
+    pub(super) lateral_z: f64,
+}
+
+impl Body {
+    fn add(&mut self, other: &Self) {
+        self.volume += other.volume;
+        self.moment_x += other.moment_x;
+        self.moment_z += other.moment_z;
+        self.aft = self.aft.zip(other.aft).map(|(a, b)| a + b);
+        self.side += other.side;
+        self.ends += other.ends;
+        self.transom += other.transom;
+        self.lateral += other.lateral;
+        self.lateral_x += other.lateral_x;
+        self.lateral_z += other.lateral_z;
+    }
+}
+
+/// A node in v with the N = q + 1 basis functions that do not vanish there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node<const N: usize> {
+    /// Parameter.
+    pub(super) v: f64,
+    /// Index of the first of the basis functions.
+    pub(super) first: usize,
+    /// Their values.
+    pub(super) value: [f64; N],
+    /// Their derivatives.
+    pub(super) slope: [f64; N],
+    /// Weight of the rule.
+    pub(super) weight: f64,
+    /// z.
+    pub(super) z: f64,
+    /// dz/dv.
+    pub(super) rise: f64,
+}
+
+/// Gauss nodes of the part of `span` below `end`.
+pub(super) fn nodes<const N: usize>(hull: &Hull, span: usize, end: f64, count: usize, into: &mut Vec<Node<N>>) {
+    let knots = hull.surface().v();
+    let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
+    if to <= from {
+        return;
+    }
+    let first = span + 1 - N;
+    let heights = &hull.heights().points()[first..=span];
+    for (v, weight) in gauss_legendre(count).on(from, to) {
+        let rows = knots.basis_derivatives::<2>(span, v);
+        let (mut value, mut slope) = ([0.0; N], [0.0; N]);
+        value.copy_from_slice(&rows[0][..N]);
+        slope.copy_from_slice(&rows[1][..N]);
+        let sum = |row: &[f64; N]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
+        into.push(Node { v, first, value, slope, weight, z: sum(&value), rise: sum(&slope) });
+    }
+}
+
+/// Number of nodes in v on every span: volume moments are of degree 4q - 1.
+pub(super) fn count_up(hull: &Hull) -> usize {
+    let knots = hull.surface().v();
+    (2 * knots.degree()).max(NODES_UP.div_ceil(knots.spans().len()))
+}
+
+/// Number of nodes in u on every span: the moment about x = 0 is of degree 3p - 1.
+fn count_along(hull: &Hull) -> usize {
+    let knots = hull.surface().u();
+    (3 * knots.degree()).div_ceil(2).max(NODES_ALONG.div_ceil(knots.spans().len()))
+}
+
+/// Integrals in u at one node in v, one side.
+#[derive(Debug, Clone, Copy, Default)]
+struct Line {
+    area: f64,
+    moment: f64,
+    skin: f64,
+    aft: f64,
+}
+
+/// Coordinates x, y and derivatives x_u, y_u of the columns of the net at one u.
+fn collapse(hull: &Hull, span: usize, u: f64, columns: &mut [[f64; 4]]) {
+    let knots = hull.surface().u();
+    let [value, slope] = knots.basis_derivatives::<2>(span, u);
+    columns.fill([0.0; 4]);
+    let count = columns.len();
+    for (i, row) in (span - knots.degree()..=span).enumerate() {
+        let points = &hull.surface().points()[row * count..(row + 1) * count];
+        for (column, point) in columns.iter_mut().zip(points) {
+            column[0] += value[i] * point[0];
+            column[1] += value[i] * point[1];
+            column[2] += slope[i] * point[0];
+            column[3] += slope[i] * point[1];
+        }
+    }
+}
+
+/// x, y, x_u, y_u and the norm of S_u x S_v at a node.
+fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]]) -> ([f64; 4], f64) {
+    let (mut at, mut up) = ([0.0; 4], [0.0; 2]);
+    for ((column, value), slope) in columns[node.first..node.first + N].iter().zip(&node.value).zip(&node.slope) {
+        for (sum, c) in at.iter_mut().zip(column) {
+            *sum += value * c;
+        }
+        up[0] += slope * column[0];
+        up[1] += slope * column[1];
+    }
+    let across = at[2] * up[1] - at[3] * up[0];
+    let skin = ((at[2] * at[2] + at[3] * at[3]) * node.rise * node.rise + across * across).sqrt();
+    (at, skin)
+}
+
+/// The integrals below each immersion, volumes being parted at x = `midship`; zero where nothing is immersed.
+pub(super) fn bodies(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Vec<Body> {
+    match hull.surface().v().degree() {
+        1 => bodies_of::<2>(hull, immersions, midship),
+        2 => bodies_of::<3>(hull, immersions, midship),
+        3 => bodies_of::<4>(hull, immersions, midship),
+        4 => bodies_of::<5>(hull, immersions, midship),
+        5 => bodies_of::<6>(hull, immersions, midship),
+        6 => bodies_of::<7>(hull, immersions, midship),
+        _ => bodies_of::<{ MAX_DEGREE + 1 }>(hull, immersions, midship),
+    }
+}
+
+fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Vec<Body> {
+    let knots = hull.surface().v();
+    let spans = knots.spans();
+    let count = count_up(hull);
+    let mut all = Vec::with_capacity((spans.len() + immersions.len()) * count);
+    for &span in &spans {
+        nodes::<N>(hull, span, f64::INFINITY, count, &mut all);
+    }
+    // What each draught takes: the whole spans below it and its own nodes.
+    let own: Vec<(usize, std::ops::Range<usize>)> = immersions
+        .iter()
+        .map(|immersion| {
+            let start = all.len();
+            let Some(immersion) = immersion.as_ref().filter(|i| !i.deck_immersed()) else { return (0, start..start) };
+            let end = immersion.waterline();
+            let whole = spans.iter().take_while(|&&span| knots.knots()[span + 1] <= end).count();
+            if let Some(&span) = spans.get(whole) {
+                nodes::<N>(hull, span, end, count, &mut all);
+            }
+            (whole, start..all.len())
+        })
+        .collect();
+    let lines = pass(hull, &all, midship);
+    let mut below = vec![Body { aft: Some(0.0), ..Body::default() }];
+    let mut sum = below[0];
+    for (k, (node, line)) in all.iter().zip(&lines).take(spans.len() * count).enumerate() {
+        sum.add(&contribution(hull, node, line));
+        if (k + 1) % count == 0 {
+            below.push(sum);
+        }
+    }
+    let mut bodies = Vec::with_capacity(immersions.len());
+    for (immersion, (whole, range)) in immersions.iter().zip(own) {
+        bodies.push(match immersion {
+            None => Body::default(),
+            Some(immersion) if immersion.deck_immersed() => body_below_deck::<N>(hull, immersion),
+            Some(_) => {
+                let mut body = below[whole];
+                for (node, line) in all[range.clone()].iter().zip(&lines[range]) {
+                    body.add(&contribution(hull, node, line));
+                }
+                body
+            }
+        });
+    }
+    bodies
+}
+
+/// The pass over the surface: integrals in u at every node.
+fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], midship: f64) -> Vec<Line> {
+    let knots = hull.surface().u();
+    let count = count_along(hull);
+    let mut columns = vec![[0.0; 4]; hull.surface().shape()[1]];
+    let mut lines = vec![Line::default(); nodes.len()];
+    // The span in which each node's line passes midship, and the parameter there.
+    let passages: Vec<Option<(usize, f64)>> =
+        nodes.iter().map(|node| hull.length_parameter(midship, node.v).map(|u| (knots.find_span(u), u))).collect();
+    for span in knots.spans() {
+        for ((node, line), passage) in nodes.iter().zip(&mut lines).zip(&passages) {
+            if let Some((at, u)) = *passage
+                && at == span
+            {
+                line.aft = line.area + part_of_span(hull, node, span, u);
+            }
+        }
+        for (u, weight) in gauss_legendre(count).on(knots.knots()[span], knots.knots()[span + 1]) {
+            collapse(hull, span, u, &mut columns);
+            for (node, line) in nodes.iter().zip(&mut lines) {
+                let ([x, y, along, _], skin) = point(node, &columns);
+                let area = weight * y * along;
+                line.area += area;
+                line.moment += area * x;
+                line.skin += weight * skin;
+            }
+        }
+    }
+    for ((node, line), passage) in nodes.iter().zip(&mut lines).zip(&passages) {
+        if passage.is_none() {
+            let stern = hull.surface().eval(knots.domain().0, node.v)[0];
+            line.aft = if stern < midship { line.area } else { 0.0 };
+        }
+    }
+    lines
+}
+
+/// int y x_u du from the start of `span` to `end` at a node.
+fn part_of_span<const N: usize>(hull: &Hull, node: &Node<N>, span: usize, end: f64) -> f64 {
+    let surface = hull.surface();
+    let (knots, p, columns) = (surface.u(), surface.u().degree(), surface.shape()[1]);
+    let mut row = [[0.0; 2]; MAX_DEGREE + 1];
+    for (i, at) in row.iter_mut().enumerate().take(p + 1) {
+        let points = &surface.points()[(span - p + i) * columns + node.first..];
+        for (b, point) in node.value.iter().zip(points) {
+            at[0] += b * point[0];
+            at[1] += b * point[1];
+        }
+    }
+    gauss_legendre(p)
+        .on(knots.knots()[span], end)
+        .map(|(u, weight)| {
+            let [value, slope] = knots.basis_derivatives::<2>(span, u);
+            let y: f64 = value.iter().zip(&row).map(|(b, c)| b * c[1]).sum();
+            let along: f64 = slope.iter().zip(&row).map(|(b, c)| b * c[0]).sum();
+            weight * y * along
+        })
+        .sum()
+}
+
+/// Half-breadth and length along the profile of one end at a node: x, y, and the length of S_v.
+fn profile<const N: usize>(hull: &Hull, node: &Node<N>, row: usize) -> [f64; 3] {
+    let columns = hull.surface().shape()[1];
+    let points = &hull.surface().points()[row * columns + node.first..row * columns + node.first + N];
+    let (mut x, mut y, mut up) = (0.0, 0.0, 0.0);
+    for ((point, value), slope) in points.iter().zip(&node.value).zip(&node.slope) {
+        x += value * point[0];
+        y += value * point[1];
+        up += slope * point[0];
+    }
+    [x, y, up.hypot(node.rise)]
+}
+
+/// What a node adds to the integrals, both sides.
+fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &Line) -> Body {
+    let height = node.weight * node.rise;
+    let [stern, breadth_aft, length_aft] = profile(hull, node, 0);
+    let [stem, breadth_fore, length_fore] = profile(hull, node, hull.surface().shape()[0] - 1);
+    let length = stem - stern;
+    Body {
+        volume: 2.0 * height * line.area,
+        moment_x: 2.0 * height * line.moment,
+        moment_z: 2.0 * height * line.area * node.z,
+        aft: Some(2.0 * height * line.aft),
+        side: 2.0 * node.weight * line.skin,
+        ends: 2.0 * node.weight * (breadth_aft * length_aft + breadth_fore * length_fore),
+        transom: 2.0 * height * breadth_aft,
+        lateral: height * length,
+        lateral_x: height * length * 0.5 * (stern + stem),
+        lateral_z: height * length * node.z,
+    }
+}
+
+/// The integrals below a draught that may immerse the deck at side.
+fn body_below_deck<const N: usize>(hull: &Hull, immersion: &Immersion) -> Body {
+    let surface = hull.surface();
+    let (count, along) = (count_up(hull), count_along(hull));
+    let mut columns = vec![[0.0; 4]; surface.shape()[1]];
+    let mut below: Vec<Node<N>> = Vec::new();
+    let mut body = Body::default();
+    let fill = |end: f64, below: &mut Vec<Node<N>>| {
+        below.clear();
+        for span in surface.v().spans() {
+            nodes(hull, span, end, count, below);
+        }
+    };
+    for piece in immersion.pieces() {
+        let at_deck = piece.upper == UpperEnd::Deck;
+        for (u, weight) in gauss_legendre(if at_deck { along.max(DECK_NODES) } else { along }).on(piece.from, piece.to)
+        {
+            collapse(hull, piece.span, u, &mut columns);
+            fill(immersion.end(u), &mut below);
+            for node in &below {
+                let ([x, y, along, _], skin) = point(node, &columns);
+                let profile = weight * node.weight * node.rise * along;
+                body.volume += 2.0 * profile * y;
+                body.moment_x += 2.0 * profile * y * x;
+                body.moment_z += 2.0 * profile * y * node.z;
+                body.side += 2.0 * weight * node.weight * skin;
+                body.lateral += profile;
+                body.lateral_x += profile * x;
+                body.lateral_z += profile * node.z;
+            }
+        }
+    }
+    for (u, row) in [(surface.u().domain().0, 0), (surface.u().domain().1, surface.shape()[0] - 1)] {
+        fill(immersion.end(u), &mut below);
+        for node in &below {
+            let [_, y, length] = profile(hull, node, row);
+            body.ends += 2.0 * node.weight * y * length;
+            if row == 0 {
+                body.transom += 2.0 * node.weight * node.rise * y;
+            }
+        }
+    }
+    body
+}
