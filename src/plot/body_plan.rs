@@ -154,6 +154,12 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
     }
 }
 
+/// `3 – 5`; after a negative number `-½ to ½`.
+fn range(first: &str, last: &str) -> String {
+    let between = if first.starts_with('-') { "to" } else { "–" };
+    format!("{first} {between} {last}")
+}
+
 /// Names of the sections of one half over their ends at the deck; those that end too close to each other bear one name.
 #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
 fn name_stations(
@@ -181,7 +187,7 @@ fn name_stations(
     }
     for (at, planes) in groups {
         let (first, last) = (planes[0], planes[planes.len() - 1]);
-        let name = if planes.len() > 1 { format!("{} – {}", first.name, last.name) } else { first.name.clone() };
+        let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
         let rows: Vec<_> = (0..6).map(|row| [at[0], at[1] - (0.9 + 1.15 * f64::from(row)) * text_size]).collect();
         if let Some(row) = placer.name_point(canvas, &name, &style, &rows, &room).filter(|&row| row > 0) {
             // A thread from the section to a name that stands higher.

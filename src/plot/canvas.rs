@@ -243,7 +243,10 @@ impl Canvas {
     /// Elements of another SVG writer, its origin at `at`, its unit `unit` millimetres.
     pub(super) fn embed(&mut self, elements: &str, at: [f64; 2], unit: f64) {
         let (x, y) = (number(at[0]), number(at[1]));
-        let _ = writeln!(self.body, "<g transform=\"translate({x} {y}) scale({unit})\">\n{elements}</g>");
+        let _ = writeln!(
+            self.body,
+            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\">\n{elements}</g>"
+        );
     }
 
     /// The rectangle that `text` takes at `at`.

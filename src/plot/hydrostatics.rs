@@ -121,7 +121,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             text_size: TEXT,
         };
         let mut placer = LabelPlacer::default();
-        chart.draw_with_level(&mut canvas, &mut placer, &series, draught, &format!("DWL {draught:.2} m"))?;
+        chart.draw(&mut canvas, &mut placer, &series, Some((draught, &format!("DWL {draught:.2} m"))))?;
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)

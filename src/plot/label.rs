@@ -95,6 +95,26 @@ impl LabelPlacer {
         true
     }
 
+    /// Writes `name` at that of `places` inside `window` and off other text where it meets fewest curves.
+    pub(super) fn name_clear(
+        &mut self,
+        canvas: &mut Canvas,
+        name: &str,
+        style: &TextStyle,
+        places: &[[f64; 2]],
+        window: &Rectangle,
+    ) {
+        let free = places.iter().filter_map(|&at| {
+            let place = Canvas::text_place(at, name, style).grown(0.1 * style.size);
+            let blocked = !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place));
+            (!blocked).then(|| (self.crossings(&place, None), at, place))
+        });
+        if let Some((_, at, place)) = free.min_by_key(|(crossings, _, _)| *crossings) {
+            self.take(place);
+            canvas.text(at, name, style);
+        }
+    }
+
     /// Writes `name` at the first of `places` that keeps off other text and stays inside `window`, and returns
     /// which; none when none does.
     pub(super) fn name_point(
