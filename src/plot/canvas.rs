@@ -155,6 +155,7 @@ impl Canvas {
         Self { width, height, body: String::new(), clips: 0, texts: Vec::new() }
     }
 
+    #[cfg(test)]
     pub(super) fn sheet(&self) -> Rectangle {
         Rectangle::new(0.0, 0.0, self.width, self.height)
     }

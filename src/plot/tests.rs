@@ -179,20 +179,3 @@ fn curves_need_two_draughts() {
         assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
     }
 }
-
-#[test]
-fn figures_to_look_at() {
-    let Ok(folder) = std::env::var("LOFTSMAN_FIGURES") else { return };
-    for hull in &hulls() {
-        let name = hull.name().replace(' ', "-");
-        for figure in Figure::ALL {
-            let start = std::time::Instant::now();
-            let svg = with_inputs(hull, |inputs| figure.draw(inputs)).unwrap();
-            let drawn = start.elapsed();
-            let png = svg.to_png(figure.dots_per_inch()).unwrap();
-            eprintln!("{name} {} {drawn:?} {:?} {}", figure.key(), start.elapsed(), png.len());
-            std::fs::write(format!("{folder}/{name}-{}.png", figure.key()), png).unwrap();
-            std::fs::write(format!("{folder}/{name}-{}.svg", figure.key()), svg.as_str()).unwrap();
-        }
-    }
-}
