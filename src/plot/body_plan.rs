@@ -80,7 +80,14 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
         if *length < SHORT {
             continue;
         }
-        placer.name_curve(canvas, first + k, name, &style, Preference { part: 0.3, crossings: 0 }, &frame);
+        placer.name_curve(
+            canvas,
+            first + k,
+            name,
+            &style,
+            Preference { part: 0.3, crossings: 0, beside: false },
+            &frame,
+        );
     }
     canvas.end_group();
 }

@@ -170,7 +170,7 @@ impl Chart {
         }
         for (k, one) in series.iter().enumerate() {
             let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle).coloured(dark(one.colour));
-            let preference = Preference { part: one.name_at, crossings: usize::MAX };
+            let preference = Preference { part: one.name_at, crossings: usize::MAX, beside: true };
             placer.name_curve(canvas, first + k, one.name, &style, preference, &self.frame.grown(-0.4));
         }
         Ok(())

@@ -171,7 +171,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             k,
             curve.symbol,
             &style,
-            Preference { part: curve.name_at, crossings: usize::MAX },
+            Preference { part: curve.name_at, crossings: usize::MAX, beside: true },
             &frame.grown(-0.5),
         );
     }

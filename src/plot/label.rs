@@ -27,6 +27,8 @@ pub(super) struct Preference {
     pub(super) part: f64,
     /// Crossings with other curves that it may cover at most.
     pub(super) crossings: usize,
+    /// Whether it may stand beside its curve, where there is no clear place on it.
+    pub(super) beside: bool,
 }
 
 /// Keeps the text of a drawing apart, and off the curves.
@@ -76,19 +78,24 @@ impl LabelPlacer {
         const PLACES: usize = 160;
         let style = TextStyle { anchor: Anchor::Middle, ..*style };
         let path = Path::new(&self.curves[curve]);
-        let best = (0..=PLACES)
-            .filter_map(|k| {
-                let part = k as f64 / PLACES as f64;
-                let at = path.point(part)?;
-                let place = Canvas::text_place(at, name, &style).grown(0.25 * style.size);
-                if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
-                    return None;
-                }
-                let crossings = self.crossings(&place, Some(curve));
-                let cost = crossings as f64 + 0.9 * (part - preferred.part).abs();
-                (crossings <= preferred.crossings).then_some((cost, at, place))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let width = Canvas::text_place([0.0, 0.0], name, &style).width();
+        let aside = 0.5 * width + 0.8 * style.size;
+        let offsets: &[f64] = if preferred.beside { &[0.0, -1.0, 1.0] } else { &[0.0] };
+        let mut best: Option<(f64, [f64; 2], Rectangle)> = None;
+        for (k, &offset) in (0..=PLACES).flat_map(|k| offsets.iter().map(move |offset| (k, offset))) {
+            let part = k as f64 / PLACES as f64;
+            let Some(on) = path.point(part) else { continue };
+            let at = [on[0] + offset * aside, on[1]];
+            let place = Canvas::text_place(at, name, &style).grown(0.25 * style.size);
+            if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
+                continue;
+            }
+            let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
+            let cost = crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
+            if crossings <= preferred.crossings && best.is_none_or(|(least, _, _)| cost < least) {
+                best = Some((cost, at, place));
+            }
+        }
         let Some((_, at, place)) = best else { return false };
         self.take(place);
         canvas.text(at, name, &style.halo());
@@ -197,8 +204,22 @@ mod tests {
         placer.add_curve(&[[0.0, 26.0], [100.0, 26.0]]);
         let style = TextStyle::new(3.0, Anchor::Start);
         let sheet = canvas.sheet();
-        assert!(placer.name_curve(&mut canvas, 0, "first", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
-        assert!(placer.name_curve(&mut canvas, 1, "second", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
+        assert!(placer.name_curve(
+            &mut canvas,
+            0,
+            "first",
+            &style,
+            Preference { part: 0.5, crossings: 9, beside: false },
+            &sheet
+        ));
+        assert!(placer.name_curve(
+            &mut canvas,
+            1,
+            "second",
+            &style,
+            Preference { part: 0.5, crossings: 9, beside: false },
+            &sheet
+        ));
         let texts = canvas.texts();
         assert!(!texts[0].place.overlaps(&texts[1].place));
     }
@@ -215,7 +236,7 @@ mod tests {
             0,
             "a name too long for it",
             &style,
-            Preference { part: 0.5, crossings: 9 },
+            Preference { part: 0.5, crossings: 9, beside: false },
             &sheet
         ));
         assert!(canvas.texts().is_empty());

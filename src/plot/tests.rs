@@ -1,7 +1,8 @@
 //! The figures of hulls of several kinds: what stands on them and where.
 
-use super::*;
-use crate::hydrostatics::Conventions;
+use super::{Figure, FigureInputs, PlotError, Svg};
+use crate::hull::Hull;
+use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
 use crate::parametric::cosh::{self, Wishes};
