@@ -1,0 +1,204 @@
+//! The body plan: aft sections on the left, forward sections on the right, the midship section on both sides.
+
+use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
+use super::label::{LabelPlacer, Preference, length};
+use super::lines_grid::{GridPlane, LinesGrid};
+use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
+use crate::hull::Hull;
+
+/// Room beside the sections for the names of waterlines [mm].
+pub(super) const SIDE_ROOM: f64 = 20.0;
+/// Room above the sections for the names of stations [mm].
+pub(super) const TOP_ROOM: f64 = 17.0;
+/// Room below the sections for the names of buttocks [mm].
+pub(super) const BOTTOM_ROOM: f64 = 9.0;
+/// Grid lines go this far beyond the hull [mm].
+const BEYOND: f64 = 3.0;
+/// A section shorter than this on paper is named at the deck alone [mm].
+const SHORT: f64 = 25.0;
+
+/// Which side of the centre line sections of a half of the ship stand on: aft -1 (left), forward +1 (right).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Half {
+    Aft,
+    Fore,
+}
+
+impl Half {
+    fn sign(self) -> f64 {
+        match self {
+            Self::Aft => -1.0,
+            Self::Fore => 1.0,
+        }
+    }
+
+    fn has(self, x: f64, midship: f64) -> bool {
+        let slack = 1e-9 * midship.abs();
+        match self {
+            Self::Aft => x <= midship + slack,
+            Self::Fore => x >= midship - slack,
+        }
+    }
+}
+
+/// Draws the body plan around `view`, whose origin is centre line and base line.
+pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, text_size: f64) {
+    let midship = 0.5 * hull.particulars().length_between_perpendiculars;
+    let half_width = grid.half_breadth * view.scale + BEYOND;
+    let (top, bottom) = (view.at([0.0, grid.height[1]])[1] - BEYOND, view.at([0.0, grid.height[0]])[1] + BEYOND);
+    let [centre, _] = view.origin;
+    let frame = Rectangle::new(centre - half_width, top, centre + half_width, bottom);
+    canvas.begin_group("body-plan");
+    draw_grid(canvas, grid, view, &frame, text_size);
+
+    let mut placer = LabelPlacer::default();
+    for text in canvas.texts() {
+        placer.take(text.place);
+    }
+    let mut owners = Vec::new();
+    for half in [Half::Aft, Half::Fore] {
+        let sign = half.sign();
+        let project = |points: &[[f64; 3]]| points.iter().map(|p| [sign * p[1], p[2]]).collect::<Vec<_>>();
+        for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
+            for curve in &plane.curves {
+                let placed = view.draw(canvas, project(curve), &STATION);
+                owners.push((&plane.name, length(&placed)));
+                placer.add_curve(&placed);
+            }
+        }
+        let deck: Vec<_> = grid.deck.iter().filter(|p| half.has(p[0], midship)).copied().collect();
+        view.draw(canvas, project(&deck), &OUTLINE);
+        draw_flat_end(canvas, grid, view, half);
+    }
+    let first = placer.curve_count() - owners.len();
+    for half in [Half::Aft, Half::Fore] {
+        name_stations(canvas, &mut placer, grid, view, half, midship, text_size);
+    }
+    // At the bilge too, where a name keeps off the neighbours.
+    let style = TextStyle::new(0.9 * text_size, Anchor::Middle);
+    for (k, (name, length)) in owners.iter().enumerate() {
+        if *length < SHORT {
+            continue;
+        }
+        placer.name_curve(
+            canvas,
+            first + k,
+            name,
+            &style,
+            Preference { part: 0.3, crossings: 0, beside: false },
+            &frame,
+        );
+    }
+    canvas.end_group();
+}
+
+/// The transom (aft) or a flat bow (forward): its edge and its upper edge.
+fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half) {
+    let end = &grid.ends[usize::from(half == Half::Fore)];
+    let sign = half.sign();
+    if !end.iter().any(|p| p[1] * view.scale > 0.1) {
+        return;
+    }
+    let mut edge: Vec<_> = end.iter().map(|p| [sign * p[1], p[2]]).collect();
+    if let Some(&[_, z]) = edge.last() {
+        edge.push([0.0, z]);
+    }
+    if let Some(&[_, z]) = edge.first() {
+        edge.insert(0, [0.0, z]);
+    }
+    view.draw(canvas, edge, &OUTLINE);
+}
+
+fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
+    let [centre, base] = view.origin;
+    let mut names = LabelPlacer::default();
+    let room = frame.grown(SIDE_ROOM + BEYOND);
+    let style = TextStyle::new(text_size, Anchor::End);
+    let design = &grid.design_waterline;
+    for plane in [design].into_iter().chain(&grid.waterlines) {
+        let y = view.at([0.0, plane.at])[1];
+        let pen = if plane.name == design.name { &DESIGN } else { &GRID };
+        canvas.line([frame.left, y], [frame.right, y], pen);
+        let label = grid.waterline_label(plane);
+        names.name_point(canvas, &label, &style, &[[frame.left - 1.0, y]], &room);
+        let right = TextStyle { anchor: Anchor::Start, ..style };
+        names.name_point(canvas, &label, &right, &[[frame.right + 1.0, y]], &room);
+    }
+    for plane in &grid.buttocks {
+        for sign in [-1.0, 1.0] {
+            let x = view.at([sign * plane.at, 0.0])[0];
+            canvas.line([x, frame.top], [x, frame.bottom], &GRID);
+            let below = TextStyle { anchor: Anchor::Middle, ..style };
+            let places = [[x, frame.bottom + 2.2]];
+            if names.name_point(canvas, &grid.buttock_label(plane), &below, &places, &room).is_none() {
+                names.name_point(canvas, &plane.name, &below, &places, &room);
+            }
+        }
+    }
+    canvas.line([centre, frame.top], [centre, frame.bottom], &BASE);
+    canvas.line([frame.left, base], [frame.right, base], &BASE);
+    names.name_point(
+        canvas,
+        "CL",
+        &TextStyle { anchor: Anchor::Middle, ..style },
+        &[[centre, frame.bottom + 2.2]],
+        &room,
+    );
+    let (sine, cosine) = grid.diagonal_angle.sin_cos();
+    for plane in &grid.diagonals {
+        // As far as the grid goes: outboard to its edge or down to its foot.
+        let reach = (0.5 * frame.width() / view.scale / cosine).min((plane.at - grid.height[0]) / sine);
+        for sign in [-1.0, 1.0] {
+            let to = [sign * reach * cosine, plane.at - reach * sine];
+            view.draw(canvas, [[0.0, plane.at], to], &DIAGONAL_PLANE);
+        }
+        let name = TextStyle { anchor: Anchor::Middle, ..style }.coloured(DIAGONAL_PLANE.colour).halo();
+        for sign in [-1.0, 1.0] {
+            let end = view.at([sign * reach * cosine, plane.at - reach * sine]);
+            let up = [end[0] - sign * 1.2 * text_size, end[1] - 0.2 * text_size];
+            names.name_point(canvas, &plane.name, &name, &[[end[0], end[1] + 0.75 * text_size], up], frame);
+        }
+    }
+}
+
+/// `3 – 5`; after a negative number `-½ to ½`.
+fn range(first: &str, last: &str) -> String {
+    let between = if first.starts_with('-') { "to" } else { "–" };
+    format!("{first} {between} {last}")
+}
+
+/// Names of the sections of one half over their ends at the deck; those that end too close to each other bear one name.
+#[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
+fn name_stations(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    grid: &LinesGrid,
+    view: &View,
+    half: Half,
+    midship: f64,
+    text_size: f64,
+) {
+    let style = TextStyle::new(text_size, Anchor::Middle).halo();
+    let reach = grid.half_breadth * view.scale + SIDE_ROOM;
+    let top = view.at([0.0, grid.height[1]])[1] - TOP_ROOM;
+    let room = Rectangle::new(view.origin[0] - reach, top, view.origin[0] + reach, view.origin[1]);
+    let mut groups: Vec<([f64; 2], Vec<&GridPlane>)> = Vec::new();
+    for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
+        let end = plane.curves.iter().flatten().max_by(|a, b| a[2].total_cmp(&b[2]));
+        let Some(end) = end else { continue };
+        let at = view.at([half.sign() * end[1], end[2]]);
+        match groups.last_mut() {
+            Some((first, planes)) if (at[0] - first[0]).hypot(at[1] - first[1]) < 1.3 * text_size => planes.push(plane),
+            _ => groups.push((at, vec![plane])),
+        }
+    }
+    for (at, planes) in groups {
+        let (first, last) = (planes[0], planes[planes.len() - 1]);
+        let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
+        let rows: Vec<_> = (0..6).map(|row| [at[0], at[1] - (0.9 + 1.15 * f64::from(row)) * text_size]).collect();
+        if let Some(row) = placer.name_point(canvas, &name, &style, &rows, &room).filter(|&row| row > 0) {
+            // A thread from the section to a name that stands higher.
+            canvas.line(at, [at[0], rows[row][1] + 0.5 * text_size], &THREAD);
+        }
+    }
+}

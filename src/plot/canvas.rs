@@ -1,0 +1,376 @@
+//! A drawing in millimetres, written as SVG with float coordinates.
+//!
+//! Coordinates: x to the right, y down, from the upper left corner of the sheet [mm]; three decimals (1 micrometre on
+//! paper). The same calls give the same bytes.
+
+use super::font;
+use std::fmt::Write;
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pen {
+    /// Width [mm].
+    pub(super) width: f64,
+    /// Colour, `#rrggbb`.
+    pub(super) colour: &'static str,
+    /// Lengths of dashes and gaps [mm]; empty: a full line.
+    pub(super) dash: &'static [f64],
+}
+
+impl Pen {
+    pub(super) const fn new(width: f64, colour: &'static str) -> Self {
+        Self { width, colour, dash: &[] }
+    }
+
+    pub(super) const fn dashed(self, dash: &'static [f64]) -> Self {
+        Self { dash, ..self }
+    }
+}
+
+/// Which point of a text stands at its position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a text is set; its position is on the middle of the height of its capitals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TextStyle {
+    /// Size [mm]; capitals are 0.729 of it.
+    pub(super) size: f64,
+    /// Which point stands at the position.
+    pub(super) anchor: Anchor,
+    /// Colour, `#rrggbb`.
+    pub(super) colour: &'static str,
+    /// Turned a quarter to read upwards.
+    pub(super) upward: bool,
+    /// With a white edge, for text on lines.
+    pub(super) halo: bool,
+}
+
+impl TextStyle {
+    pub(super) const fn new(size: f64, anchor: Anchor) -> Self {
+        Self { size, anchor, colour: "#000000", upward: false, halo: false }
+    }
+
+    pub(super) const fn coloured(self, colour: &'static str) -> Self {
+        Self { colour, ..self }
+    }
+
+    pub(super) const fn upward(self) -> Self {
+        Self { upward: true, ..self }
+    }
+
+    pub(super) const fn halo(self) -> Self {
+        Self { halo: true, ..self }
+    }
+}
+
+/// A rectangle on the sheet [mm].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rectangle {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
+impl Rectangle {
+    pub(super) const fn new(left: f64, top: f64, right: f64, bottom: f64) -> Self {
+        Self { left, top, right, bottom }
+    }
+
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    pub(super) fn contains(&self, other: &Self) -> bool {
+        self.left <= other.left && other.right <= self.right && self.top <= other.top && other.bottom <= self.bottom
+    }
+
+    pub(super) fn grown(&self, margin: f64) -> Self {
+        Self::new(self.left - margin, self.top - margin, self.right + margin, self.bottom + margin)
+    }
+}
+
+/// A text with its place, for the placing of further text and for tests.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PlacedText {
+    pub(super) content: String,
+    pub(super) place: Rectangle,
+}
+
+/// The drawing under construction.
+pub(super) struct Canvas {
+    width: f64,
+    height: f64,
+    body: String,
+    clips: usize,
+    texts: Vec<PlacedText>,
+}
+
+/// Size of a subscript, as a part of the size of its text.
+const SUBSCRIPT: f64 = 0.72;
+
+/// `text` in pieces of full size and subscripts: `_` lowers the letters and digits that follow it.
+fn pieces(text: &str) -> Vec<(bool, &str)> {
+    let mut result = Vec::new();
+    let mut parts = text.split('_');
+    if let Some(first) = parts.next() {
+        result.push((false, first));
+    }
+    for part in parts {
+        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
+        result.push((true, &part[..end]));
+        result.push((false, &part[end..]));
+    }
+    result.retain(|(_, piece)| !piece.is_empty());
+    result
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// `value` with at most three decimals, without trailing zeros.
+fn number(value: f64) -> String {
+    let mut text = format!("{value:.3}");
+    text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    if text == "-0" { "0".to_owned() } else { text }
+}
+
+impl Canvas {
+    /// An empty white sheet [mm].
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        Self { width, height, body: String::new(), clips: 0, texts: Vec::new() }
+    }
+
+    #[cfg(test)]
+    pub(super) fn sheet(&self) -> Rectangle {
+        Rectangle::new(0.0, 0.0, self.width, self.height)
+    }
+
+    pub(super) fn texts(&self) -> &[PlacedText] {
+        &self.texts
+    }
+
+    fn stroke(&mut self, pen: &Pen) {
+        let _ = write!(self.body, " fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"", pen.colour, number(pen.width));
+        if !pen.dash.is_empty() {
+            let dash: Vec<_> = pen.dash.iter().map(|&length| number(length)).collect();
+            let _ = write!(self.body, " stroke-dasharray=\"{}\"", dash.join(" "));
+        }
+    }
+
+    fn points(&mut self, points: &[[f64; 2]]) {
+        self.body.push_str(" points=\"");
+        for (k, [x, y]) in points.iter().enumerate() {
+            let _ = write!(self.body, "{}{},{}", if k == 0 { "" } else { " " }, number(*x), number(*y));
+        }
+        self.body.push('"');
+    }
+
+    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], pen: &Pen) {
+        self.polyline(&[from, to], pen);
+    }
+
+    pub(super) fn polyline(&mut self, points: &[[f64; 2]], pen: &Pen) {
+        if points.len() > 1 {
+            self.body.push_str("<polyline");
+            self.points(points);
+            self.stroke(pen);
+            self.body.push_str("/>\n");
+        }
+    }
+
+    /// A filled area without an outline.
+    pub(super) fn area(&mut self, points: &[[f64; 2]], colour: &str) {
+        self.body.push_str("<polygon");
+        self.points(points);
+        let _ = writeln!(self.body, " fill=\"{colour}\"/>");
+    }
+
+    pub(super) fn rectangle(&mut self, r: &Rectangle, pen: &Pen) {
+        let _ = write!(
+            self.body,
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
+            number(r.left),
+            number(r.top),
+            number(r.width()),
+            number(r.height())
+        );
+        self.stroke(pen);
+        self.body.push_str("/>\n");
+    }
+
+    pub(super) fn fill(&mut self, r: &Rectangle, colour: &str) {
+        self.area(&[[r.left, r.top], [r.right, r.top], [r.right, r.bottom], [r.left, r.bottom]], colour);
+    }
+
+    /// What follows is drawn inside `window` only, until [`Canvas::end_group`].
+    pub(super) fn begin_clip(&mut self, window: &Rectangle) {
+        self.clips += 1;
+        let _ = writeln!(
+            self.body,
+            "<clipPath id=\"clip{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/></clipPath>\n<g \
+             clip-path=\"url(#clip{0})\">",
+            self.clips,
+            number(window.left),
+            number(window.top),
+            number(window.width()),
+            number(window.height())
+        );
+    }
+
+    /// A named group, for programs that read the SVG, until [`Canvas::end_group`].
+    pub(super) fn begin_group(&mut self, id: &str) {
+        let _ = writeln!(self.body, "<g id=\"{id}\">");
+    }
+
+    pub(super) fn end_group(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// Elements of another SVG writer, its origin at `at`, its unit `unit` millimetres.
+    pub(super) fn embed(&mut self, elements: &str, at: [f64; 2], unit: f64) {
+        let (x, y) = (number(at[0]), number(at[1]));
+        let _ = writeln!(
+            self.body,
+            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\">\n{elements}</g>"
+        );
+    }
+
+    /// The rectangle that `text` takes at `at`.
+    pub(super) fn text_place(at: [f64; 2], text: &str, style: &TextStyle) -> Rectangle {
+        let pieces = pieces(text);
+        let length: f64 =
+            pieces.iter().map(|(low, piece)| font::width(piece) * if *low { SUBSCRIPT } else { 1.0 }).sum();
+        let length = length * style.size;
+        let subscript = pieces.iter().any(|(low, _)| *low);
+        let above = 0.5 * font::CAP_HEIGHT * style.size;
+        let below = above + style.size * if subscript { font::DESCENT } else { 0.5 * font::DESCENT };
+        let before = match style.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * length,
+            Anchor::End => length,
+        };
+        if style.upward {
+            Rectangle::new(at[0] - above, at[1] - length + before, at[0] + below, at[1] + before)
+        } else {
+            Rectangle::new(at[0] - before, at[1] - above, at[0] - before + length, at[1] + below)
+        }
+    }
+
+    /// Writes `text`; `_` lowers the letters and digits that follow it.
+    pub(super) fn text(&mut self, at: [f64; 2], text: &str, style: &TextStyle) {
+        self.write_text(at, &pieces(text), style);
+        self.texts.push(PlacedText { content: text.to_owned(), place: Self::text_place(at, text, style) });
+    }
+
+    /// Notes a text that another writer has drawn.
+    pub(super) fn note_text(&mut self, content: &str, place: Rectangle) {
+        self.texts.push(PlacedText { content: content.to_owned(), place });
+    }
+
+    fn write_text(&mut self, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle) {
+        let anchor = match style.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        let drop = 0.5 * font::CAP_HEIGHT * style.size;
+        let (x, y) = if style.upward { (at[0] + drop, at[1]) } else { (at[0], at[1] + drop) };
+        let _ = write!(
+            self.body,
+            "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"",
+            number(x),
+            number(y),
+            number(style.size),
+            style.colour
+        );
+        if style.upward {
+            let _ = write!(self.body, " transform=\"rotate(-90 {} {})\"", number(x), number(y));
+        }
+        if style.halo {
+            let _ = write!(
+                self.body,
+                " stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+                number(0.35 * style.size)
+            );
+        }
+        self.body.push('>');
+        let mut lowered = false;
+        for (low, piece) in pieces {
+            let shift = 0.18 * style.size * f64::from(i8::from(*low) - i8::from(lowered));
+            lowered = *low;
+            if shift.abs() > 0.0 {
+                let size = style.size * if *low { SUBSCRIPT } else { 1.0 };
+                let piece = escape(piece);
+                let _ =
+                    write!(self.body, "<tspan dy=\"{}\" font-size=\"{}\">{piece}</tspan>", number(shift), number(size));
+            } else {
+                self.body.push_str(&escape(piece));
+            }
+        }
+        self.body.push_str("</text>\n");
+    }
+
+    /// The finished document.
+    pub(super) fn finish(self, title: &str) -> String {
+        let (w, h) = (number(self.width), number(self.height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"'{}', sans-serif\" xml:space=\"preserve\">\n<title>{}</title>\n<rect width=\"{w}\" \
+             height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            font::FAMILY,
+            escape(title),
+            self.body
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_decimals_at_most() {
+        for (value, text) in
+            [(1.0, "1"), (0.1, "0.1"), (-0.0001, "0"), (12.3456, "12.346"), (-2.5, "-2.5"), (100.0, "100")]
+        {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn subscripts_end_at_the_first_sign_that_is_no_letter() {
+        assert_eq!(pieces("KM_T [m], C_WP"), [(false, "KM"), (true, "T"), (false, " [m], C"), (true, "WP")]);
+    }
+
+    #[test]
+    fn a_text_takes_the_place_its_anchor_says() {
+        let style = TextStyle::new(10.0, Anchor::Middle);
+        let place = Canvas::text_place([100.0, 50.0], "00", &style);
+        let half = 1303.0 / 2048.0 * 10.0;
+        assert!((place.left - (100.0 - half)).abs() < 1e-9 && (place.right - (100.0 + half)).abs() < 1e-9);
+        let upward = Canvas::text_place([100.0, 50.0], "00", &style.upward());
+        assert!((upward.height() - place.width()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn markup_in_a_text_is_escaped() {
+        let mut canvas = Canvas::new(10.0, 10.0);
+        canvas.text([1.0, 1.0], "a<b & c", &TextStyle::new(2.0, Anchor::Start));
+        assert!(canvas.finish("<t>").contains("a&lt;b &amp; c</text>"));
+    }
+}

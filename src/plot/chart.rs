@@ -1,0 +1,337 @@
+//! A chart with one or two axes each way: grid, ticks and curves by plotters, names in place by this project.
+//!
+//! plotters rounds every coordinate to an integer. The chart is therefore drawn in units of 0.01 mm and set into the
+//! drawing at that scale: a curve is within 0.005 mm of its place on paper.
+
+use super::PlotError;
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::font;
+use super::label::{LabelPlacer, Preference};
+use super::scale::{decimals, multiples, nice_step};
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use plotters::prelude::{
+    ChartBuilder, DashedLineSeries, FontStyle, IntoDrawingArea, IntoFont, LabelAreaPosition, LineSeries, RGBColor,
+    SVGBackend, ShapeStyle,
+};
+use plotters::style::register_font;
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// Units of plotters in a millimetre.
+const UNITS: f64 = 100.0;
+/// plotters writes a font size 1.24 times smaller than it is asked for.
+const PLOTTERS_FONT_RATIO: f64 = 1.24;
+/// Length of tick marks [mm].
+const TICK: f64 = 1.0;
+/// Room for ticks and their figures above and below the frame [mm].
+const MARGIN: f64 = 6.0;
+/// Room for ticks and their figures beside the frame [mm].
+const SIDE_MARGIN: f64 = 14.0;
+
+/// An axis: its name with unit, its range and the step of its ticks.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Axis {
+    name: String,
+    range: [f64; 2],
+    step: f64,
+}
+
+impl Axis {
+    /// An axis that holds `low` to `high`, widened to whole steps; at most `count` steps.
+    pub(super) fn new(name: &str, low: f64, high: f64, count: f64) -> Self {
+        let range = if high > low { high - low } else { 1.0 };
+        let step = nice_step(range, count);
+        let (first, last) = ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step);
+        Self { name: name.to_owned(), range: [first, if last > first { last } else { first + step }], step }
+    }
+
+    /// An axis from `low` to `high` as they are, with ticks at the multiples of `step`.
+    pub(super) fn exact(name: &str, low: f64, high: f64, step: f64) -> Self {
+        Self { name: name.to_owned(), range: [low, high], step }
+    }
+
+    /// The same axis for values that are `unit` times smaller.
+    pub(super) fn divided(&self, name: &str, unit: f64, step: f64) -> Self {
+        Self { name: name.to_owned(), range: self.range.map(|value| value / unit), step }
+    }
+
+    fn part(&self, value: f64) -> f64 {
+        (value - self.range[0]) / (self.range[1] - self.range[0])
+    }
+
+    fn ticks(&self) -> Vec<f64> {
+        multiples(self.step, self.range[0], self.range[1])
+    }
+
+    fn write(&self, value: f64) -> String {
+        let value = if value.abs() < 1e-9 * self.step { 0.0 } else { value };
+        format!("{value:.*}", decimals(self.step))
+    }
+}
+
+/// What plotters asks of an axis; its ticks are ours, all of them.
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        limit.0 + (self.part(*value) * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range[0]..self.range[1]
+    }
+}
+
+/// A curve with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Series {
+    pub(super) name: &'static str,
+    /// Points (x, y) on the axes it belongs to.
+    pub(super) points: Vec<[f64; 2]>,
+    /// Drawn on the top and right axes where they exist.
+    pub(super) secondary: bool,
+    /// Colour, red, green, blue.
+    pub(super) colour: [u8; 3],
+    /// Dash and gap [mm]; none: a full line.
+    pub(super) dash: Option<[f64; 2]>,
+    /// Part of its length at which the curve bears its name.
+    pub(super) name_at: f64,
+}
+
+/// A chart on a drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chart {
+    /// Frame of the curves on the sheet [mm]; figures and names of the axes stand outside.
+    pub(super) frame: Rectangle,
+    pub(super) bottom: Axis,
+    pub(super) left: Axis,
+    pub(super) top: Option<Axis>,
+    pub(super) right: Option<Axis>,
+    /// Size of the text [mm].
+    pub(super) text_size: f64,
+}
+
+fn chart_error(error: impl std::fmt::Display) -> PlotError {
+    PlotError::Chart(error.to_string())
+}
+
+fn register_typeface() -> Result<(), PlotError> {
+    static DONE: OnceLock<bool> = OnceLock::new();
+    let done = DONE.get_or_init(|| register_font(font::FAMILY, FontStyle::Normal, font::DEJAVU_SANS).is_ok());
+    if *done { Ok(()) } else { Err(PlotError::Chart("the embedded font could not be read".to_owned())) }
+}
+
+fn units(millimetres: f64) -> u32 {
+    (millimetres * UNITS).round() as u32
+}
+
+impl Chart {
+    /// Where (x, y) of the bottom and left axes stands on the sheet [mm].
+    pub(super) fn place(&self, point: [f64; 2]) -> [f64; 2] {
+        self.place_on(&self.bottom, &self.left, point)
+    }
+
+    fn place_on(&self, x: &Axis, y: &Axis, point: [f64; 2]) -> [f64; 2] {
+        [
+            self.frame.left + x.part(point[0]) * self.frame.width(),
+            self.frame.bottom - y.part(point[1]) * self.frame.height(),
+        ]
+    }
+
+    /// Draws grid, axes and curves, a dash-dot line at a level of the left axis when there is one, and then the names, the
+    /// curves' on the curves.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        placer: &mut LabelPlacer,
+        series: &[Series],
+        level: Option<(f64, &str)>,
+    ) -> Result<(), PlotError> {
+        let elements = self.elements(series)?;
+        let corner = [self.frame.left - SIDE_MARGIN, self.frame.top - MARGIN];
+        canvas.embed(&elements, corner, 1.0 / UNITS);
+        self.note_ticks(canvas);
+        self.name_axes(canvas);
+        let (top, right) = (self.top.as_ref().unwrap_or(&self.bottom), self.right.as_ref().unwrap_or(&self.left));
+        for one in series {
+            let (x, y) = if one.secondary { (top, right) } else { (&self.bottom, &self.left) };
+            let points: Vec<_> = one.points.iter().map(|&point| self.place_on(x, y, point)).collect();
+            placer.add_curve(&points);
+        }
+        let first = placer.curve_count() - series.len();
+        if let Some((value, name)) = level {
+            let y = self.place([self.bottom.range[0], value])[1];
+            draw_level(canvas, placer, &self.frame, y, name, self.text_size);
+        }
+        for (k, one) in series.iter().enumerate() {
+            let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle).coloured(dark(one.colour));
+            let preference = Preference { part: one.name_at, crossings: usize::MAX, beside: true };
+            placer.name_curve(canvas, first + k, one.name, &style, preference, &self.frame.grown(-0.4));
+        }
+        Ok(())
+    }
+
+    /// The elements of the chart as plotters writes them.
+    fn elements(&self, series: &[Series]) -> Result<String, PlotError> {
+        register_typeface()?;
+        let mut document = String::new();
+        {
+            let size = (units(self.frame.width() + 2.0 * SIDE_MARGIN), units(self.frame.height() + 2.0 * MARGIN));
+            let root = SVGBackend::with_string(&mut document, size).into_drawing_area();
+            let (bottom, left) = (&self.bottom, &self.left);
+            let (top, right) = (self.top.as_ref().unwrap_or(bottom), self.right.as_ref().unwrap_or(left));
+            let mut chart = ChartBuilder::on(&root)
+                .set_label_area_size(LabelAreaPosition::Left, units(SIDE_MARGIN))
+                .set_label_area_size(LabelAreaPosition::Right, units(SIDE_MARGIN))
+                .set_label_area_size(LabelAreaPosition::Bottom, units(MARGIN))
+                .set_label_area_size(LabelAreaPosition::Top, units(MARGIN))
+                .build_cartesian_2d(bottom.clone(), left.clone())
+                .map_err(chart_error)?
+                .set_secondary_coord(top.clone(), right.clone());
+            let grid = ShapeStyle { color: RGBColor(205, 205, 205).into(), filled: false, stroke_width: units(0.1) };
+            let axis = ShapeStyle { color: RGBColor(0, 0, 0).into(), filled: false, stroke_width: units(0.25) };
+            let label = (font::FAMILY, self.text_size * UNITS * PLOTTERS_FONT_RATIO).into_font();
+            let write = |axis: &Axis, shown: bool, value: f64| if shown { axis.write(value) } else { String::new() };
+            chart
+                .configure_mesh()
+                .bold_line_style(grid)
+                .light_line_style(grid)
+                .axis_style(axis)
+                .label_style(label.clone())
+                .set_all_tick_mark_size(units(TICK))
+                .x_label_formatter(&|value| write(bottom, true, *value))
+                .y_label_formatter(&|value| write(left, true, *value))
+                .draw()
+                .map_err(chart_error)?;
+            let (shown_top, shown_right) = (self.top.is_some(), self.right.is_some());
+            chart
+                .configure_secondary_axes()
+                .axis_style(axis)
+                .label_style(label)
+                .set_tick_mark_size(LabelAreaPosition::Top, if shown_top { units(TICK) } else { 0 })
+                .set_tick_mark_size(LabelAreaPosition::Right, if shown_right { units(TICK) } else { 0 })
+                .x_label_formatter(&|value| write(top, shown_top, *value))
+                .y_label_formatter(&|value| write(right, shown_right, *value))
+                .draw()
+                .map_err(chart_error)?;
+            for one in series {
+                let [r, g, b] = one.colour;
+                let style = ShapeStyle { color: RGBColor(r, g, b).into(), filled: false, stroke_width: units(0.45) };
+                let points = one.points.iter().map(|&[x, y]| (x, y));
+                match (one.dash, one.secondary) {
+                    (None, false) => chart.draw_series(LineSeries::new(points, style)).map(|_| ()),
+                    (None, true) => chart.draw_secondary_series(LineSeries::new(points, style)).map(|_| ()),
+                    (Some([dash, gap]), false) => {
+                        chart.draw_series(DashedLineSeries::new(points, units(dash), units(gap), style)).map(|_| ())
+                    }
+                    (Some([dash, gap]), true) => chart
+                        .draw_secondary_series(DashedLineSeries::new(points, units(dash), units(gap), style))
+                        .map(|_| ()),
+                }
+                .map_err(chart_error)?;
+            }
+            drop(chart);
+            root.present().map_err(chart_error)?;
+        }
+        let start = document.find("<svg").and_then(|k| document[k..].find('>').map(|end| k + end + 1)).unwrap_or(0);
+        let end = document.rfind("</svg>").unwrap_or(document.len());
+        Ok(document[start..end].trim_start().to_owned())
+    }
+
+    /// Notes the figures that plotters has set at the ticks.
+    fn note_ticks(&self, canvas: &mut Canvas) {
+        let centred = TextStyle::new(self.text_size, Anchor::Middle);
+        let distance = 2.0 * TICK + 0.4 * self.text_size;
+        for tick in self.bottom.ticks() {
+            let at = [self.place([tick, self.left.range[0]])[0], self.frame.bottom + distance];
+            let text = self.bottom.write(tick);
+            canvas.note_text(&text, Canvas::text_place(at, &text, &centred));
+        }
+        for tick in self.left.ticks() {
+            let at = [self.frame.left - 2.0 * TICK, self.place([self.bottom.range[0], tick])[1]];
+            let text = self.left.write(tick);
+            canvas.note_text(&text, Canvas::text_place(at, &text, &TextStyle { anchor: Anchor::End, ..centred }));
+        }
+        if let Some(top) = &self.top {
+            for tick in top.ticks() {
+                let at = [self.frame.left + top.part(tick) * self.frame.width(), self.frame.top - distance];
+                let text = top.write(tick);
+                canvas.note_text(&text, Canvas::text_place(at, &text, &centred));
+            }
+        }
+        if let Some(right) = &self.right {
+            for tick in right.ticks() {
+                let at = [self.frame.right + 2.0 * TICK, self.frame.bottom - right.part(tick) * self.frame.height()];
+                let text = right.write(tick);
+                canvas.note_text(&text, Canvas::text_place(at, &text, &TextStyle { anchor: Anchor::Start, ..centred }));
+            }
+        }
+    }
+
+    fn name_axes(&self, canvas: &mut Canvas) {
+        let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle);
+        let (x, y) = (0.5 * (self.frame.left + self.frame.right), 0.5 * (self.frame.top + self.frame.bottom));
+        canvas.text([x, self.frame.bottom + MARGIN + 0.6 * self.text_size], &self.bottom.name, &style);
+        let widest = |axis: &Axis| {
+            axis.ticks().into_iter().map(|tick| font::width(&axis.write(tick))).fold(0.0, f64::max) * self.text_size
+        };
+        canvas.text(
+            [self.frame.left - 2.5 * TICK - widest(&self.left) - 0.7 * self.text_size, y],
+            &self.left.name,
+            &style.upward(),
+        );
+        if let Some(top) = &self.top {
+            canvas.text([x, self.frame.top - MARGIN - 0.6 * self.text_size], &top.name, &style);
+        }
+        if let Some(right) = &self.right {
+            let at = self.frame.right + 2.5 * TICK + widest(right) + 0.7 * self.text_size;
+            canvas.text([at, y], &right.name, &style.upward());
+        }
+    }
+}
+
+/// A dash-dot line across `frame` at `y`, its name at that end, above or below, where it meets fewest curves.
+pub(super) fn draw_level(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    frame: &Rectangle,
+    y: f64,
+    name: &str,
+    text_size: f64,
+) {
+    let pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7, 1.0]);
+    canvas.line([frame.left, y], [frame.right, y], &pen);
+    let style = TextStyle::new(text_size, Anchor::Middle).halo();
+    let width = Canvas::text_place([0.0, 0.0], name, &style).width();
+    let (up, aside) = (0.75 * text_size, 0.5 * width + 1.0);
+    let places: Vec<_> = [y - up, y + up]
+        .into_iter()
+        .flat_map(|y| [frame.left + aside, frame.right - aside, frame.left + 2.2 * width].map(|x| [x, y]))
+        .collect();
+    placer.name_clear(canvas, name, &style, &places, frame);
+    placer.add_curve(&[[frame.left, y], [frame.right, y]]);
+}
+
+/// Colours of curves: those of Okabe and Ito (2008), which the colour-blind tell apart, darkened until they can be read on white.
+pub(super) mod colour {
+    pub(in crate::plot) const BLACK: [u8; 3] = [0, 0, 0];
+    pub(in crate::plot) const BLUE: [u8; 3] = [0, 114, 178];
+    pub(in crate::plot) const VERMILION: [u8; 3] = [213, 94, 0];
+    pub(in crate::plot) const GREEN: [u8; 3] = [0, 122, 89];
+    pub(in crate::plot) const PURPLE: [u8; 3] = [168, 67, 127];
+}
+
+fn dark(colour: [u8; 3]) -> &'static str {
+    match colour {
+        colour::BLUE => "#0072b2",
+        colour::VERMILION => "#d55e00",
+        colour::GREEN => "#007a59",
+        colour::PURPLE => "#a8437f",
+        _ => "#000000",
+    }
+}

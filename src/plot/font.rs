@@ -1,0 +1,136 @@
+//! The embedded typeface, DejaVu Sans, and the widths of its characters.
+//!
+//! Widths are the advance widths of the font file (tables cmap format 4, hmtx), without kerning: at most a few hundredths
+//! of the size more than what is drawn.
+
+use std::sync::OnceLock;
+
+/// Family name that drawings ask for.
+pub(super) const FAMILY: &str = "DejaVu Sans";
+
+/// The font file; licence in `font/LICENSE`.
+pub(super) const DEJAVU_SANS: &[u8] = include_bytes!("font/DejaVuSans.ttf");
+
+/// Height of capitals, as a part of the size (OS/2 table of the font: 1493 / 2048).
+pub(super) const CAP_HEIGHT: f64 = 0.729;
+
+/// Depth of descenders, as a part of the size.
+pub(super) const DESCENT: f64 = 0.236;
+
+/// Width taken for a character that the font does not have, as a part of the size.
+const MISSING_WIDTH: f64 = 0.6;
+
+/// Width of `text` in units of the font size.
+pub(super) fn width(text: &str) -> f64 {
+    static METRICS: OnceLock<Metrics> = OnceLock::new();
+    let metrics = METRICS.get_or_init(|| Metrics::new(DEJAVU_SANS).unwrap_or_default());
+    text.chars().map(|c| metrics.advance(c)).sum()
+}
+
+/// Start codes, end codes, deltas and range offsets of the character map, and the advance widths.
+#[derive(Default)]
+struct Metrics {
+    ranges: Vec<CharacterRange>,
+    glyphs: &'static [u8],
+    advances: Vec<f64>,
+}
+
+struct CharacterRange {
+    start: u16,
+    end: u16,
+    delta: u16,
+    /// Offset into `glyphs` of the glyph of `start`; none when the delta alone maps.
+    offset: Option<usize>,
+}
+
+fn u16_at(data: &[u8], at: usize) -> Option<u16> {
+    Some(u16::from_be_bytes(data.get(at..at + 2)?.try_into().ok()?))
+}
+
+fn u32_at(data: &[u8], at: usize) -> Option<usize> {
+    Some(u32::from_be_bytes(data.get(at..at + 4)?.try_into().ok()?) as usize)
+}
+
+fn table(data: &'static [u8], tag: &[u8; 4]) -> Option<&'static [u8]> {
+    let count = usize::from(u16_at(data, 4)?);
+    (0..count).map(|k| 12 + 16 * k).find_map(|record| {
+        if data.get(record..record + 4)? != tag {
+            return None;
+        }
+        let (start, length) = (u32_at(data, record + 8)?, u32_at(data, record + 12)?);
+        data.get(start..start + length)
+    })
+}
+
+impl Metrics {
+    fn new(data: &'static [u8]) -> Option<Self> {
+        let units = f64::from(u16_at(table(data, b"head")?, 18)?);
+        let metric_count = usize::from(u16_at(table(data, b"hhea")?, 34)?);
+        let hmtx = table(data, b"hmtx")?;
+        let advances = (0..metric_count)
+            .map(|k| u16_at(hmtx, 4 * k).map(|advance| f64::from(advance) / units))
+            .collect::<Option<Vec<_>>>()?;
+        let cmap = table(data, b"cmap")?;
+        let subtable = (0..usize::from(u16_at(cmap, 2)?)).find_map(|k| {
+            let start = u32_at(cmap, 8 + 8 * k)?;
+            (u16_at(cmap, start)? == 4).then(|| cmap.get(start..)).flatten()
+        })?;
+        let segments = usize::from(u16_at(subtable, 6)?) / 2;
+        let ranges = (0..segments)
+            .map(|k| {
+                let end = u16_at(subtable, 14 + 2 * k)?;
+                let start = u16_at(subtable, 16 + 2 * (segments + k))?;
+                let delta = u16_at(subtable, 16 + 2 * (2 * segments + k))?;
+                let at = 16 + 2 * (3 * segments + k);
+                let range = usize::from(u16_at(subtable, at)?);
+                Some(CharacterRange { start, end, delta, offset: (range != 0).then_some(at + range) })
+            })
+            .collect::<Option<Vec<_>>>()?;
+        Some(Self { ranges, glyphs: subtable, advances })
+    }
+
+    fn glyph(&self, character: char) -> Option<u16> {
+        let code = u16::try_from(u32::from(character)).ok()?;
+        let range = self.ranges.iter().find(|range| code <= range.end && range.start <= code)?;
+        let glyph = match range.offset {
+            None => code.wrapping_add(range.delta),
+            Some(offset) => match u16_at(self.glyphs, offset + 2 * usize::from(code - range.start))? {
+                0 => 0,
+                glyph => glyph.wrapping_add(range.delta),
+            },
+        };
+        (glyph != 0).then_some(glyph)
+    }
+
+    fn advance(&self, character: char) -> f64 {
+        self.glyph(character)
+            .and_then(|glyph| self.advances.get(usize::from(glyph).min(self.advances.len().checked_sub(1)?)).copied())
+            .unwrap_or(MISSING_WIDTH)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_those_of_the_font_file() {
+        // DejaVu Sans, 2048 units a size: space 651, digits 1303, m 1995, C 1430.
+        for (text, units) in [(" ", 651.0), ("0", 1303.0), ("m", 1995.0), ("C", 1430.0), ("0m", 3298.0)] {
+            assert!((width(text) - units / 2048.0).abs() < 1e-12, "{text}: {}", width(text) * 2048.0);
+        }
+    }
+
+    #[test]
+    fn the_characters_of_the_drawings_are_in_the_font() {
+        let metrics = Metrics::new(DEJAVU_SANS).unwrap();
+        for character in "∇Δρ°²³⁴½¼¾·–—×Ø±↑".chars() {
+            assert!(metrics.glyph(character).is_some(), "{character}");
+        }
+    }
+
+    #[test]
+    fn a_character_that_is_missing_has_a_width() {
+        assert!((width("\u{1F6A2}") - MISSING_WIDTH).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,199 @@
+//! The lines plan on A3: profile, half-breadth plan and body plan in true proportion at scales of the list, with a title block
+//! and a table of half-breadths.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::lines_grid::LinesGrid;
+use super::profile::LongStyle;
+use super::scale::{DRAWING_SCALES, drawing_scale};
+use super::title_block::{self, Scales};
+use super::view::View;
+use super::{FigureInputs, PlotError, body_plan, profile};
+
+/// A3, landscape [mm].
+const SHEET: [f64; 2] = [420.0, 297.0];
+/// Frame of the drawing [mm].
+const FRAME: Rectangle = Rectangle::new(8.0, 8.0, SHEET[0] - 8.0, SHEET[1] - 8.0);
+/// Distance of drawings from the frame and from each other [mm].
+const GAP: f64 = 5.0;
+/// Height of the name of a view [mm].
+const VIEW_TITLE: f64 = 6.0;
+/// Size of the text at the grid [mm].
+const TEXT: f64 = 2.3;
+/// Narrowest column that a body plan is set in beside the long views [mm].
+const BODY_COLUMN: f64 = 132.0;
+/// Deviation of chords from their curves on paper [mm].
+const DEVIATION: f64 = 0.004;
+
+/// Sizes of the views [m].
+struct Extents {
+    length: f64,
+    height: f64,
+    half_breadth: f64,
+    diagonals: f64,
+    /// Smallest table of half-breadths [mm].
+    table: [f64; 2],
+}
+
+impl Extents {
+    fn new(grid: &LinesGrid) -> Self {
+        Self {
+            length: grid.length[1] - grid.length[0],
+            height: grid.height[1] - grid.height[0].min(0.0),
+            half_breadth: grid.half_breadth,
+            diagonals: profile::diagonal_reach(grid),
+            table: title_block::smallest_table(grid),
+        }
+    }
+
+    /// Width of the long views and heights of profile and half-breadth plan at 1 : `scale` with their names [mm].
+    fn long_views(&self, scale: u32, side_room: f64) -> [f64; 3] {
+        let millimetres = 1000.0 / f64::from(scale);
+        let ends = 2.0 * profile::END_ROOM + VIEW_TITLE;
+        [
+            self.length * millimetres + 2.0 * side_room,
+            self.height * millimetres + ends,
+            (self.half_breadth + self.diagonals) * millimetres + ends,
+        ]
+    }
+
+    /// Height of the body plan with its names at 1 : `scale` [mm].
+    fn body_height(&self, scale: u32) -> f64 {
+        self.height * 1000.0 / f64::from(scale) + body_plan::TOP_ROOM + body_plan::BOTTOM_ROOM + VIEW_TITLE
+    }
+
+    /// Width of the body plan with its names at 1 : `scale` [mm].
+    fn body_width(&self, scale: u32) -> f64 {
+        2.0 * self.half_breadth * 1000.0 / f64::from(scale) + 2.0 * body_plan::SIDE_ROOM
+    }
+
+    /// The largest scale at which the body plan fits into `room`.
+    fn body_scale(&self, room: &Rectangle) -> u32 {
+        let width = room.width() - 2.0 * body_plan::SIDE_ROOM;
+        let height = room.height() - body_plan::TOP_ROOM - body_plan::BOTTOM_ROOM - VIEW_TITLE;
+        drawing_scale(2.0 * self.half_breadth, width).max(drawing_scale(self.height, height))
+    }
+}
+
+/// Where the views stand.
+struct Layout {
+    scale: u32,
+    /// Room for names beside the long views [mm].
+    side_room: f64,
+    body_scale: u32,
+    profile: Rectangle,
+    half_breadths: Rectangle,
+    body: Rectangle,
+    table: Rectangle,
+}
+
+/// The layout at the largest scale of the list that leaves the views their room, with the body plan beside or below the long
+/// views, where it is larger.
+fn layout(extents: &Extents) -> Layout {
+    let inner = FRAME.grown(-GAP);
+    let beyond = [2000, 5000, 10_000, 20_000, 50_000, 100_000];
+    let rooms = [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM];
+    let scales = [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(beyond);
+    let mut tries = scales.flat_map(|scale| rooms.map(|room| (scale, room)));
+    let fitting = tries.find_map(|(scale, side_room)| {
+        let views = extents.long_views(scale, side_room);
+        let choices = [beside(extents, scale, views, &inner), below(extents, scale, views, &inner)];
+        let best = choices.into_iter().flatten().min_by_key(|choice| choice.body_scale);
+        best.map(|choice| Layout { side_room, ..choice })
+    });
+    let nothing = Rectangle::new(inner.left, inner.top, inner.right, inner.top);
+    fitting.unwrap_or(Layout {
+        scale: 1_000_000,
+        side_room: profile::SIDE_ROOM,
+        body_scale: 1_000_000,
+        profile: nothing,
+        half_breadths: nothing,
+        body: nothing,
+        table: nothing,
+    })
+}
+
+/// The long views in a column on the left with the table under them, the body plan on the right.
+fn beside(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Option<Layout> {
+    let spare = inner.height() - profile - half;
+    if inner.width() - width - GAP < BODY_COLUMN || spare < GAP {
+        return None;
+    }
+    let gap = if spare > 90.0 { 0.25 * (spare - 60.0) } else { GAP.min(0.5 * spare) };
+    let right = inner.left + width;
+    let upper = Rectangle::new(inner.left, inner.top, right, inner.top + profile);
+    let lower = Rectangle::new(inner.left, upper.bottom + gap, right, upper.bottom + gap + half);
+    let body = Rectangle::new(right + GAP, inner.top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
+    let table = Rectangle::new(inner.left, lower.bottom + GAP, right, inner.bottom);
+    let body_scale = extents.body_scale(&body);
+    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
+}
+
+/// The long views one under the other, the body plan under them, table and title block to its right.
+fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Option<Layout> {
+    let body_height = inner.height() - profile - half - 2.0 * GAP;
+    if width > inner.width() || body_height < title_block::SIZE[1] + 20.0 {
+        return None;
+    }
+    let column = inner.right - title_block::SIZE[0] - GAP;
+    let room = Rectangle::new(inner.left, inner.bottom - body_height, column, inner.bottom);
+    let body_scale = extents.body_scale(&room);
+    // What the body plan leaves parts the views.
+    let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+    let left = inner.left + 0.5 * (inner.width() - width);
+    let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
+    let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
+    let top = lower.bottom + gap;
+    // The table stands over the title block, or else between it and the body plan.
+    let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
+    let beside = column - extents.table[0] - GAP;
+    let between = over.height() < extents.table[1] && beside - inner.left >= extents.body_width(body_scale);
+    let body = Rectangle::new(inner.left, top, if between { beside } else { column }, inner.bottom);
+    let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
+    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
+}
+
+/// Draws the sheet.
+#[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+    let hull = inputs.hull;
+    let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth));
+    let layout = layout(&extents);
+    let body_scale = layout.body_scale;
+    let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)));
+    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    canvas.rectangle(&FRAME, &Pen::new(0.7, "#000000"));
+    let title = TextStyle::new(3.0, Anchor::Start);
+
+    let style = LongStyle { text_size: TEXT, narrow: layout.side_room < profile::SIDE_ROOM };
+    let millimetres = 1000.0 / f64::from(layout.scale);
+    let origin_x = layout.profile.left + layout.side_room - grid.length[0] * millimetres;
+    let name = |canvas: &mut Canvas, place: &Rectangle, text: &str, scale: u32| {
+        canvas.text([place.left + 1.0, place.top + 2.0], &format!("{text}   1 : {scale}"), &title);
+    };
+    name(&mut canvas, &layout.profile, "PROFILE", layout.scale);
+    let base = layout.profile.bottom - profile::END_ROOM + grid.height[0].min(0.0) * millimetres;
+    profile::draw_profile(&mut canvas, hull, &grid, &View::new([origin_x, base], layout.scale), style);
+
+    name(&mut canvas, &layout.half_breadths, "HALF-BREADTH PLAN, diagonals in true shape below", layout.scale);
+    let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
+    profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([origin_x, centre], layout.scale), style);
+
+    let needed = extents.body_height(body_scale);
+    let foot = layout.body.top + needed.max(0.5 * (layout.body.height() + needed)) - body_plan::BOTTOM_ROOM;
+    let middle = 0.5 * (layout.body.left + layout.body.right);
+    let body_base = foot + grid.height[0].min(0.0) * 1000.0 / f64::from(body_scale);
+    let top = foot - needed + body_plan::BOTTOM_ROOM;
+    name(
+        &mut canvas,
+        &Rectangle { top, left: middle - 0.5 * extents.body_width(body_scale), ..layout.body },
+        "BODY PLAN",
+        body_scale,
+    );
+    body_plan::draw(&mut canvas, hull, &grid, &View::new([middle, body_base], body_scale), TEXT);
+
+    let corner = [FRAME.right, FRAME.bottom];
+    let scales = Scales { long: layout.scale, body: body_scale };
+    title_block::draw(&mut canvas, inputs, &grid, scales, corner);
+    title_block::draw_offsets(&mut canvas, inputs, &grid, &layout.table);
+    Ok(canvas)
+}

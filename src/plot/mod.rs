@@ -1,0 +1,29 @@
+//! Figures: one file a figure, drawn in millimetres, as SVG and PNG.
+//!
+//! Everything shown was computed by the floors below; this module places it on paper. Text is set in the embedded DejaVu
+//! Sans, so that pictures are the same on every machine. The same inputs give the same bytes.
+
+mod body_plan;
+mod canvas;
+mod caption;
+mod chart;
+mod diagram_sheet;
+mod figure;
+mod font;
+mod hydrostatics;
+mod label;
+mod lines;
+mod lines_grid;
+mod outline;
+mod png;
+mod profile;
+mod scale;
+mod sectional_area;
+mod sections;
+#[cfg(test)]
+mod tests;
+mod title_block;
+mod view;
+
+pub use figure::{Figure, FigureInputs, PlotError, Svg};
+pub use scale::{DRAWING_SCALES, sheet_scale};

@@ -1,0 +1,42 @@
+//! SVG to PNG, with the embedded font alone.
+
+use super::{PlotError, font};
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+use std::sync::{Arc, OnceLock};
+
+/// Largest side of a picture [pixels].
+const LARGEST_SIDE: f64 = 20_000.0;
+
+fn fonts() -> Arc<fontdb::Database> {
+    static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
+    Arc::clone(FONTS.get_or_init(|| {
+        let mut database = fontdb::Database::new();
+        database.load_font_data(font::DEJAVU_SANS.to_vec());
+        database.set_sans_serif_family(font::FAMILY);
+        database.set_serif_family(font::FAMILY);
+        database.set_monospace_family(font::FAMILY);
+        Arc::new(database)
+    }))
+}
+
+/// Renders a document whose size is in millimetres at `dots_per_inch`.
+pub(super) fn render(svg: &str, dots_per_inch: f64) -> Result<Vec<u8>, PlotError> {
+    let options = Options { fontdb: fonts(), font_family: font::FAMILY.to_owned(), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).map_err(|error| PlotError::Svg(error.to_string()))?;
+    let size = tree.size();
+    let ratio = dots_per_inch / f64::from(options.dpi);
+    let sides = [f64::from(size.width()) * ratio, f64::from(size.height()) * ratio].map(f64::round);
+    if !sides.iter().all(|side| (1.0..=LARGEST_SIDE).contains(side)) {
+        return Err(PlotError::PictureSize { dots_per_inch, width: sides[0], height: sides[1] });
+    }
+    let [width, height] = sides.map(|side| side as u32);
+    let mut pixmap = Pixmap::new(width, height).ok_or(PlotError::PictureSize {
+        dots_per_inch,
+        width: sides[0],
+        height: sides[1],
+    })?;
+    let transform = Transform::from_scale(width as f32 / size.width(), height as f32 / size.height());
+    resvg::render(&tree, transform, &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|error| PlotError::Png(error.to_string()))
+}

@@ -1,0 +1,193 @@
+//! The two long views of a lines plan: profile (sheer plan) and half-breadth plan.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::label::{LabelPlacer, Preference};
+use super::lines_grid::{GridPlane, LinesGrid};
+use super::outline;
+use super::view::{BASE, BUTTOCK, DESIGN, DIAGONAL, GRID, OUTLINE, View, WATERLINE};
+use crate::hull::Hull;
+
+/// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
+pub(super) const SIDE_ROOM: f64 = 20.5;
+/// Room beside the hull for their names alone [mm].
+pub(super) const NARROW_SIDE_ROOM: f64 = 12.5;
+/// Room above and below the hull for the names of stations [mm].
+pub(super) const END_ROOM: f64 = 8.0;
+/// Grid lines go this far beyond the hull [mm].
+const BEYOND: f64 = 3.0;
+
+/// How the long views are lettered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LongStyle {
+    /// Size of the text [mm].
+    pub(super) text_size: f64,
+    /// Whether waterlines and buttocks bear their names alone, without distances.
+    pub(super) narrow: bool,
+}
+
+/// Largest distance from the centreplane along a diagonal [m].
+pub(super) fn diagonal_reach(grid: &LinesGrid) -> f64 {
+    grid.diagonals
+        .iter()
+        .flat_map(|plane| plane.curves.iter().flatten().map(|point| LinesGrid::expanded(point, plane.at)[1]))
+        .fold(0.0, f64::max)
+}
+
+/// Frame of the grid for a view that reaches from `low` to `high` [m].
+fn frame(grid: &LinesGrid, view: &View, low: f64, high: f64) -> Rectangle {
+    let [left, bottom] = view.at([grid.length[0], low]);
+    let [right, top] = view.at([grid.length[1], high]);
+    Rectangle::new(left, top, right, bottom).grown(BEYOND)
+}
+
+/// Stations as upright lines, named above and below where there is room.
+fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
+    let style = TextStyle::new(text_size, Anchor::Middle);
+    let room = frame.grown(END_ROOM + SIDE_ROOM);
+    let length = hull.particulars().length_between_perpendiculars;
+    let places = [frame.top - 0.8 * text_size, frame.bottom + 0.8 * text_size];
+    let mut names = LabelPlacer::default();
+    for plane in &grid.stations {
+        let x = view.at([plane.at, 0.0])[0];
+        let perpendicular = plane.at.abs() < 1e-9 * length || (plane.at - length).abs() < 1e-9 * length;
+        canvas.line([x, frame.top], [x, frame.bottom], if perpendicular { &BASE } else { &GRID });
+    }
+    // Whole stations first, so that halves give way where it is narrow.
+    let (halves, whole): (Vec<&GridPlane>, Vec<&GridPlane>) =
+        grid.stations.iter().partition(|plane| plane.name.ends_with('½'));
+    for plane in whole.into_iter().chain(halves) {
+        let x = view.at([plane.at, 0.0])[0];
+        for y in places {
+            names.name_point(canvas, &plane.name, &style, &[[x, y]], &room);
+        }
+    }
+    for (name, x) in [("AP", 0.0), ("FP", length)] {
+        let at = [view.at([x, 0.0])[0], places[1] + 1.3 * text_size];
+        names.name_point(canvas, name, &style, &[at], &room);
+    }
+}
+
+/// A line along the ship with its name at both ends, the ends given.
+fn draw_level(
+    canvas: &mut Canvas,
+    names: &mut LabelPlacer,
+    frame: &Rectangle,
+    y: f64,
+    pen: &Pen,
+    name: &str,
+    text_size: f64,
+) {
+    canvas.line([frame.left, y], [frame.right, y], pen);
+    let room = frame.grown(SIDE_ROOM + BEYOND);
+    let style = TextStyle::new(text_size, Anchor::End);
+    names.name_point(canvas, name, &style, &[[frame.left - 1.0, y]], &room);
+    let right = TextStyle { anchor: Anchor::Start, ..style };
+    names.name_point(canvas, name, &right, &[[frame.right + 1.0, y]], &room);
+}
+
+/// The profile, bow to the right; the origin of `view` is AP on the base line.
+pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
+    let text_size = style.text_size;
+    let frame = frame(grid, view, grid.height[0], grid.height[1]);
+    canvas.begin_group("profile");
+    draw_stations(canvas, hull, grid, view, &frame, text_size);
+    let mut names = LabelPlacer::default();
+    let design = &grid.design_waterline;
+    for plane in [design].into_iter().chain(&grid.waterlines) {
+        let pen = if plane.name == design.name {
+            &DESIGN
+        } else if plane.at.abs() < 1e-9 {
+            &BASE
+        } else {
+            &GRID
+        };
+        let y = view.at([0.0, plane.at])[1];
+        let name = if style.narrow { plane.name.clone() } else { grid.waterline_label(plane) };
+        draw_level(canvas, &mut names, &frame, y, pen, &name, text_size);
+    }
+    let mut placer = LabelPlacer::default();
+    let mut owners = Vec::new();
+    for plane in &grid.buttocks {
+        for (k, curve) in plane.curves.iter().enumerate() {
+            placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[2]]), &BUTTOCK));
+            owners.push((k < plane.on_side).then_some(plane));
+        }
+    }
+    let outline = view.draw(canvas, outline::centreplane(hull), &OUTLINE);
+    let deck = view.draw(canvas, grid.deck.iter().map(|p| [p[0], p[2]]), &OUTLINE);
+    let inside = frame.grown(-BEYOND);
+    placer.add_curve(&outline);
+    placer.add_curve(&deck);
+    let style = TextStyle::new(text_size, Anchor::Middle).coloured(BUTTOCK.colour);
+    for (k, plane) in owners.iter().enumerate() {
+        let Some(plane) = plane else { continue };
+        let longest = grid.length[1] - grid.length[0];
+        let part = if longest > 0.0 { 0.06 + 0.03 * (k % 4) as f64 } else { 0.1 };
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
+        placer.name_curve(
+            canvas,
+            k,
+            &plane.name,
+            &style,
+            Preference { part: 1.0 - part, crossings: 2, beside: false },
+            &inside,
+        );
+    }
+    canvas.end_group();
+}
+
+/// The half-breadth plan: waterlines above the centre line, diagonals in their true shape below it; the origin of `view` is AP
+/// on the centre line.
+pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
+    let text_size = style.text_size;
+    let frame = frame(grid, view, -diagonal_reach(grid), grid.half_breadth);
+    canvas.begin_group("half-breadth-plan");
+    draw_stations(canvas, hull, grid, view, &frame, text_size);
+    let mut names = LabelPlacer::default();
+    draw_level(canvas, &mut names, &frame, view.origin[1], &BASE, "CL", text_size);
+    for plane in &grid.buttocks {
+        let y = view.at([0.0, plane.at])[1];
+        let name = if style.narrow { plane.name.clone() } else { grid.buttock_label(plane) };
+        draw_level(canvas, &mut names, &frame, y, &GRID, &name, text_size);
+    }
+    let mut placer = LabelPlacer::default();
+    let mut owners: Vec<Option<(&GridPlane, &Pen)>> = Vec::new();
+    for plane in [&grid.design_waterline].into_iter().chain(&grid.waterlines) {
+        for (k, curve) in plane.curves.iter().enumerate() {
+            placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), &WATERLINE));
+            owners.push((k < plane.on_side).then_some((plane, &WATERLINE)));
+        }
+    }
+    for plane in &grid.diagonals {
+        for (k, curve) in plane.curves.iter().enumerate() {
+            let expanded = curve.iter().map(|point| {
+                let [x, s] = LinesGrid::expanded(point, plane.at);
+                [x, -s]
+            });
+            placer.add_curve(&view.draw(canvas, expanded, &DIAGONAL));
+            owners.push((k < plane.on_side).then_some((plane, &DIAGONAL)));
+        }
+    }
+    let mut deck: Vec<_> = grid.deck.iter().map(|p| [p[0], p[1]]).collect();
+    if let (Some(&[aft, _]), Some(&[fore, _])) = (deck.first(), deck.last()) {
+        deck.insert(0, [aft, 0.0]);
+        deck.push([fore, 0.0]);
+    }
+    placer.add_curve(&view.draw(canvas, deck, &OUTLINE));
+    let inside = frame.grown(-0.5 * BEYOND);
+    for (k, owner) in owners.iter().enumerate() {
+        let Some((plane, pen)) = owner else { continue };
+        let style = TextStyle::new(text_size, Anchor::Middle).coloured(pen.colour);
+        let part = 0.08 + 0.035 * (k % 5) as f64;
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
+        placer.name_curve(
+            canvas,
+            k,
+            &plane.name,
+            &style,
+            Preference { part: 1.0 - part, crossings: 2, beside: false },
+            &inside,
+        );
+    }
+    canvas.end_group();
+}

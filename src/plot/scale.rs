@@ -1,0 +1,137 @@
+//! Scales: of drawings, of the curves of a diagram sheet, and of axes.
+
+/// Scales of drawings, 1 : n, that a scale rule has (ISO 5455 and the lofting practice of 1:25 and 1:250).
+pub const DRAWING_SCALES: [u32; 8] = [20, 25, 50, 100, 200, 250, 500, 1000];
+
+/// The largest scale of [`DRAWING_SCALES`] at which `extent` [m] fits into `room` [mm]; past 1:1000 the list goes on with
+/// 2000, 5000, ..., and below 1:20 with 10, 5, 2, 1.
+pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
+    let needed = 1000.0 * extent / room;
+    let small = [1, 2, 5, 10].into_iter();
+    let large = [2000, 5000, 10_000, 20_000, 50_000, 100_000].into_iter();
+    small
+        .chain(DRAWING_SCALES)
+        .chain(large)
+        .find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9))
+        .unwrap_or(1_000_000)
+}
+
+/// First member of `mantissas` times a power of ten that is not below `value`; `mantissas` rise from 1 to 10.
+/// A member that `value` equals to nine digits is taken as it is.
+fn round_up(value: f64, mantissas: &[f64]) -> f64 {
+    if !(value.is_finite() && value > 0.0) {
+        return 1.0;
+    }
+    let power = value.log10().floor();
+    let unit = 10f64.powi(power as i32);
+    let mantissa = mantissas.iter().copied().find(|m| m * unit >= value * (1.0 - 1e-9)).unwrap_or(10.0);
+    // 10^-k as a quotient, so that 0.05 is the number that is written so.
+    if power < 0.0 { mantissa / 10f64.powi(-(power as i32)) } else { mantissa * unit }
+}
+
+/// The scale of a curve of a diagram sheet, its unit a millimetre: the largest `value` stands at `target` millimetres or
+/// less, and the scale is 1, 2, 2.5, 4 or 5 times a power of ten.
+///
+/// A scale of nothing (`value` not a positive number) is 1.
+///
+/// ```
+/// use loftsman::plot::sheet_scale;
+/// assert_eq!(sheet_scale(463.4, 120.0).to_string(), "4"); // raw scale 3.86
+/// assert_eq!(sheet_scale(12.8, 100.0).to_string(), "0.2"); // raw scale 0.128
+/// ```
+#[must_use]
+pub fn sheet_scale(value: f64, target: f64) -> f64 {
+    round_up(value / target, &[1.0, 2.0, 2.5, 4.0, 5.0, 10.0])
+}
+
+/// Scale of the draughts of a diagram sheet, which are read at its rulers: not below `raw`, and never so large that more than a
+/// quarter of the height is left over.
+pub(super) fn draught_scale(raw: f64) -> f64 {
+    round_up(raw, &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+}
+
+/// Step of 1, 2, 2.5 or 5 times a power of ten that divides `range` into at most `count` parts.
+pub(super) fn nice_step(range: f64, count: f64) -> f64 {
+    round_up(range / count, &[1.0, 2.0, 2.5, 5.0, 10.0])
+}
+
+/// Decimals that write multiples of `step` in full.
+pub(super) fn decimals(step: f64) -> usize {
+    (0..6)
+        .find(|&d| {
+            let scaled = step * 10f64.powi(d);
+            (scaled - scaled.round()).abs() < 1e-6 * scaled.abs().max(1e-9)
+        })
+        .map_or(6, |d| d as usize)
+}
+
+/// Multiples of `step` from `low` to `high`, both included to a billionth of the step.
+pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
+    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_of_the_list_that_just_fits_is_taken() {
+        assert_eq!(drawing_scale(40.0, 400.0), 100);
+        assert_eq!(drawing_scale(40.1, 400.0), 200);
+        assert_eq!(drawing_scale(110.0, 400.0), 500);
+        assert_eq!(drawing_scale(450.0, 400.0), 2000);
+    }
+
+    #[test]
+    fn scales_of_a_sheet_are_rounded_up_to_what_a_rule_has() {
+        let raw_and_scale: [(f64, f64); 9] = [
+            (4.0, 4.0),
+            (4.01, 5.0),
+            (5.01, 10.0),
+            (10.0, 10.0),
+            (10.01, 20.0),
+            (0.1, 0.1),
+            (0.128, 0.2),
+            (0.0434, 0.05),
+            (2.2e-3, 2.5e-3),
+        ];
+        for (raw, scale) in raw_and_scale {
+            let found = sheet_scale(raw * 100.0, 100.0);
+            assert!((found - scale).abs() <= 1e-15 * scale, "{raw}: {found}");
+        }
+    }
+
+    #[test]
+    fn draughts_fill_three_quarters_of_the_sheet() {
+        for k in 1..200 {
+            let raw = 0.01 * f64::from(k);
+            let part = raw / draught_scale(raw);
+            assert!((0.75 - 1e-9..=1.0 + 1e-9).contains(&part), "{raw}: {part}");
+        }
+    }
+
+    #[test]
+    fn nothing_has_the_scale_one() {
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!((sheet_scale(value, 100.0) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn steps_and_their_decimals() {
+        for (range, count, step, places) in
+            [(5.2, 6.0, 1.0, 0), (0.9, 4.0, 0.25, 2), (13.2, 4.0, 5.0, 0), (1.2, 5.0, 0.25, 2), (0.01, 5.0, 0.002, 3)]
+        {
+            let found = nice_step(range, count);
+            assert!((found - step).abs() < 1e-12, "{range}: {found}");
+            assert_eq!(decimals(found), places, "{range}");
+        }
+    }
+
+    #[test]
+    fn multiples_include_both_ends() {
+        assert_eq!(multiples(0.1, 0.0, 0.3).len(), 4);
+        assert_eq!(multiples(0.5, -0.6, 1.0).len(), 4);
+    }
+}

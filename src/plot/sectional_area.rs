@@ -1,0 +1,120 @@
+//! The sectional-area curve at the design draught.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::chart::{Axis, Chart, Series, colour};
+use super::label::LabelPlacer;
+use super::scale::nice_step;
+use super::{FigureInputs, PlotError, caption, outline};
+use crate::hull::SectionalAreaCurve;
+
+/// Size of the sheet [mm].
+const SHEET: [f64; 2] = [300.0, 170.0];
+/// Stations along the immersed length at which the curve is taken.
+const STATIONS: usize = 401;
+/// Intervals between the perpendiculars.
+const INTERVALS: f64 = 20.0;
+
+/// Draws the curve.
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+    let (hull, design) = (inputs.hull, inputs.design);
+    let length = hull.particulars().length_between_perpendiculars;
+    let [aft, fore] = outline::immersed_length(hull, design.draught);
+    let stations: Vec<f64> = (0..STATIONS).map(|k| aft + (fore - aft) * k as f64 / (STATIONS - 1) as f64).collect();
+    let curve = SectionalAreaCurve::new(hull, design.draught, &stations);
+    let mut points = vec![[aft, 0.0]];
+    points.extend(curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]));
+    points.push([fore, 0.0]);
+
+    let (low, high) = (aft.min(0.0), fore.max(length));
+    let room = 0.02 * (high - low);
+    let largest = design.maximum_section_area.max(f64::MIN_POSITIVE);
+    let left = Axis::new("section area A [m²]", 0.0, 1.02 * largest, 8.0);
+    let frame = Rectangle::new(24.0, 36.0, SHEET[0] - 24.0, SHEET[1] - 32.0);
+    let interval = length / INTERVALS;
+    let chart = Chart {
+        frame,
+        right: Some(left.divided("A / A_X [-]", largest, 0.1)),
+        left,
+        top: Some(Axis::exact("station", (low - room) / interval, (high + room) / interval, 1.0)),
+        bottom: Axis::exact("x forward of AP [m]", low - room, high + room, nice_step(high - low, 12.0)),
+        text_size: 2.8,
+    };
+
+    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let title = format!("SECTIONAL-AREA CURVE – {}", caption::plain(hull.name()));
+    canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
+    canvas.text([0.5 * SHEET[0], 15.0], &caption::conventions(inputs), &TextStyle::new(2.6, Anchor::Middle));
+    let mut placer = LabelPlacer::default();
+    if let (Some(from), Some(to)) = (design.parallel_body_aft, design.parallel_body_fore) {
+        mark_parallel_body(&mut canvas, &mut placer, &chart, [from, to], largest);
+    }
+    for (name, position, row) in [("LCB", design.lcb, 0.0), ("LCF", design.lcf, 1.0)] {
+        if let Some(x) = position {
+            mark_centre(&mut canvas, &mut placer, &chart, name, x, row);
+        }
+    }
+    for (name, x) in [("AP", 0.0), ("FP", length)] {
+        let [at, _] = chart.place([x, 0.0]);
+        canvas.line([at, frame.top], [at, frame.bottom], &Pen::new(0.2, "#000000").dashed(&[4.0, 1.0, 0.6, 1.0]));
+        let style = TextStyle::new(2.8, if x > 0.0 { Anchor::End } else { Anchor::Start }).halo();
+        let place = [at + if x > 0.0 { -1.2 } else { 1.2 }, frame.top + 3.0];
+        placer.take(Canvas::text_place(place, name, &style).grown(0.4));
+        canvas.text(place, name, &style);
+    }
+    let series = [Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    chart.draw(&mut canvas, &mut placer, &series, None)?;
+    canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    Ok(canvas)
+}
+
+/// The parallel middle body, shaded from keel to curve.
+fn mark_parallel_body(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Chart, limits: [f64; 2], area: f64) {
+    let [from, to] = limits.map(|x| chart.place([x, area]));
+    let bottom = chart.frame.bottom;
+    canvas.fill(&Rectangle::new(from[0], from[1], to[0], bottom), "#e8eef4");
+    let name = format!("parallel middle body {:.2} – {:.2} m", limits[0], limits[1]);
+    let style = TextStyle::new(2.6, Anchor::Middle).halo();
+    let at = [0.5 * (from[0] + to[0]), from[1] + 0.45 * (bottom - from[1])];
+    let place = Canvas::text_place(at, &name, &style).grown(0.4);
+    if chart.frame.contains(&place) {
+        placer.take(place);
+        canvas.text(at, &name, &style);
+    }
+}
+
+/// A mark at the position of a centre, from the axis up, with its name and place.
+fn mark_centre(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Chart, name: &str, x: f64, row: f64) {
+    let [at, bottom] = chart.place([x, 0.0]);
+    let top = bottom - 9.0 - 5.0 * row;
+    canvas.line([at, bottom], [at, top], &Pen::new(0.5, "#d55e00"));
+    canvas.area(&[[at, bottom], [at - 1.1, bottom - 2.6], [at + 1.1, bottom - 2.6]], "#d55e00");
+    let style = TextStyle::new(2.8, Anchor::Start).coloured("#a34700").halo();
+    let place = [at + 1.2, top + 1.0];
+    let text = format!("{name} {x:.2} m");
+    placer.take(Canvas::text_place(place, &text, &style).grown(0.4));
+    canvas.text(place, &text, &style);
+}
+
+/// What the curve amounts to, in one line.
+fn coefficients(inputs: &FigureInputs) -> String {
+    let design = inputs.design;
+    let mut parts = vec![format!("T {:.2} m", design.draught), format!("∇ {:.1} m³", design.displacement_volume)];
+    parts.push(match design.maximum_section_position {
+        Some(x) => format!("A_X {:.2} m² at x {x:.2} m", design.maximum_section_area),
+        None => format!("A_X {:.2} m²", design.maximum_section_area),
+    });
+    for (symbol, value) in [
+        ("C_P", design.prismatic_coefficient),
+        ("C_PF", design.prismatic_coefficient_fore),
+        ("C_PA", design.prismatic_coefficient_aft),
+    ] {
+        if let Some(value) = value {
+            parts.push(format!("{symbol} {value:.4}"));
+        }
+    }
+    if let Some(percent) = design.lcb_percent {
+        parts.push(format!("LCB {percent:+.2} % L_PP from midship"));
+    }
+    parts.join("    ")
+}

@@ -1,0 +1,42 @@
+//! The body plan alone.
+
+use super::body_plan::{self, BOTTOM_ROOM, SIDE_ROOM, TOP_ROOM};
+use super::canvas::{Anchor, Canvas, TextStyle};
+use super::lines_grid::LinesGrid;
+use super::scale::drawing_scale;
+use super::view::View;
+use super::{FigureInputs, PlotError, caption};
+
+/// Largest sheet, A3 [mm].
+const LARGEST: [f64; 2] = [420.0, 297.0];
+/// Room for the title [mm].
+const TITLE: f64 = 22.0;
+/// Deviation of chords from their curves on paper [mm].
+const DEVIATION: f64 = 0.004;
+
+/// Draws the body plan on a sheet as large as it needs, at a scale of the list that fits on A3.
+#[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+    let hull = inputs.hull;
+    let p = hull.particulars();
+    let rooms = [2.0 * SIDE_ROOM + 18.0, TITLE + TOP_ROOM + BOTTOM_ROOM + 8.0];
+    let coarse = LinesGrid::new(hull, 1e-3 * p.breadth);
+    let extent = [2.0 * coarse.half_breadth, coarse.height[1] - coarse.height[0].min(0.0)];
+    let scale = drawing_scale(extent[0], LARGEST[0] - rooms[0]).max(drawing_scale(extent[1], LARGEST[1] - rooms[1]));
+    let millimetres = 1000.0 / f64::from(scale);
+    let grid = LinesGrid::new(hull, DEVIATION / millimetres);
+    let size = [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]];
+    let mut canvas = Canvas::new(size[0].ceil(), size[1].ceil());
+    let centre = 0.5 * size[0].ceil();
+    let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
+    canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
+    let line = format!(
+        "1 : {scale}   L_PP {:.2} m   B {:.2} m   T {:.2} m   D {:.2} m   stations {:.3} m from AP   moulded",
+        p.length_between_perpendiculars, p.breadth, p.draught, p.depth, grid.station_spacing
+    );
+    canvas.text([centre, 15.0], &line, &TextStyle::new(2.6, Anchor::Middle));
+    let view = View::new([centre, size[1].ceil() - BOTTOM_ROOM - 6.0], scale);
+    body_plan::draw(&mut canvas, hull, &grid, &view, 2.2);
+    canvas.text([size[0].ceil() - 4.0, size[1].ceil() - 2.8], &caption::program(), &TextStyle::new(1.9, Anchor::End));
+    Ok(canvas)
+}

@@ -1,0 +1,150 @@
+//! Title block, check bar and table of half-breadths of a lines plan.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::lines_grid::{GridPlane, LinesGrid};
+use super::{FigureInputs, caption};
+
+/// Size of the title block [mm].
+pub(super) const SIZE: [f64; 2] = [128.0, 56.0];
+const FRAME: Pen = Pen::new(0.35, "#000000");
+const RULE: Pen = Pen::new(0.13, "#000000");
+
+/// Scales of the long views and of the body plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Scales {
+    pub(super) long: u32,
+    pub(super) body: u32,
+}
+
+/// Draws the title block with its lower right corner at `corner`.
+pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, scales: Scales, corner: [f64; 2]) {
+    let block = Rectangle::new(corner[0] - SIZE[0], corner[1] - SIZE[1], corner[0], corner[1]);
+    let (hull, design) = (inputs.hull, inputs.design);
+    let p = hull.particulars();
+    canvas.rectangle(&block, &FRAME);
+    let left = block.left + 3.0;
+    let name = caption::plain(hull.name());
+    let large = TextStyle::new(4.6, Anchor::Start);
+    // A long name is set smaller, so that it stays inside.
+    let fitted = (SIZE[0] - 40.0) / Canvas::text_place([0.0, 0.0], &name, &large).width().max(1.0);
+    canvas.text([left, block.top + 5.0], &name, &TextStyle { size: large.size * fitted.min(1.0), ..large });
+    canvas.text([block.right - 3.0, block.top + 5.0], "LINES PLAN", &TextStyle::new(3.6, Anchor::End));
+    canvas.line([block.left, block.top + 9.5], [block.right, block.top + 9.5], &RULE);
+
+    let body = if scales.body == scales.long { String::new() } else { format!("   body plan 1 : {}", scales.body) };
+    let coefficient =
+        |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
+    let left_column = [
+        format!("scale 1 : {}{body}", scales.long),
+        format!("L_PP {:.2} m    B {:.2} m", p.length_between_perpendiculars, p.breadth),
+        format!("T {:.2} m    D {:.2} m", p.draught, p.depth),
+        format!(
+            "{}    {}",
+            coefficient("C_B", design.block_coefficient),
+            coefficient("C_P", design.prismatic_coefficient)
+        ),
+        format!("∇ {:.1} m³    Δ {:.1} t", design.displacement_volume, design.displacement_mass),
+        format!("ρ {:.3} t/m³    L_WL {:.2} m", inputs.curves.conventions.density, design.waterline_length),
+    ];
+    let right_column = [
+        "sheet A3".to_owned(),
+        format!("stations {:.3} m, 0 at AP", grid.station_spacing),
+        format!("waterlines {:.2} m", grid.waterline_spacing),
+        format!("buttocks {:.2} m", grid.buttock_spacing),
+        "moulded dimensions, metres".to_owned(),
+        caption::program(),
+    ];
+    let style = TextStyle::new(2.5, Anchor::Start);
+    for (column, x) in [(&left_column, left), (&right_column, block.left + 0.6 * SIZE[0])] {
+        for (row, text) in column.iter().enumerate() {
+            canvas.text([x, block.top + 13.5 + 4.9 * row as f64], text, &style);
+        }
+    }
+    draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.0]);
+}
+
+/// A bar of 100 mm, to check the scale of a print.
+fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
+    canvas.line(at, [at[0] + 100.0, at[1]], &FRAME);
+    for k in 0..=10 {
+        let x = at[0] + 10.0 * f64::from(k);
+        let length = if k % 5 == 0 { 2.0 } else { 1.2 };
+        canvas.line([x, at[1]], [x, at[1] - length], &FRAME);
+    }
+    let style = TextStyle::new(1.9, Anchor::Middle);
+    canvas.text([at[0] + 50.0, at[1] + 2.6], "100 mm on paper", &style);
+}
+
+/// Height of a row of the table [mm].
+const ROW: f64 = 3.5;
+/// Width of a column of the table [mm].
+const COLUMN: f64 = 8.6;
+/// Width of its first column [mm].
+const FIRST_COLUMN: f64 = 22.0;
+
+/// Width with every second station, and height [mm].
+pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
+    [FIRST_COLUMN + COLUMN * every_second(grid).len() as f64, table_height(grid)]
+}
+
+fn table_height(grid: &LinesGrid) -> f64 {
+    ROW * (grid.waterlines.len() + 3) as f64 + 4.0
+}
+
+fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
+    grid.stations.iter().filter(|plane| !plane.name.contains('½')).collect()
+}
+
+fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
+    whole_stations(grid).into_iter().step_by(2).collect()
+}
+
+/// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; nothing when
+/// the waterlines do not fit.
+pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
+    let hull = inputs.hull;
+    let planes = waterlines(grid);
+    let height = table_height(grid);
+    let all: Vec<&GridPlane> = grid.stations.iter().collect();
+    let width = |count: usize| FIRST_COLUMN + COLUMN * count as f64;
+    let stations =
+        [all, whole_stations(grid), every_second(grid)].into_iter().find(|list| width(list.len()) <= room.width());
+    let Some(stations) = stations.filter(|_| height <= room.height()) else { return };
+    let (left, top) = (room.left, room.bottom - height + 4.0);
+    let right = left + width(stations.len());
+    let style = TextStyle::new(2.0, Anchor::End);
+    let head = TextStyle { anchor: Anchor::Start, ..style };
+    canvas.text([left, top - 2.4], "HALF-BREADTHS [m]", &TextStyle { size: 2.5, ..head });
+    let row_at = |row: usize| top + ROW * (row as f64 + 0.5);
+    canvas.text([left + 1.0, row_at(0)], "station", &head);
+    for (column, station) in stations.iter().enumerate() {
+        let x = left + width(column + 1) - 1.0;
+        canvas.text([x, row_at(0)], &station.name, &style);
+        for (row, plane) in planes.iter().enumerate() {
+            let inside = plane.at <= hull.deck_height(station.at) + 1e-9;
+            if let Some(y) = hull.half_breadth(station.at, plane.at).filter(|_| inside) {
+                canvas.text([x, row_at(row + 1)], &format!("{:.3}", y.max(0.0)), &style);
+            }
+        }
+        let deck = hull.half_breadth(station.at, hull.deck_height(station.at));
+        if let Some(y) = deck {
+            canvas.text([x, row_at(planes.len() + 1)], &format!("{:.3}", y.max(0.0)), &style);
+        }
+    }
+    for (row, plane) in planes.iter().enumerate() {
+        canvas.text([left + 1.0, row_at(row + 1)], &grid.waterline_label(plane), &head);
+    }
+    canvas.text([left + 1.0, row_at(planes.len() + 1)], "deck at side", &head);
+    let bottom = top + ROW * (planes.len() + 2) as f64;
+    canvas.rectangle(&Rectangle::new(left, top, right, bottom), &FRAME);
+    canvas.line([left, top + ROW], [right, top + ROW], &RULE);
+    canvas.line([left, bottom - ROW], [right, bottom - ROW], &RULE);
+    canvas.line([left + FIRST_COLUMN, top], [left + FIRST_COLUMN, bottom], &RULE);
+}
+
+/// The waterlines with the design waterline among them, from the base line up.
+fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
+    let mut planes: Vec<_> = grid.waterlines.iter().chain([&grid.design_waterline]).collect();
+    planes.sort_by(|a, b| a.at.total_cmp(&b.at));
+    planes
+}

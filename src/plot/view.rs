@@ -1,0 +1,59 @@
+//! One view of a lines plan: true proportions, its own origin on the sheet; and the pens of the drawing.
+
+use super::canvas::{Canvas, Pen};
+
+/// Curves of the hull.
+pub(super) const STATION: Pen = Pen::new(0.35, "#000000");
+/// Waterlines.
+pub(super) const WATERLINE: Pen = Pen::new(0.35, "#0b3d78");
+/// Buttocks.
+pub(super) const BUTTOCK: Pen = Pen::new(0.35, "#7a2f00");
+/// Diagonals.
+pub(super) const DIAGONAL: Pen = Pen::new(0.35, "#00553c");
+/// Profile and deck.
+pub(super) const OUTLINE: Pen = Pen::new(0.5, "#000000");
+/// Grid.
+pub(super) const GRID: Pen = Pen::new(0.13, "#8a8a8a");
+/// From a name to its curve.
+pub(super) const THREAD: Pen = Pen::new(0.1, "#000000");
+/// Centre line and base line.
+pub(super) const BASE: Pen = Pen::new(0.25, "#000000");
+/// Design waterline.
+pub(super) const DESIGN: Pen = Pen::new(0.25, "#000000").dashed(&[6.0, 1.0, 0.8, 1.0]);
+/// Planes of diagonals where they stand edgewise.
+pub(super) const DIAGONAL_PLANE: Pen = Pen::new(0.18, "#00553c").dashed(&[3.0, 0.8]);
+
+/// From metres to millimetres of the sheet: the first coordinate to the right, the second up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct View {
+    /// Where (0, 0) stands on the sheet [mm].
+    pub(super) origin: [f64; 2],
+    /// Millimetres a metre.
+    pub(super) scale: f64,
+}
+
+impl View {
+    pub(super) fn new(origin: [f64; 2], scale: u32) -> Self {
+        Self { origin, scale: 1000.0 / f64::from(scale) }
+    }
+
+    pub(super) fn at(&self, point: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + point[0] * self.scale, self.origin[1] - point[1] * self.scale]
+    }
+
+    pub(super) fn place(&self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+        points.into_iter().map(|point| self.at(point)).collect()
+    }
+
+    /// Draws a curve and returns its place on the sheet.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        pen: &Pen,
+    ) -> Vec<[f64; 2]> {
+        let placed = self.place(points);
+        canvas.polyline(&placed, pen);
+        placed
+    }
+}
