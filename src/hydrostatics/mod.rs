@@ -2,6 +2,7 @@
 
 mod conventions;
 mod halves;
+mod draughts;
 mod quantity;
 mod sections;
 mod table;
@@ -9,5 +10,6 @@ mod volume;
 mod waterplane;
 
 pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell, Statement};
+pub use draughts::default_draughts;
 pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
 pub use table::CurvesOfForm;
