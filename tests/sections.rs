@@ -94,7 +94,6 @@ fn every_kind_of_cut_of_wigleys_form_keeps_its_tolerance() {
         for &cut in &cuts {
             let section = hull.section(cut, tolerance);
             assert_eq!(sides(&section).len(), 1, "{cut:?}");
-            eprintln!("{tolerance} {cut:?} {}", sides(&section)[0].curve.points().len() / 5);
             let found = deviation(&section);
             assert!(found <= tolerance, "{cut:?}: {found} at {tolerance}");
         }
@@ -299,7 +298,8 @@ fn loops_and_several_branches() {
             assert_eq!(line[0].map(f64::to_bits), line[line.len() - 1].map(f64::to_bits));
             for p in points(branch) {
                 let on = hull.half_breadth(p[0], p[2]).unwrap();
-                assert!((on - p[1]).abs() < 1e-9 && (p[1] - y).abs() <= 1e-9, "{p:?}");
+                // Along y; the sides of the bumps are up to 4 times as steep.
+                assert!((on - p[1]).abs() < 4e-9 && (p[1] - y).abs() <= 1e-9, "{p:?} {on}");
             }
         }
         assert_connected(&section);

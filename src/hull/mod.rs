@@ -11,6 +11,7 @@ mod particulars;
 mod section;
 
 pub use area::SectionalAreaCurve;
+pub(crate) use area::{crossings, is_slanting};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

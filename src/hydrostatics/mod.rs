@@ -1,6 +1,7 @@
 //! Hydrostatics of the upright hull: the quantities of a floating condition, their list, and tables over draughts.
 
 mod conventions;
+mod halves;
 mod draughts;
 mod quantity;
 mod sections;

@@ -1,7 +1,7 @@
 //! The body plan: aft sections on the left, forward sections on the right, the midship section on both sides.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::label::{LabelPlacer, Preference};
+use super::label::{LabelPlacer, Preference, length};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
 use crate::hull::Hull;
@@ -14,8 +14,8 @@ pub(super) const TOP_ROOM: f64 = 17.0;
 pub(super) const BOTTOM_ROOM: f64 = 9.0;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
-/// Stations whose half-breadths differ less than this on paper bear one name [mm].
-const SAME: f64 = 0.15;
+/// A section shorter than this on paper is named at the deck alone [mm].
+const SHORT: f64 = 25.0;
 
 /// Which side of the centre line sections of a half of the ship stand on: aft -1 (left), forward +1 (right).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,8 +61,9 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
         let project = |points: &[[f64; 3]]| points.iter().map(|p| [sign * p[1], p[2]]).collect::<Vec<_>>();
         for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
             for curve in &plane.curves {
-                placer.add_curve(&view.draw(canvas, project(curve), &STATION));
-                owners.push(&plane.name);
+                let placed = view.draw(canvas, project(curve), &STATION);
+                owners.push((&plane.name, length(&placed)));
+                placer.add_curve(&placed);
             }
         }
         let deck: Vec<_> = grid.deck.iter().filter(|p| half.has(p[0], midship)).copied().collect();
@@ -71,12 +72,22 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
     }
     let first = placer.curve_count() - owners.len();
     for half in [Half::Aft, Half::Fore] {
-        name_stations(canvas, &mut placer, hull, grid, view, half, midship, text_size);
+        name_stations(canvas, &mut placer, grid, view, half, midship, text_size);
     }
     // At the bilge too, where a name keeps off the neighbours.
     let style = TextStyle::new(0.9 * text_size, Anchor::Middle);
-    for (k, name) in owners.iter().enumerate() {
-        placer.name_curve(canvas, first + k, name, &style, Preference { part: 0.3, crossings: 0 }, &frame);
+    for (k, (name, length)) in owners.iter().enumerate() {
+        if *length < SHORT {
+            continue;
+        }
+        placer.name_curve(
+            canvas,
+            first + k,
+            name,
+            &style,
+            Preference { part: 0.3, crossings: 0, beside: false },
+            &frame,
+        );
     }
     canvas.end_group();
 }
@@ -141,19 +152,26 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
             let to = [sign * reach * cosine, plane.at - reach * sine];
             view.draw(canvas, [[0.0, plane.at], to], &DIAGONAL_PLANE);
         }
-        let at = view.at([0.0, plane.at]);
-        let name = TextStyle { anchor: Anchor::Start, ..style }.coloured(DIAGONAL_PLANE.colour).halo();
-        names.name_point(canvas, &plane.name, &name, &[[at[0] + 0.8, at[1] - 1.0], [at[0] + 0.8, at[1] + 2.0]], frame);
+        let name = TextStyle { anchor: Anchor::Middle, ..style }.coloured(DIAGONAL_PLANE.colour).halo();
+        for sign in [-1.0, 1.0] {
+            let end = view.at([sign * reach * cosine, plane.at - reach * sine]);
+            let up = [end[0] - sign * 1.2 * text_size, end[1] - 0.2 * text_size];
+            names.name_point(canvas, &plane.name, &name, &[[end[0], end[1] + 0.75 * text_size], up], frame);
+        }
     }
 }
 
-/// Names of the sections of one half: over their ends at the deck, neighbours that coincide together; where the ends are too
-/// close, on the curves.
+/// `3 – 5`; after a negative number `-½ to ½`.
+fn range(first: &str, last: &str) -> String {
+    let between = if first.starts_with('-') { "to" } else { "–" };
+    format!("{first} {between} {last}")
+}
+
+/// Names of the sections of one half over their ends at the deck; those that end too close to each other bear one name.
 #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
 fn name_stations(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
-    hull: &Hull,
     grid: &LinesGrid,
     view: &View,
     half: Half,
@@ -161,31 +179,22 @@ fn name_stations(
     text_size: f64,
 ) {
     let style = TextStyle::new(text_size, Anchor::Middle).halo();
-    let room = Rectangle::new(
-        view.origin[0] - grid.half_breadth * view.scale - SIDE_ROOM,
-        view.at([0.0, grid.height[1]])[1] - TOP_ROOM,
-        view.origin[0] + grid.half_breadth * view.scale + SIDE_ROOM,
-        view.origin[1],
-    );
-    let planes: Vec<_> = grid.stations.iter().filter(|plane| half.has(plane.at, midship)).collect();
-    let same = |a: &GridPlane, b: &GridPlane| {
-        grid.waterlines.iter().all(|waterline| {
-            match (hull.half_breadth(a.at, waterline.at), hull.half_breadth(b.at, waterline.at)) {
-                (Some(p), Some(q)) => (p - q).abs() * view.scale < SAME,
-                (None, None) => true,
-                _ => false,
-            }
-        })
-    };
-    let groups = planes.chunk_by(|a, b| same(a, b)).map(|group| {
-        let (first, last) = (group[0], group[group.len() - 1]);
-        let name = if group.len() > 1 { format!("{} – {}", first.name, last.name) } else { first.name.clone() };
-        (group[0], name)
-    });
-    for (plane, name) in groups {
+    let reach = grid.half_breadth * view.scale + SIDE_ROOM;
+    let top = view.at([0.0, grid.height[1]])[1] - TOP_ROOM;
+    let room = Rectangle::new(view.origin[0] - reach, top, view.origin[0] + reach, view.origin[1]);
+    let mut groups: Vec<([f64; 2], Vec<&GridPlane>)> = Vec::new();
+    for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
         let end = plane.curves.iter().flatten().max_by(|a, b| a[2].total_cmp(&b[2]));
         let Some(end) = end else { continue };
         let at = view.at([half.sign() * end[1], end[2]]);
+        match groups.last_mut() {
+            Some((first, planes)) if (at[0] - first[0]).hypot(at[1] - first[1]) < 1.3 * text_size => planes.push(plane),
+            _ => groups.push((at, vec![plane])),
+        }
+    }
+    for (at, planes) in groups {
+        let (first, last) = (planes[0], planes[planes.len() - 1]);
+        let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
         let rows: Vec<_> = (0..6).map(|row| [at[0], at[1] - (0.9 + 1.15 * f64::from(row)) * text_size]).collect();
         if let Some(row) = placer.name_point(canvas, &name, &style, &rows, &room).filter(|&row| row > 0) {
             // A thread from the section to a name that stands higher.

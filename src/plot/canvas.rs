@@ -155,6 +155,7 @@ impl Canvas {
         Self { width, height, body: String::new(), clips: 0, texts: Vec::new() }
     }
 
+    #[cfg(test)]
     pub(super) fn sheet(&self) -> Rectangle {
         Rectangle::new(0.0, 0.0, self.width, self.height)
     }
@@ -243,7 +244,10 @@ impl Canvas {
     /// Elements of another SVG writer, its origin at `at`, its unit `unit` millimetres.
     pub(super) fn embed(&mut self, elements: &str, at: [f64; 2], unit: f64) {
         let (x, y) = (number(at[0]), number(at[1]));
-        let _ = writeln!(self.body, "<g transform=\"translate({x} {y}) scale({unit})\">\n{elements}</g>");
+        let _ = writeln!(
+            self.body,
+            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\">\n{elements}</g>"
+        );
     }
 
     /// The rectangle that `text` takes at `at`.

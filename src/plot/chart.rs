@@ -143,12 +143,14 @@ impl Chart {
         ]
     }
 
-    /// Draws grid, axes and curves, and then the names of the curves.
+    /// Draws grid, axes and curves, a dash-dot line at a level of the left axis when there is one, and then the names, the
+    /// curves' on the curves.
     pub(super) fn draw(
         &self,
         canvas: &mut Canvas,
         placer: &mut LabelPlacer,
         series: &[Series],
+        level: Option<(f64, &str)>,
     ) -> Result<(), PlotError> {
         let elements = self.elements(series)?;
         let corner = [self.frame.left - SIDE_MARGIN, self.frame.top - MARGIN];
@@ -162,31 +164,16 @@ impl Chart {
             placer.add_curve(&points);
         }
         let first = placer.curve_count() - series.len();
+        if let Some((value, name)) = level {
+            let y = self.place([self.bottom.range[0], value])[1];
+            draw_level(canvas, placer, &self.frame, y, name, self.text_size);
+        }
         for (k, one) in series.iter().enumerate() {
             let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle).coloured(dark(one.colour));
-            placer.name_curve(
-                canvas,
-                first + k,
-                one.name,
-                &style,
-                Preference { part: one.name_at, crossings: usize::MAX },
-                &self.frame.grown(-0.4),
-            );
+            let preference = Preference { part: one.name_at, crossings: usize::MAX, beside: true };
+            placer.name_curve(canvas, first + k, one.name, &style, preference, &self.frame.grown(-0.4));
         }
         Ok(())
-    }
-
-    /// As [`Chart::draw`], with a level of the left axis marked and named first, so that names of curves keep off it.
-    pub(super) fn draw_with_level(
-        &self,
-        canvas: &mut Canvas,
-        placer: &mut LabelPlacer,
-        series: &[Series],
-        level: f64,
-        name: &str,
-    ) -> Result<(), PlotError> {
-        self.mark_level(canvas, placer, level, name);
-        self.draw(canvas, placer, series)
     }
 
     /// The elements of the chart as plotters writes them.
@@ -294,7 +281,7 @@ impl Chart {
             axis.ticks().into_iter().map(|tick| font::width(&axis.write(tick))).fold(0.0, f64::max) * self.text_size
         };
         canvas.text(
-            [self.frame.left - 3.5 * TICK - widest(&self.left) - 0.4 * self.text_size, y],
+            [self.frame.left - 2.5 * TICK - widest(&self.left) - 0.7 * self.text_size, y],
             &self.left.name,
             &style.upward(),
         );
@@ -302,22 +289,32 @@ impl Chart {
             canvas.text([x, self.frame.top - MARGIN - 0.6 * self.text_size], &top.name, &style);
         }
         if let Some(right) = &self.right {
-            let at = self.frame.right + 4.0 * TICK + widest(right) + 0.4 * self.text_size;
+            let at = self.frame.right + 2.5 * TICK + widest(right) + 0.7 * self.text_size;
             canvas.text([at, y], &right.name, &style.upward());
         }
     }
+}
 
-    /// A dash-dot line at the value `y` of the left axis, named at its left end.
-    fn mark_level(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, y: f64, name: &str) {
-        let level = self.place([self.bottom.range[0], y])[1];
-        let pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7, 1.0]);
-        canvas.line([self.frame.left, level], [self.frame.right, level], &pen);
-        let style = TextStyle::new(self.text_size, Anchor::Start).halo();
-        let up = 0.75 * self.text_size;
-        let at = [self.frame.left + 1.0, if level - 2.0 * up > self.frame.top { level - up } else { level + up }];
-        placer.take(Canvas::text_place(at, name, &style).grown(0.3));
-        canvas.text(at, name, &style);
-    }
+/// A dash-dot line across `frame` at `y`, its name at that end, above or below, where it meets fewest curves.
+pub(super) fn draw_level(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    frame: &Rectangle,
+    y: f64,
+    name: &str,
+    text_size: f64,
+) {
+    let pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7, 1.0]);
+    canvas.line([frame.left, y], [frame.right, y], &pen);
+    let style = TextStyle::new(text_size, Anchor::Middle).halo();
+    let width = Canvas::text_place([0.0, 0.0], name, &style).width();
+    let (up, aside) = (0.75 * text_size, 0.5 * width + 1.0);
+    let places: Vec<_> = [y - up, y + up]
+        .into_iter()
+        .flat_map(|y| [frame.left + aside, frame.right - aside, frame.left + 2.2 * width].map(|x| [x, y]))
+        .collect();
+    placer.name_clear(canvas, name, &style, &places, frame);
+    placer.add_curve(&[[frame.left, y], [frame.right, y]]);
 }
 
 /// Colours of curves: those of Okabe and Ito (2008), which the colour-blind tell apart, darkened until they can be read on white.

@@ -7,9 +7,10 @@
 //! scaled by their values at the lowest draught; LCB and LCF by their largest distance from midship.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::chart::draw_level;
 use super::label::{LabelPlacer, Preference};
-use super::scale::sheet_scale;
-use super::{FigureInputs, PlotError, Svg, caption};
+use super::scale::{draught_scale, sheet_scale};
+use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Width of the frame [mm].
@@ -99,9 +100,11 @@ impl Curve {
     /// The value that fixes the scale; `rows` rise in draught.
     fn scaling_value(&self, rows: &[Hydrostatics], midship: f64) -> f64 {
         let mut values = rows.iter().filter_map(|row| self.drawn(row, midship)).map(f64::abs);
+        // Centres that stay at midship are not blown up: their scale is for a hundredth of L_PP / 2 at least.
+        let least = if self.axis == Axis::MidshipOfPosition { 0.01 * midship } else { 0.0 };
         match self.scaled_by {
             ScaledBy::LowestDraught => values.next().unwrap_or(0.0),
-            ScaledBy::Largest => values.fold(0.0, f64::max),
+            ScaledBy::Largest => values.fold(least, f64::max),
         }
     }
 
@@ -125,12 +128,12 @@ fn scales(rows: &[Hydrostatics], midship: f64) -> [f64; CURVES.len()] {
 }
 
 /// Draws the sheet.
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let rows = inputs.dense_rows()?;
     let midship = 0.5 * inputs.hull.particulars().length_between_perpendiculars;
     let draught = inputs.design.draught;
     let highest = rows.iter().map(|row| row.draught).fold(draught, f64::max);
-    let draught_scale = sheet_scale(highest, HEIGHT);
+    let draught_scale = draught_scale(highest / HEIGHT);
     let mut canvas = Canvas::new(345.0, 228.0);
     let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + HEIGHT);
     let height = |draught: f64| frame.bottom - draught / draught_scale;
@@ -145,7 +148,6 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     draw_grid(&mut canvas, &frame);
     let mut placer = LabelPlacer::default();
     draw_rulers(&mut canvas, &frame, draught_scale);
-    draw_design_line(&mut canvas, &mut placer, &frame, height(draught), draught);
 
     let scales = scales(&rows, midship);
     canvas.begin_clip(&frame);
@@ -161,6 +163,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
         placer.add_curve(&points);
     }
     canvas.end_group();
+    draw_level(&mut canvas, &mut placer, &frame, height(draught), &format!("DWL {draught:.2} m"), 2.5);
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
         placer.name_curve(
@@ -168,12 +171,12 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
             k,
             curve.symbol,
             &style,
-            Preference { part: curve.name_at, crossings: usize::MAX },
+            Preference { part: curve.name_at, crossings: usize::MAX, beside: true },
             &frame.grown(-0.5),
         );
     }
     draw_legend(&mut canvas, &frame, &scales, draught_scale);
-    Ok(Svg::new(canvas, "diagram sheet"))
+    Ok(canvas)
 }
 
 fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {
@@ -248,15 +251,6 @@ fn draw_rulers(canvas: &mut Canvas, frame: &Rectangle, draught_scale: f64) {
     let name = TextStyle::new(2.8, Anchor::Middle).upward();
     let middle = 0.5 * (frame.top + frame.bottom);
     canvas.text([frame.left - 16.0, middle], "draught T above the base line [m]", &name);
-}
-
-fn draw_design_line(canvas: &mut Canvas, placer: &mut LabelPlacer, frame: &Rectangle, y: f64, draught: f64) {
-    canvas.line([frame.left, y], [frame.right, y], &Pen::new(0.25, "#000000").dashed(&[6.0, 1.2, 0.8, 1.2]));
-    let style = TextStyle::new(2.5, Anchor::Start).halo();
-    let at = [frame.left + 2.0, y - 1.8];
-    let name = format!("DWL {draught:.2} m");
-    placer.take(Canvas::text_place(at, &name, &style).grown(0.5));
-    canvas.text(at, &name, &style);
 }
 
 fn draw_legend(canvas: &mut Canvas, frame: &Rectangle, scales: &[f64], draught_scale: f64) {

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
-use super::{FigureInputs, PlotError, Svg, caption};
+use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Size of the sheet [mm].
@@ -100,7 +100,7 @@ impl Panel {
 }
 
 /// Draws the panels.
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let rows = inputs.dense_rows()?;
     let draught = inputs.design.draught;
     let (low, high) = rows.iter().fold((draught, draught), |(a, b), row| (a.min(row.draught), b.max(row.draught)));
@@ -121,8 +121,8 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
             text_size: TEXT,
         };
         let mut placer = LabelPlacer::default();
-        chart.draw_with_level(&mut canvas, &mut placer, &series, draught, &format!("DWL {draught:.2} m"))?;
+        chart.draw(&mut canvas, &mut placer, &series, Some((draught, &format!("DWL {draught:.2} m"))))?;
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
-    Ok(Svg::new(canvas, "hydrostatic curves"))
+    Ok(canvas)
 }

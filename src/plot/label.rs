@@ -27,6 +27,8 @@ pub(super) struct Preference {
     pub(super) part: f64,
     /// Crossings with other curves that it may cover at most.
     pub(super) crossings: usize,
+    /// Whether it may stand beside its curve, where there is no clear place on it.
+    pub(super) beside: bool,
 }
 
 /// Keeps the text of a drawing apart, and off the curves.
@@ -76,23 +78,48 @@ impl LabelPlacer {
         const PLACES: usize = 160;
         let style = TextStyle { anchor: Anchor::Middle, ..*style };
         let path = Path::new(&self.curves[curve]);
-        let best = (0..=PLACES)
-            .filter_map(|k| {
-                let part = k as f64 / PLACES as f64;
-                let at = path.point(part)?;
-                let place = Canvas::text_place(at, name, &style).grown(0.25 * style.size);
-                if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
-                    return None;
-                }
-                let crossings = self.crossings(&place, Some(curve));
-                let cost = crossings as f64 + 0.9 * (part - preferred.part).abs();
-                (crossings <= preferred.crossings).then_some((cost, at, place))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let width = Canvas::text_place([0.0, 0.0], name, &style).width();
+        let aside = 0.5 * width + 0.8 * style.size;
+        let offsets: &[f64] = if preferred.beside { &[0.0, -1.0, 1.0] } else { &[0.0] };
+        let mut best: Option<(f64, [f64; 2], Rectangle)> = None;
+        for (k, &offset) in (0..=PLACES).flat_map(|k| offsets.iter().map(move |offset| (k, offset))) {
+            let part = k as f64 / PLACES as f64;
+            let Some(on) = path.point(part) else { continue };
+            let at = [on[0] + offset * aside, on[1]];
+            let place = Canvas::text_place(at, name, &style).grown(0.25 * style.size);
+            if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
+                continue;
+            }
+            let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
+            let cost = crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
+            if crossings <= preferred.crossings && best.is_none_or(|(least, _, _)| cost < least) {
+                best = Some((cost, at, place));
+            }
+        }
         let Some((_, at, place)) = best else { return false };
         self.take(place);
         canvas.text(at, name, &style.halo());
         true
+    }
+
+    /// Writes `name` at that of `places` inside `window` and off other text where it meets fewest curves.
+    pub(super) fn name_clear(
+        &mut self,
+        canvas: &mut Canvas,
+        name: &str,
+        style: &TextStyle,
+        places: &[[f64; 2]],
+        window: &Rectangle,
+    ) {
+        let free = places.iter().filter_map(|&at| {
+            let place = Canvas::text_place(at, name, style).grown(0.1 * style.size);
+            let blocked = !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place));
+            (!blocked).then(|| (self.crossings(&place, None), at, place))
+        });
+        if let Some((_, at, place)) = free.min_by_key(|(crossings, _, _)| *crossings) {
+            self.take(place);
+            canvas.text(at, name, style);
+        }
     }
 
     /// Writes `name` at the first of `places` that keeps off other text and stays inside `window`, and returns
@@ -108,13 +135,25 @@ impl LabelPlacer {
         for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style);
             if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
-                self.take(place.grown(0.1 * style.size));
+                // Names side by side need more room between them than names in rows.
+                let (beside, above) = (0.45 * style.size, 0.08 * style.size);
+                self.take(Rectangle::new(
+                    place.left - beside,
+                    place.top - above,
+                    place.right + beside,
+                    place.bottom + above,
+                ));
                 canvas.text(at, name, style);
                 return Some(k);
             }
         }
         None
     }
+}
+
+/// Length of a polyline [mm].
+pub(super) fn length(points: &[[f64; 2]]) -> f64 {
+    points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum()
 }
 
 /// A polyline by the parts of its length.
@@ -165,8 +204,22 @@ mod tests {
         placer.add_curve(&[[0.0, 26.0], [100.0, 26.0]]);
         let style = TextStyle::new(3.0, Anchor::Start);
         let sheet = canvas.sheet();
-        assert!(placer.name_curve(&mut canvas, 0, "first", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
-        assert!(placer.name_curve(&mut canvas, 1, "second", &style, Preference { part: 0.5, crossings: 9 }, &sheet));
+        assert!(placer.name_curve(
+            &mut canvas,
+            0,
+            "first",
+            &style,
+            Preference { part: 0.5, crossings: 9, beside: false },
+            &sheet
+        ));
+        assert!(placer.name_curve(
+            &mut canvas,
+            1,
+            "second",
+            &style,
+            Preference { part: 0.5, crossings: 9, beside: false },
+            &sheet
+        ));
         let texts = canvas.texts();
         assert!(!texts[0].place.overlaps(&texts[1].place));
     }
@@ -183,7 +236,7 @@ mod tests {
             0,
             "a name too long for it",
             &style,
-            Preference { part: 0.5, crossings: 9 },
+            Preference { part: 0.5, crossings: 9, beside: false },
             &sheet
         ));
         assert!(canvas.texts().is_empty());

@@ -3,10 +3,11 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::LinesGrid;
+use super::profile::LongStyle;
 use super::scale::{DRAWING_SCALES, drawing_scale};
 use super::title_block::{self, Scales};
 use super::view::View;
-use super::{FigureInputs, PlotError, Svg, body_plan, profile};
+use super::{FigureInputs, PlotError, body_plan, profile};
 
 /// A3, landscape [mm].
 const SHEET: [f64; 2] = [420.0, 297.0];
@@ -29,6 +30,8 @@ struct Extents {
     height: f64,
     half_breadth: f64,
     diagonals: f64,
+    /// Smallest table of half-breadths [mm].
+    table: [f64; 2],
 }
 
 impl Extents {
@@ -38,18 +41,29 @@ impl Extents {
             height: grid.height[1] - grid.height[0].min(0.0),
             half_breadth: grid.half_breadth,
             diagonals: profile::diagonal_reach(grid),
+            table: title_block::smallest_table(grid),
         }
     }
 
     /// Width of the long views and heights of profile and half-breadth plan at 1 : `scale` with their names [mm].
-    fn long_views(&self, scale: u32) -> [f64; 3] {
+    fn long_views(&self, scale: u32, side_room: f64) -> [f64; 3] {
         let millimetres = 1000.0 / f64::from(scale);
         let ends = 2.0 * profile::END_ROOM + VIEW_TITLE;
         [
-            self.length * millimetres + 2.0 * profile::SIDE_ROOM,
+            self.length * millimetres + 2.0 * side_room,
             self.height * millimetres + ends,
             (self.half_breadth + self.diagonals) * millimetres + ends,
         ]
+    }
+
+    /// Height of the body plan with its names at 1 : `scale` [mm].
+    fn body_height(&self, scale: u32) -> f64 {
+        self.height * 1000.0 / f64::from(scale) + body_plan::TOP_ROOM + body_plan::BOTTOM_ROOM + VIEW_TITLE
+    }
+
+    /// Width of the body plan with its names at 1 : `scale` [mm].
+    fn body_width(&self, scale: u32) -> f64 {
+        2.0 * self.half_breadth * 1000.0 / f64::from(scale) + 2.0 * body_plan::SIDE_ROOM
     }
 
     /// The largest scale at which the body plan fits into `room`.
@@ -63,6 +77,8 @@ impl Extents {
 /// Where the views stand.
 struct Layout {
     scale: u32,
+    /// Room for names beside the long views [mm].
+    side_room: f64,
     body_scale: u32,
     profile: Rectangle,
     half_breadths: Rectangle,
@@ -75,14 +91,19 @@ struct Layout {
 fn layout(extents: &Extents) -> Layout {
     let inner = FRAME.grown(-GAP);
     let beyond = [2000, 5000, 10_000, 20_000, 50_000, 100_000];
-    let fitting = [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(beyond).find_map(|scale| {
-        let views = extents.long_views(scale);
+    let rooms = [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM];
+    let scales = [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(beyond);
+    let mut tries = scales.flat_map(|scale| rooms.map(|room| (scale, room)));
+    let fitting = tries.find_map(|(scale, side_room)| {
+        let views = extents.long_views(scale, side_room);
         let choices = [beside(extents, scale, views, &inner), below(extents, scale, views, &inner)];
-        choices.into_iter().flatten().min_by_key(|choice| choice.body_scale)
+        let best = choices.into_iter().flatten().min_by_key(|choice| choice.body_scale);
+        best.map(|choice| Layout { side_room, ..choice })
     });
     let nothing = Rectangle::new(inner.left, inner.top, inner.right, inner.top);
     fitting.unwrap_or(Layout {
         scale: 1_000_000,
+        side_room: profile::SIDE_ROOM,
         body_scale: 1_000_000,
         profile: nothing,
         half_breadths: nothing,
@@ -104,7 +125,7 @@ fn beside(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner
     let body = Rectangle::new(right + GAP, inner.top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
     let table = Rectangle::new(inner.left, lower.bottom + GAP, right, inner.bottom);
     let body_scale = extents.body_scale(&body);
-    Some(Layout { scale, body_scale, profile: upper, half_breadths: lower, body, table })
+    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
 /// The long views one under the other, the body plan under them, table and title block to its right.
@@ -114,23 +135,26 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
         return None;
     }
     let column = inner.right - title_block::SIZE[0] - GAP;
-    // Wide views stand in the middle, narrow ones leave their right to the table.
-    let narrow = width < column - inner.left;
-    let left = if narrow { inner.left } else { inner.left + 0.5 * (inner.width() - width) };
+    let room = Rectangle::new(inner.left, inner.bottom - body_height, column, inner.bottom);
+    let body_scale = extents.body_scale(&room);
+    // What the body plan leaves parts the views.
+    let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+    let left = inner.left + 0.5 * (inner.width() - width);
     let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
-    let lower = Rectangle::new(left, upper.bottom + GAP, left + width, upper.bottom + GAP + half);
-    let top = lower.bottom + GAP;
-    let body = Rectangle::new(inner.left, top, column, inner.bottom);
-    let table_top = if narrow { inner.top } else { top };
-    let table_left = if narrow { inner.left + width + GAP } else { column };
-    let table = Rectangle::new(table_left, table_top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
-    let body_scale = extents.body_scale(&body);
-    Some(Layout { scale, body_scale, profile: upper, half_breadths: lower, body, table })
+    let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
+    let top = lower.bottom + gap;
+    // The table stands over the title block, or else between it and the body plan.
+    let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
+    let beside = column - extents.table[0] - GAP;
+    let between = over.height() < extents.table[1] && beside - inner.left >= extents.body_width(body_scale);
+    let body = Rectangle::new(inner.left, top, if between { beside } else { column }, inner.bottom);
+    let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
+    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
 /// Draws the sheet.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth));
     let layout = layout(&extents);
@@ -140,30 +164,36 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     canvas.rectangle(&FRAME, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.0, Anchor::Start);
 
+    let style = LongStyle { text_size: TEXT, narrow: layout.side_room < profile::SIDE_ROOM };
     let millimetres = 1000.0 / f64::from(layout.scale);
-    let origin_x = layout.profile.left + profile::SIDE_ROOM - grid.length[0] * millimetres;
+    let origin_x = layout.profile.left + layout.side_room - grid.length[0] * millimetres;
     let name = |canvas: &mut Canvas, place: &Rectangle, text: &str, scale: u32| {
         canvas.text([place.left + 1.0, place.top + 2.0], &format!("{text}   1 : {scale}"), &title);
     };
     name(&mut canvas, &layout.profile, "PROFILE", layout.scale);
     let base = layout.profile.bottom - profile::END_ROOM + grid.height[0].min(0.0) * millimetres;
-    profile::draw_profile(&mut canvas, hull, &grid, &View::new([origin_x, base], layout.scale), TEXT);
+    profile::draw_profile(&mut canvas, hull, &grid, &View::new([origin_x, base], layout.scale), style);
 
     name(&mut canvas, &layout.half_breadths, "HALF-BREADTH PLAN, diagonals in true shape below", layout.scale);
     let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
-    profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([origin_x, centre], layout.scale), TEXT);
+    profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([origin_x, centre], layout.scale), style);
 
-    name(&mut canvas, &layout.body, "BODY PLAN", body_scale);
-    let body_height = extents.height * 1000.0 / f64::from(body_scale);
-    let needed = body_height + body_plan::TOP_ROOM + body_plan::BOTTOM_ROOM + VIEW_TITLE;
-    let foot = layout.body.bottom - 0.5 * (layout.body.height() - needed) - body_plan::BOTTOM_ROOM;
+    let needed = extents.body_height(body_scale);
+    let foot = layout.body.top + needed.max(0.5 * (layout.body.height() + needed)) - body_plan::BOTTOM_ROOM;
     let middle = 0.5 * (layout.body.left + layout.body.right);
     let body_base = foot + grid.height[0].min(0.0) * 1000.0 / f64::from(body_scale);
+    let top = foot - needed + body_plan::BOTTOM_ROOM;
+    name(
+        &mut canvas,
+        &Rectangle { top, left: middle - 0.5 * extents.body_width(body_scale), ..layout.body },
+        "BODY PLAN",
+        body_scale,
+    );
     body_plan::draw(&mut canvas, hull, &grid, &View::new([middle, body_base], body_scale), TEXT);
 
     let corner = [FRAME.right, FRAME.bottom];
     let scales = Scales { long: layout.scale, body: body_scale };
     title_block::draw(&mut canvas, inputs, &grid, scales, corner);
     title_block::draw_offsets(&mut canvas, inputs, &grid, &layout.table);
-    Ok(Svg::new(canvas, "lines plan"))
+    Ok(canvas)
 }

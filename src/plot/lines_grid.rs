@@ -2,7 +2,7 @@
 
 use super::outline;
 use super::scale::{decimals, multiples, nice_step};
-use crate::hull::{Cut, Hull};
+use crate::hull::{Cut, Face, Hull};
 
 /// Intervals between the perpendiculars.
 const INTERVALS: i32 = 20;
@@ -20,6 +20,8 @@ pub(super) struct GridPlane {
     pub(super) name: String,
     /// Connected curves (x, y, z) [m].
     pub(super) curves: Vec<Vec<[f64; 3]>>,
+    /// How many of them, from the first, lie on the side of the hull; the others on its flats.
+    pub(super) on_side: usize,
 }
 
 /// Stations, waterlines, buttocks and diagonals of a hull.
@@ -87,10 +89,10 @@ impl LinesGrid {
     /// Cuts the hull; chords of the curves stay within `deviation` [m] of them.
     pub(super) fn new(hull: &Hull, deviation: f64) -> Self {
         let p = hull.particulars();
-        let plane = |at: f64, name: String, cut: Cut| GridPlane {
-            at,
-            name,
-            curves: hull.section(cut, TOLERANCE).branches.iter().map(|b| b.polyline(deviation)).collect(),
+        let plane = |at: f64, name: String, cut: Cut| {
+            let branches = hull.section(cut, TOLERANCE).branches;
+            let on_side = branches.iter().take_while(|branch| branch.face == Face::Side).count();
+            GridPlane { at, name, curves: branches.iter().map(|b| b.polyline(deviation)).collect(), on_side }
         };
         let deck = outline::deck_at_side(hull);
         let ends = [outline::end_profile(hull, false), outline::end_profile(hull, true)];
@@ -123,7 +125,7 @@ impl LinesGrid {
             .chain(&deck)
             .map(|point| point[1])
             .fold(0.0, f64::max);
-        let buttock_spacing = nice_step(0.5 * p.breadth, 5.0);
+        let buttock_spacing = nice_step(0.5 * p.breadth, 7.0);
         let buttocks = multiples(buttock_spacing, buttock_spacing, 0.995 * half_breadth)
             .into_iter()
             .enumerate()

@@ -7,12 +7,23 @@ use super::outline;
 use super::view::{BASE, BUTTOCK, DESIGN, DIAGONAL, GRID, OUTLINE, View, WATERLINE};
 use crate::hull::Hull;
 
-/// Room beside the hull for the names of waterlines and buttocks [mm].
+/// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
 pub(super) const SIDE_ROOM: f64 = 20.5;
+/// Room beside the hull for their names alone [mm].
+pub(super) const NARROW_SIDE_ROOM: f64 = 12.5;
 /// Room above and below the hull for the names of stations [mm].
 pub(super) const END_ROOM: f64 = 8.0;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
+
+/// How the long views are lettered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LongStyle {
+    /// Size of the text [mm].
+    pub(super) text_size: f64,
+    /// Whether waterlines and buttocks bear their names alone, without distances.
+    pub(super) narrow: bool,
+}
 
 /// Largest distance from the centreplane along a diagonal [m].
 pub(super) fn diagonal_reach(grid: &LinesGrid) -> f64 {
@@ -75,7 +86,8 @@ fn draw_level(
 }
 
 /// The profile, bow to the right; the origin of `view` is AP on the base line.
-pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, text_size: f64) {
+pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
+    let text_size = style.text_size;
     let frame = frame(grid, view, grid.height[0], grid.height[1]);
     canvas.begin_group("profile");
     draw_stations(canvas, hull, grid, view, &frame, text_size);
@@ -90,14 +102,15 @@ pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, v
             &GRID
         };
         let y = view.at([0.0, plane.at])[1];
-        draw_level(canvas, &mut names, &frame, y, pen, &grid.waterline_label(plane), text_size);
+        let name = if style.narrow { plane.name.clone() } else { grid.waterline_label(plane) };
+        draw_level(canvas, &mut names, &frame, y, pen, &name, text_size);
     }
     let mut placer = LabelPlacer::default();
     let mut owners = Vec::new();
     for plane in &grid.buttocks {
-        for curve in &plane.curves {
+        for (k, curve) in plane.curves.iter().enumerate() {
             placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[2]]), &BUTTOCK));
-            owners.push(plane);
+            owners.push((k < plane.on_side).then_some(plane));
         }
     }
     let outline = view.draw(canvas, outline::centreplane(hull), &OUTLINE);
@@ -107,17 +120,26 @@ pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, v
     placer.add_curve(&deck);
     let style = TextStyle::new(text_size, Anchor::Middle).coloured(BUTTOCK.colour);
     for (k, plane) in owners.iter().enumerate() {
+        let Some(plane) = plane else { continue };
         let longest = grid.length[1] - grid.length[0];
         let part = if longest > 0.0 { 0.06 + 0.03 * (k % 4) as f64 } else { 0.1 };
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2 }, &inside);
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part: 1.0 - part, crossings: 2 }, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
+        placer.name_curve(
+            canvas,
+            k,
+            &plane.name,
+            &style,
+            Preference { part: 1.0 - part, crossings: 2, beside: false },
+            &inside,
+        );
     }
     canvas.end_group();
 }
 
 /// The half-breadth plan: waterlines above the centre line, diagonals in their true shape below it; the origin of `view` is AP
 /// on the centre line.
-pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, text_size: f64) {
+pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
+    let text_size = style.text_size;
     let frame = frame(grid, view, -diagonal_reach(grid), grid.half_breadth);
     canvas.begin_group("half-breadth-plan");
     draw_stations(canvas, hull, grid, view, &frame, text_size);
@@ -125,24 +147,25 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     draw_level(canvas, &mut names, &frame, view.origin[1], &BASE, "CL", text_size);
     for plane in &grid.buttocks {
         let y = view.at([0.0, plane.at])[1];
-        draw_level(canvas, &mut names, &frame, y, &GRID, &grid.buttock_label(plane), text_size);
+        let name = if style.narrow { plane.name.clone() } else { grid.buttock_label(plane) };
+        draw_level(canvas, &mut names, &frame, y, &GRID, &name, text_size);
     }
     let mut placer = LabelPlacer::default();
-    let mut owners: Vec<(&GridPlane, &Pen)> = Vec::new();
-    for plane in grid.waterlines.iter().chain([&grid.design_waterline]) {
-        for curve in &plane.curves {
+    let mut owners: Vec<Option<(&GridPlane, &Pen)>> = Vec::new();
+    for plane in [&grid.design_waterline].into_iter().chain(&grid.waterlines) {
+        for (k, curve) in plane.curves.iter().enumerate() {
             placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), &WATERLINE));
-            owners.push((plane, &WATERLINE));
+            owners.push((k < plane.on_side).then_some((plane, &WATERLINE)));
         }
     }
     for plane in &grid.diagonals {
-        for curve in &plane.curves {
+        for (k, curve) in plane.curves.iter().enumerate() {
             let expanded = curve.iter().map(|point| {
                 let [x, s] = LinesGrid::expanded(point, plane.at);
                 [x, -s]
             });
             placer.add_curve(&view.draw(canvas, expanded, &DIAGONAL));
-            owners.push((plane, &DIAGONAL));
+            owners.push((k < plane.on_side).then_some((plane, &DIAGONAL)));
         }
     }
     let mut deck: Vec<_> = grid.deck.iter().map(|p| [p[0], p[1]]).collect();
@@ -152,11 +175,19 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     }
     placer.add_curve(&view.draw(canvas, deck, &OUTLINE));
     let inside = frame.grown(-0.5 * BEYOND);
-    for (k, (plane, pen)) in owners.iter().enumerate() {
+    for (k, owner) in owners.iter().enumerate() {
+        let Some((plane, pen)) = owner else { continue };
         let style = TextStyle::new(text_size, Anchor::Middle).coloured(pen.colour);
         let part = 0.08 + 0.035 * (k % 5) as f64;
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2 }, &inside);
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part: 1.0 - part, crossings: 2 }, &inside);
+        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
+        placer.name_curve(
+            canvas,
+            k,
+            &plane.name,
+            &style,
+            Preference { part: 1.0 - part, crossings: 2, beside: false },
+            &inside,
+        );
     }
     canvas.end_group();
 }

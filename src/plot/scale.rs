@@ -44,6 +44,12 @@ pub fn sheet_scale(value: f64, target: f64) -> f64 {
     round_up(value / target, &[1.0, 2.0, 2.5, 4.0, 5.0, 10.0])
 }
 
+/// Scale of the draughts of a diagram sheet, which are read at its rulers: not below `raw`, and never so large that more than a
+/// quarter of the height is left over.
+pub(super) fn draught_scale(raw: f64) -> f64 {
+    round_up(raw, &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
+}
+
 /// Step of 1, 2, 2.5 or 5 times a power of ten that divides `range` into at most `count` parts.
 pub(super) fn nice_step(range: f64, count: f64) -> f64 {
     round_up(range / count, &[1.0, 2.0, 2.5, 5.0, 10.0])
@@ -93,6 +99,15 @@ mod tests {
         for (raw, scale) in raw_and_scale {
             let found = sheet_scale(raw * 100.0, 100.0);
             assert!((found - scale).abs() <= 1e-15 * scale, "{raw}: {found}");
+        }
+    }
+
+    #[test]
+    fn draughts_fill_three_quarters_of_the_sheet() {
+        for k in 1..200 {
+            let raw = 0.01 * f64::from(k);
+            let part = raw / draught_scale(raw);
+            assert!((0.75 - 1e-9..=1.0 + 1e-9).contains(&part), "{raw}: {part}");
         }
     }
 

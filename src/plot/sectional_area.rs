@@ -4,7 +4,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
-use super::{FigureInputs, PlotError, Svg, caption, outline};
+use super::{FigureInputs, PlotError, caption, outline};
 use crate::hull::SectionalAreaCurve;
 
 /// Size of the sheet [mm].
@@ -15,7 +15,7 @@ const STATIONS: usize = 401;
 const INTERVALS: f64 = 20.0;
 
 /// Draws the curve.
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (hull, design) = (inputs.hull, inputs.design);
     let length = hull.particulars().length_between_perpendiculars;
     let [aft, fore] = outline::immersed_length(hull, design.draught);
@@ -54,8 +54,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
         }
     }
     for (name, x) in [("AP", 0.0), ("FP", length)] {
-        let [at, top] = chart.place([x, largest]);
-        let _ = top;
+        let [at, _] = chart.place([x, 0.0]);
         canvas.line([at, frame.top], [at, frame.bottom], &Pen::new(0.2, "#000000").dashed(&[4.0, 1.0, 0.6, 1.0]));
         let style = TextStyle::new(2.8, if x > 0.0 { Anchor::End } else { Anchor::Start }).halo();
         let place = [at + if x > 0.0 { -1.2 } else { 1.2 }, frame.top + 3.0];
@@ -63,10 +62,10 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
         canvas.text(place, name, &style);
     }
     let series = [Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
-    chart.draw(&mut canvas, &mut placer, &series)?;
+    chart.draw(&mut canvas, &mut placer, &series, None)?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
-    Ok(Svg::new(canvas, "sectional-area curve"))
+    Ok(canvas)
 }
 
 /// The parallel middle body, shaded from keel to curve.

@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, TextStyle};
 use super::lines_grid::LinesGrid;
 use super::scale::drawing_scale;
 use super::view::View;
-use super::{FigureInputs, PlotError, Svg, caption};
+use super::{FigureInputs, PlotError, caption};
 
 /// Largest sheet, A3 [mm].
 const LARGEST: [f64; 2] = [420.0, 297.0];
@@ -16,7 +16,7 @@ const DEVIATION: f64 = 0.004;
 
 /// Draws the body plan on a sheet as large as it needs, at a scale of the list that fits on A3.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let p = hull.particulars();
     let rooms = [2.0 * SIDE_ROOM + 18.0, TITLE + TOP_ROOM + BOTTOM_ROOM + 8.0];
@@ -38,5 +38,5 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Svg, PlotError> {
     let view = View::new([centre, size[1].ceil() - BOTTOM_ROOM - 6.0], scale);
     body_plan::draw(&mut canvas, hull, &grid, &view, 2.2);
     canvas.text([size[0].ceil() - 4.0, size[1].ceil() - 2.8], &caption::program(), &TextStyle::new(1.9, Anchor::End));
-    Ok(Svg::new(canvas, "body plan"))
+    Ok(canvas)
 }

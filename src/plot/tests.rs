@@ -1,26 +1,41 @@
-//! The figures of a Wigley hull: what stands on them and where.
+//! The figures of hulls of several kinds: what stands on them and where.
 
-use super::*;
-use crate::hull::PrincipalParticulars;
-use crate::hydrostatics::Conventions;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use super::{Figure, FigureInputs, PlotError, Svg};
+use crate::hull::Hull;
+use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::parametric::ShipType;
+use crate::parametric::analytic::{self, Dimensions};
+use crate::parametric::cosh::{self, Wishes};
 
-/// y = (B/2) (1 - (2x/L - 1)^2) (1 - (1 - z/T)^2) below z = T, wall-sided above.
-pub(super) fn wigley([length, breadth, draught, depth]: [f64; 4]) -> Hull {
-    let u = KnotVector::uniform(2, 1).unwrap();
-    let v = KnotVector::from_breakpoints(2, &[0.0, draught, depth], &[2]).unwrap();
-    let along = [0.0, 2.0, 0.0];
-    let up = [0.0, 1.0, 1.0, 1.0, 1.0];
-    let z = [0.0, 0.5 * draught, draught, 0.5 * (draught + depth), depth];
-    let points = (0..3)
-        .flat_map(|i| (0..5).map(move |j| [0.5 * length * i as f64, 0.5 * breadth * along[i] * up[j], z[j]]))
-        .collect();
-    let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, depth], [length, depth]]).unwrap();
-    let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth };
-    Hull::new("Wigley", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+fn wigley() -> Hull {
+    let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
+    analytic::wigley("Wigley", &dimensions).unwrap().hull
 }
 
-/// Draws `figure` of a hull at its design draught, with a table from 0.2 T to D.
+fn ship(name: &str, ship_type: ShipType, [length, breadth, draught, depth, block]: [f64; 5]) -> Hull {
+    let wishes = Wishes {
+        ship_type: Some(ship_type),
+        length,
+        breadth: Some(breadth),
+        draught: Some(draught),
+        depth: Some(depth),
+        block_coefficient: Some(block),
+        ..Wishes::default()
+    };
+    cosh::generate(name, &wishes).unwrap().hull
+}
+
+/// Fine with a transom, full with a parallel body, short with sheer.
+fn hulls() -> Vec<Hull> {
+    vec![
+        wigley(),
+        ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]),
+        ship("bulk carrier", ShipType::BulkCarrier, [180.0, 30.0, 11.0, 16.0, 0.82]),
+        ship("fishing vessel", ShipType::Fishing, [23.0, 7.0, 2.9, 4.0, 0.52]),
+    ]
+}
+
+/// Draws a hull at its design draught, with a table from 0.2 T to D.
 fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
     let p = hull.particulars();
     let conventions = Conventions::default();
@@ -30,15 +45,138 @@ fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
 }
 
 #[test]
-fn pictures_of_every_figure() {
-    let hull = wigley([100.0, 10.0, 6.25, 9.0]);
+fn text_keeps_apart_and_on_the_sheet() {
+    let mut faults = Vec::new();
+    for hull in &hulls() {
+        for figure in Figure::ALL {
+            let canvas = with_inputs(hull, |inputs| figure.compose(inputs)).unwrap();
+            let (texts, sheet) = (canvas.texts(), canvas.sheet());
+            for (k, text) in texts.iter().enumerate() {
+                if !sheet.contains(&text.place) {
+                    faults.push(format!("{} {}: {text:?} leaves the sheet", hull.name(), figure.key()));
+                }
+                for other in &texts[..k] {
+                    if text.place.grown(-0.05).overlaps(&other.place.grown(-0.05)) {
+                        faults.push(format!("{} {}: {text:?} on {other:?}", hull.name(), figure.key()));
+                    }
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn figures_bear_the_names_of_their_lines() {
+    let hull = ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]);
+    let wanted: [(Figure, &[&str]); 5] = [
+        (
+            Figure::Lines,
+            &[
+                "frigate",
+                "LINES PLAN",
+                "PROFILE   1 : 500",
+                "BODY PLAN   1 : 100",
+                "AP",
+                "FP",
+                "DWL  4.40 m",
+                "WL 1  1.00 m",
+                "VI  6.0 m",
+                "D1",
+                "½",
+                "19½",
+                "100 mm on paper",
+            ],
+        ),
+        (Figure::Sections, &["BODY PLAN – frigate", "CL", "DWL  4.40 m", "WL ½  0.50 m", "D2", "17", "4"]),
+        (
+            Figure::SectionalArea,
+            &["SECTIONAL-AREA CURVE – frigate", "A(x)", "section area A [m²]", "A / A_X [-]", "station"],
+        ),
+        (
+            Figure::Hydrostatics,
+            &[
+                "HYDROSTATIC CURVES – frigate",
+                "Δ",
+                "∇",
+                "LCB",
+                "LCF",
+                "KB",
+                "KM_T",
+                "KM_L",
+                "TPC",
+                "MTC",
+                "C_B",
+                "C_M",
+                "C_P",
+                "C_WP",
+                "A_WL",
+                "S",
+            ],
+        ),
+        (
+            Figure::DiagramSheet,
+            &[
+                "DIAGRAM SHEET – frigate",
+                "AP",
+                "FP",
+                "midship (L_PP / 2)",
+                "KM_L",
+                "KM_T",
+                "LCB",
+                "MTM",
+                "C_X",
+                "1 mm = 0.025",
+            ],
+        ),
+    ];
+    for (figure, names) in wanted {
+        let canvas = with_inputs(&hull, |inputs| figure.compose(inputs)).unwrap();
+        for name in names {
+            assert!(canvas.texts().iter().any(|text| text.content == *name), "{}: {name} is missing", figure.key());
+        }
+    }
+}
+
+#[test]
+fn the_same_inputs_give_the_same_bytes() {
+    let hull = wigley();
+    for figure in Figure::ALL {
+        let draw = || with_inputs(&hull, |inputs| figure.draw(inputs)).unwrap();
+        let (first, second) = (draw(), draw());
+        assert_eq!(first, second, "{}", figure.key());
+        let png = |svg: &Svg| svg.to_png(60.0).unwrap();
+        assert!(png(&first) == png(&second), "{}", figure.key());
+    }
+}
+
+#[test]
+fn pictures_are_of_the_size_of_a_page() {
+    let hull = wigley();
     for figure in Figure::ALL {
         let svg = with_inputs(&hull, |inputs| figure.draw(inputs)).unwrap();
         let png = svg.to_png(figure.dots_per_inch()).unwrap();
         assert!(png.len() < 1_000_000, "{}: {} bytes", figure.key(), png.len());
-        if let Ok(folder) = std::env::var("LOFTSMAN_FIGURES") {
-            std::fs::write(format!("{folder}/{}.png", figure.key()), png).unwrap();
-            std::fs::write(format!("{folder}/{}.svg", figure.key()), svg.as_str()).unwrap();
-        }
+        let width = u32::from_be_bytes(png[16..20].try_into().unwrap());
+        assert!((1200..=3500).contains(&width), "{}: {width} pixels", figure.key());
+    }
+}
+
+#[test]
+fn a_picture_has_a_size() {
+    let hull = wigley();
+    let svg = with_inputs(&hull, |inputs| Figure::SectionalArea.draw(inputs)).unwrap();
+    for dots_per_inch in [0.0, -3.0, f64::NAN, 1e6] {
+        assert!(matches!(svg.to_png(dots_per_inch), Err(PlotError::PictureSize { .. })));
+    }
+}
+
+#[test]
+fn curves_need_two_draughts() {
+    let hull = wigley();
+    let table = CurvesOfForm::new(&hull, &[6.25], &Conventions::default());
+    let inputs = FigureInputs { hull: &hull, design: &table.rows[0], curves: &table };
+    for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
+        assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
     }
 }

@@ -82,18 +82,33 @@ const COLUMN: f64 = 8.6;
 /// Width of its first column [mm].
 const FIRST_COLUMN: f64 = 22.0;
 
+/// Width with every second station, and height [mm].
+pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
+    [FIRST_COLUMN + COLUMN * every_second(grid).len() as f64, table_height(grid)]
+}
+
+fn table_height(grid: &LinesGrid) -> f64 {
+    ROW * (grid.waterlines.len() + 3) as f64 + 4.0
+}
+
+fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
+    grid.stations.iter().filter(|plane| !plane.name.contains('½')).collect()
+}
+
+fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
+    whole_stations(grid).into_iter().step_by(2).collect()
+}
+
 /// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; nothing when
 /// the waterlines do not fit.
 pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
     let hull = inputs.hull;
     let planes = waterlines(grid);
-    let height = ROW * (planes.len() + 2) as f64 + 4.0;
-    let whole = |plane: &&GridPlane| !plane.name.contains('½');
+    let height = table_height(grid);
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
-    let whole: Vec<&GridPlane> = grid.stations.iter().filter(whole).collect();
-    let halved: Vec<&GridPlane> = whole.iter().step_by(2).copied().collect();
     let width = |count: usize| FIRST_COLUMN + COLUMN * count as f64;
-    let stations = [all, whole, halved].into_iter().find(|list| width(list.len()) <= room.width());
+    let stations =
+        [all, whole_stations(grid), every_second(grid)].into_iter().find(|list| width(list.len()) <= room.width());
     let Some(stations) = stations.filter(|_| height <= room.height()) else { return };
     let (left, top) = (room.left, room.bottom - height + 4.0);
     let right = left + width(stations.len());

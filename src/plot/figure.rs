@@ -1,0 +1,145 @@
+//! The list of figures, what they are made of, and the finished drawing.
+
+use super::canvas::Canvas;
+use super::{diagram_sheet, hydrostatics, lines, png, sectional_area, sections};
+use crate::hull::Hull;
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
+
+/// Why a figure could not be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlotError {
+    /// The table of hydrostatics has fewer than two draughts.
+    #[error("curves need hydrostatics at two draughts at least; there are {0}")]
+    TooFewDraughts(usize),
+    /// The axes of a chart could not be drawn.
+    #[error("the chart could not be drawn: {0}")]
+    Chart(String),
+    /// The document is not SVG.
+    #[error("the drawing could not be read: {0}")]
+    Svg(String),
+    /// The picture is empty or too large.
+    #[error(
+        "a picture of {width} x {height} pixels ({dots_per_inch} dots per inch) cannot be made; sides from 1 to 20000"
+    )]
+    PictureSize {
+        /// Resolution asked for.
+        dots_per_inch: f64,
+        /// Width [pixels].
+        width: f64,
+        /// Height [pixels].
+        height: f64,
+    },
+    /// The picture could not be packed.
+    #[error("the picture could not be written as PNG: {0}")]
+    Png(String),
+}
+
+/// What figures are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct FigureInputs<'a> {
+    /// The hull.
+    pub hull: &'a Hull,
+    /// Hydrostatics at the design draught.
+    pub design: &'a Hydrostatics,
+    /// Hydrostatics over the draughts of interest: their range and conventions.
+    pub curves: &'a CurvesOfForm,
+}
+
+impl FigureInputs<'_> {
+    /// Hydrostatics over the range of draughts of the table, so dense that curves through them look smooth.
+    pub(super) fn dense_rows(&self) -> Result<Vec<Hydrostatics>, PlotError> {
+        const ROWS: usize = 120;
+        let draughts = self.curves.rows.iter().map(|row| row.draught).filter(|draught| draught.is_finite());
+        let (low, high) = draughts.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+        if low >= high {
+            return Err(PlotError::TooFewDraughts(self.curves.rows.len().min(1)));
+        }
+        let draughts: Vec<f64> = (0..ROWS).map(|k| low + (high - low) * k as f64 / (ROWS - 1) as f64).collect();
+        Ok(CurvesOfForm::new(self.hull, &draughts, &self.curves.conventions).rows)
+    }
+}
+
+/// A finished drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Svg {
+    text: String,
+}
+
+impl Svg {
+    /// The SVG document; its size is in millimetres.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    /// The drawing as PNG at `dots_per_inch`.
+    ///
+    /// # Errors
+    /// [`PlotError::PictureSize`] when the picture would be empty or have a side of more than 20000 pixels.
+    pub fn to_png(&self, dots_per_inch: f64) -> Result<Vec<u8>, PlotError> {
+        png::render(&self.text, dots_per_inch)
+    }
+}
+
+/// The figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Profile, half-breadth plan and body plan on one sheet.
+    Lines,
+    /// The body plan alone.
+    Sections,
+    /// Section areas along the hull at the design draught.
+    SectionalArea,
+    /// Hydrostatic curves in panels.
+    Hydrostatics,
+    /// The classic sheet of hydrostatic curves with a scale for each.
+    DiagramSheet,
+}
+
+impl Figure {
+    /// Every figure.
+    pub const ALL: [Self; 5] =
+        [Self::Lines, Self::Sections, Self::SectionalArea, Self::Hydrostatics, Self::DiagramSheet];
+
+    /// Stem of the file name, and the word in lists of figures.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Lines => "lines",
+            Self::Sections => "sections",
+            Self::SectionalArea => "sectional-area",
+            Self::Hydrostatics => "hydrostatics",
+            Self::DiagramSheet => "diagram-sheet",
+        }
+    }
+
+    /// Resolution at which the picture of the figure is read well on a screen: about 3300 pixels across for the lines plan,
+    /// 1800 to 2000 for the others.
+    #[must_use]
+    pub fn dots_per_inch(self) -> f64 {
+        match self {
+            Self::Lines => 200.0,
+            Self::Sections => 180.0,
+            Self::SectionalArea | Self::Hydrostatics => 154.0,
+            Self::DiagramSheet => 140.0,
+        }
+    }
+
+    /// Draws the figure.
+    ///
+    /// # Errors
+    /// [`PlotError`] when there is nothing to draw.
+    pub fn draw(self, inputs: &FigureInputs) -> Result<Svg, PlotError> {
+        Ok(Svg { text: self.compose(inputs)?.finish(self.key()) })
+    }
+
+    pub(super) fn compose(self, inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+        match self {
+            Self::Lines => lines::draw(inputs),
+            Self::Sections => sections::draw(inputs),
+            Self::SectionalArea => sectional_area::draw(inputs),
+            Self::Hydrostatics => hydrostatics::draw(inputs),
+            Self::DiagramSheet => diagram_sheet::draw(inputs),
+        }
+    }
+}
