@@ -25,6 +25,10 @@ fn check(name: &str, summary: &serde_json::Value) {
         assert!(error <= allowed, "{name}: {target}");
         let design = summary["design"][target["key"].as_str().unwrap()].as_f64().unwrap();
         let achieved = target["achieved"].as_f64().unwrap();
+        // What is asked is on Lpp; a table on another length has other coefficients.
+        if summary["conventions"]["coefficient_length"] != "Lpp" && target["key"] != "XCB" && target["key"] != "CM" {
+            continue;
+        }
         assert!((design - achieved).abs() <= 1e-9 * achieved.abs(), "{name}: {target} and hydrostatics {design}");
     }
     assert!(summary["design"]["DISPVOL"].as_f64().unwrap() > 0.0);

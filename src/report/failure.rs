@@ -55,11 +55,7 @@ impl fmt::Display for Failure {
             Self::Check(message) => write!(f, "{message}"),
             Self::Exists(paths) => {
                 let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-                write!(
-                    f,
-                    "E601 {} is there already. Use --force to overwrite, or -o for another place",
-                    names.join(", ")
-                )
+                write!(f, "E601 there already: {}. Use --force to overwrite, or -o for another place", names.join(", "))
             }
             Self::FileSystem { act, path, error } => write!(f, "E602 cannot {act} {}: {error}", path.display()),
             Self::Internal(message) => write!(f, "E901 {message}. This is a fault of the program; please report it"),

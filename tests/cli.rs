@@ -1,0 +1,281 @@
+//! The built program: what it prints, what it writes, and how it ends.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// An empty folder of this test.
+fn folder(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn config(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(name).display().to_string()
+}
+
+/// Generates the Wigley hull without figures; gives the folder.
+fn wigley(test: &str) -> PathBuf {
+    let path = folder(test).join("wigley");
+    let output = program(&["generate", &config("wigley.toml"), "-o", path.to_str().unwrap(), "--no-figures", "-q"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+    path
+}
+
+#[test]
+fn generate_writes_its_files_and_one_screen() {
+    let path = folder("generate");
+    let path = path.to_str().unwrap();
+    let output = program(&["generate", &config("wigley.toml"), "-o", path]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = stdout(&output);
+    assert!(page.lines().count() <= 24, "{page}");
+    assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
+    for word in ["Wigley hull", "requested", "achieved", "origin", "DISPVOL", "Coefficients on Lpp", "manifest.json"] {
+        assert!(page.contains(word), "{word}: {page}");
+    }
+    let mut names: Vec<String> =
+        fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let expected = [
+        "diagram-sheet.png",
+        "heights.csv",
+        "hull.json",
+        "hydrostatics.csv",
+        "hydrostatics.png",
+        "lines.png",
+        "manifest.json",
+        "offsets.csv",
+        "sectional-area.png",
+        "sections.svg",
+        "summary.json",
+    ];
+    assert_eq!(names, expected);
+    let manifest: Value = serde_json::from_slice(&fs::read(Path::new(path).join("manifest.json")).unwrap()).unwrap();
+    for entry in manifest["outputs"].as_array().unwrap() {
+        let bytes = fs::read(Path::new(path).join(entry["file"].as_str().unwrap())).unwrap();
+        assert_eq!(entry["sha256"], loftsman::exchange::sha256(&bytes), "{entry}");
+    }
+}
+
+#[test]
+fn nothing_is_overwritten_without_force() {
+    let path = wigley("force");
+    let before = fs::read(path.join("hull.json")).unwrap();
+    fs::remove_file(path.join("summary.json")).unwrap();
+    let arguments = ["generate", &config("box.toml"), "-o", path.to_str().unwrap(), "--no-figures", "-q"];
+    let output = program(&arguments);
+    assert_eq!(output.status.code(), Some(6));
+    assert!(stderr(&output).contains("E601") && stderr(&output).contains("hull.json"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("--force"));
+    assert_eq!(fs::read(path.join("hull.json")).unwrap(), before);
+    assert!(!path.join("summary.json").exists(), "a file was written although another was in the way");
+    let mut forced = arguments.to_vec();
+    forced.push("--force");
+    assert!(program(&forced).status.success());
+    assert_ne!(fs::read(path.join("hull.json")).unwrap(), before);
+}
+
+#[test]
+fn json_is_one_object_and_the_same_bytes_twice() {
+    let path = folder("json");
+    let run = |name: &str| {
+        let target = path.join(name);
+        let output = program(&[
+            "generate",
+            &config("wigley.toml"),
+            "-o",
+            target.to_str().unwrap(),
+            "--json",
+            "--figures",
+            "sections",
+        ]);
+        assert!(output.status.success());
+        (stdout(&output), fs::read(target.join("hull.json")).unwrap(), fs::read(target.join("manifest.json")).unwrap())
+    };
+    let first = run("a");
+    assert_eq!(first, run("b"));
+    let summary: Value = serde_json::from_str(&first.0).unwrap();
+    assert_eq!(summary["name"], "Wigley hull");
+    assert!((summary["design"]["CB"].as_f64().unwrap() - 4.0 / 9.0).abs() < 1e-12);
+    let keys = ["key", "requested", "achieved", "error", "origin"];
+    assert!(keys.iter().all(|key| !summary["targets"][0][key].is_null()));
+    assert!(path.join("a/sections.svg").exists() && !path.join("a/lines.png").exists());
+}
+
+#[test]
+fn hydro_from_file_folder_and_design() {
+    let path = wigley("hydro");
+    let file = path.join("hull.json");
+    let of = |hull: &str, how: &str| {
+        let output = program(&["hydro", hull, "--draughts", "1.25:6.25:1.25", how]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let from_file = of(file.to_str().unwrap(), "--json");
+    assert_eq!(from_file, of(path.to_str().unwrap(), "--json"));
+    assert_eq!(from_file, of(&config("wigley.toml"), "--json"));
+    let table: Value = serde_json::from_str(&from_file).unwrap();
+    assert_eq!(table["rows"].as_array().unwrap().len(), 5);
+    assert!((table["rows"][4]["DISPVOL"].as_f64().unwrap() / (4.0 / 9.0 * 6250.0) - 1.0).abs() < 1e-12);
+    assert_eq!(table["conventions"]["density"], 1.025);
+    let csv = of(path.to_str().unwrap(), "--csv");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert!(lines[0].starts_with("T,") && lines[1].starts_with("m,") && lines.len() == 7);
+    let page = stdout(&program(&["hydro", path.to_str().unwrap(), "--draughts", "1,2,...,6"]));
+    assert!(page.lines().all(|line| line.chars().count() <= 80) && page.contains("DISPVOL"), "{page}");
+}
+
+#[test]
+fn offsets_in_three_notations() {
+    let path = wigley("offsets");
+    let of = |notation: &str| {
+        let output = program(&[
+            "offsets",
+            path.to_str().unwrap(),
+            "--stations",
+            "50,150",
+            "--waterlines",
+            "6.25",
+            "--buttocks",
+            "1 m",
+            "--notation",
+            notation,
+        ]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        stdout(&output)
+    };
+    let metres = of("m");
+    let lines: Vec<&str> = metres.lines().collect();
+    assert_eq!(lines[0], "x\\z [m],6.25");
+    let (x, y) = lines[1].split_once(',').unwrap();
+    assert_eq!(x, "50");
+    assert!((y.parse::<f64>().unwrap() - 5.0).abs() < 1e-12, "{y}");
+    assert_eq!(lines[2], "150,");
+    assert!(lines[4].starts_with("x\\y [m],1,keel,"), "{metres}");
+    assert!(of("mm").contains("\n50000,5000\n"));
+    assert!(of("feet-inches-eighths").contains("\n164-0-4,16-4-7\n"), "{}", of("feet-inches-eighths"));
+}
+
+#[test]
+fn sections_of_every_plane() {
+    let path = wigley("section");
+    let hull = path.to_str().unwrap();
+    for plane in [["--station", "50"], ["--waterline", "3"], ["--buttock", "2"], ["--plane", "1,0.5,0,50"]] {
+        let csv = stdout(&program(&["section", hull, plane[0], plane[1]]));
+        let mut lines = csv.lines();
+        assert_eq!(lines.next(), Some("branch,x,y,z"));
+        assert!(lines.next().is_some_and(|line| line.starts_with("1,")), "{plane:?}: {csv}");
+        let json: Value =
+            serde_json::from_str(&stdout(&program(&["section", hull, plane[0], plane[1], "--json"]))).unwrap();
+        assert!(json["branches"][0]["points"].as_array().unwrap().len() >= 2);
+    }
+    let beside = program(&["section", hull, "--station", "500"]);
+    assert_eq!((stdout(&beside).as_str(), beside.status.code()), ("branch,x,y,z\n", Some(0)));
+}
+
+#[test]
+fn templates_and_schema() {
+    let list = stdout(&program(&["new"]));
+    assert_eq!(list.lines().count(), 12);
+    let path = folder("new").join("ship.toml");
+    let file = path.to_str().unwrap();
+    assert!(program(&["new", "frigate", "-o", file]).status.success());
+    assert_eq!(fs::read_to_string(&path).unwrap(), stdout(&program(&["new", "frigate"])));
+    assert_eq!(program(&["new", "tug", "-o", file]).status.code(), Some(6));
+    assert_eq!(program(&["new", "submarine"]).status.code(), Some(2));
+    let schema: Value = serde_json::from_str(&stdout(&program(&["schema"]))).unwrap();
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    assert_eq!(schema, serde_json::from_str::<Value>(&stdout(&program(&["schema", "design"]))).unwrap());
+}
+
+#[test]
+fn the_self_test_passes() {
+    let output = program(&["self-test"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
+    assert!(stdout(&output).lines().last().unwrap().ends_with("checks passed."));
+}
+
+#[test]
+fn exit_codes_tell_what_went_wrong() {
+    let path = folder("exit");
+    let write = |name: &str, text: &[u8]| {
+        fs::write(path.join(name), text).unwrap();
+        path.join(name).display().to_string()
+    };
+    let out = path.join("out").display().to_string();
+    let generate = |file: &str| program(&["generate", file, "-o", &out, "--no-figures"]);
+    for (arguments, code) in [(&["generate"][..], 2), (&["frobnicate"], 2), (&["--help"], 0), (&["--version"], 0)] {
+        assert_eq!(program(arguments).status.code(), Some(code), "{arguments:?}");
+    }
+    let bad_list = program(&["hydro", "x", "--draughts", "1:2"]);
+    assert_eq!(bad_list.status.code(), Some(2));
+    assert!(stderr(&bad_list).contains("a range is from:to:step"), "{}", stderr(&bad_list));
+
+    let bad = generate(&write("bad.toml", b"[dimensions]\nLpp = 80\n[form]\nCpw = 1\nCm = \"x\"\n"));
+    assert_eq!(bad.status.code(), Some(3));
+    assert_eq!(stderr(&bad).lines().count(), 2, "{}", stderr(&bad));
+    assert!(stderr(&bad).contains("bad.toml:4:1 form.Cpw is not a key of a design. Did you mean Cwp?"));
+    assert!(bad.stdout.is_empty());
+    let latin = generate(&write("latin.toml", b"a = 1\n# \xe9\n"));
+    assert!(
+        latin.status.code() == Some(3) && stderr(&latin).contains("latin.toml:2 byte 8 is not UTF-8"),
+        "{}",
+        stderr(&latin)
+    );
+    let record = generate(&write("ship.hgf", b"Name,LOA,BOA,D,HullData\nx,1,y,3,1 2\n"));
+    assert_eq!(record.status.code(), Some(3));
+    assert!(stderr(&record).contains("ship.hgf:2 BOA: 'y' is not a number"), "{}", stderr(&record));
+    assert!(stderr(&record).contains("ship.hgf:2 HullData: 2 numbers"), "{}", stderr(&record));
+    let hull = program(&["hydro", &write("hull.json", b"{\"format\": 1}"), "--draughts", "1"]);
+    assert!(hull.status.code() == Some(3) && stderr(&hull).contains("hull.json:1:"), "{}", stderr(&hull));
+    let newer =
+        program(&["hydro", &write("h.json", b"{\"format\":\"loftsman-hull\",\"version\":9}"), "--draughts", "1"]);
+    assert!(stderr(&newer).contains("version 9 is newer than this program"), "{}", stderr(&newer));
+
+    let tall = write("tall.toml", b"[project]\nfamily = \"box\"\n[dimensions]\nLpp = 80\nB = 10\nT = 8.2\nD = 7.9\n");
+    let infeasible = generate(&tall);
+    assert_eq!(infeasible.status.code(), Some(4));
+    assert!(
+        stderr(&infeasible).contains("E105") && stderr(&infeasible).contains("tall.toml:"),
+        "{}",
+        stderr(&infeasible)
+    );
+
+    assert_eq!(generate(&path.join("absent.toml").display().to_string()).status.code(), Some(6));
+    fs::write(path.join("file"), "").unwrap();
+    let inside = path.join("file/out").display().to_string();
+    assert_eq!(program(&["generate", &config("box.toml"), "-o", &inside, "--no-figures"]).status.code(), Some(6));
+    assert!(!Path::new(&out).exists(), "a failed run wrote something");
+}
+
+#[test]
+fn a_reader_that_stops_early_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_loftsman"))
+        .args(["hydro", &config("wigley.toml"), "--draughts", "0.01:6:0.01", "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
+}
