@@ -1,8 +1,8 @@
 //! Hydrostatics of the upright hull: the quantities of a floating condition, their list, and tables over draughts.
 
 mod conventions;
-mod halves;
 mod draughts;
+mod halves;
 mod quantity;
 mod sections;
 mod table;
