@@ -77,13 +77,19 @@ fn raw(value: &DeValue<'_>) -> Raw {
     }
 }
 
-/// The candidate nearest to `word` by edit distance, when it is near (Jaro-Winkler similarity above 0.75).
+/// The candidate nearest to `word` by edit distance with swaps, when it is near: one edit, and one more for every three
+/// letters; or when one begins with the other.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     let word = word.to_lowercase();
+    let allowed = 1 + word.chars().count() / 3;
+    let distance = |candidate: &str| match strsim::osa_distance(&word, candidate) {
+        _ if word.len() >= 4 && (candidate.starts_with(&word) || word.starts_with(candidate)) => 1,
+        distance => distance,
+    };
     candidates
-        .map(|candidate| (strsim::jaro_winkler(&word, &candidate.to_lowercase()), candidate))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|candidate| (distance(&candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= allowed && *distance < word.chars().count())
+        .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }
 

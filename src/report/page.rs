@@ -92,7 +92,7 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
         ["CP", "CWP", "CVP"],
     ];
     for keys in keys {
-        let cells = keys.map(|key| format!("{key:<8}{:>11} {:<6}", value(&outputs.design_row, key), unit(key)));
+        let cells = keys.map(|key| format!("{key:<8}{:>11} {:<7}", value(&outputs.design_row, key), unit(key)));
         page.push_str(cells.join("").trim_end());
         page.push('\n');
     }
