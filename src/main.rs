@@ -1,2 +1,7 @@
-//! x
-fn main() {}
+//! The program `loftsman`: see `loftsman --help`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    loftsman::cli::run(std::env::args_os())
+}

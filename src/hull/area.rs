@@ -187,7 +187,7 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
 }
 
 /// Whether x depends on v within a cell of the knots.
-fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
+pub(crate) fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
     (span_u - p..=span_u).any(|i| {
@@ -198,7 +198,7 @@ fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
 
 /// Every v below `end` at which x(u_k, v) = `station` for a knot u_k, in increasing order; lines on which x is the station
 /// throughout a span have none there.
-fn crossings(hull: &Hull, station: f64, end: f64) -> Vec<f64> {
+pub(crate) fn crossings(hull: &Hull, station: f64, end: f64) -> Vec<f64> {
     let surface = hull.surface();
     let (p, q, columns) = (surface.u().degree(), surface.v().degree(), surface.shape()[1]);
     let knots = surface.v();

@@ -46,15 +46,24 @@ pub(crate) struct Immersion<'a> {
 impl<'a> Immersion<'a> {
     /// None when nothing is immersed: the draught is below the lowest line, or is not a number.
     pub(crate) fn new(hull: &'a Hull, draught: f64) -> Option<Self> {
-        if draught.is_nan() || draught < hull.bottom() {
+        // Draughts that miss the lowest or the highest line by rounding are at that line.
+        let rounding = 1e-12 * (hull.top() - hull.bottom());
+        if draught.is_nan() || draught < hull.bottom() - rounding {
             return None;
         }
-        let (_, highest) = hull.heights().knots().domain();
-        let above = draught > hull.top();
-        let waterline = if above { highest } else { hull.height_parameter(draught)? };
+        let (lowest, highest) = hull.heights().knots().domain();
+        let above = draught > hull.top() + rounding;
+        let waterline = if draught >= hull.top() {
+            highest
+        } else if draught <= hull.bottom() {
+            lowest
+        } else {
+            hull.height_parameter(draught)?
+        };
         let lowest_deck = hull.deck().points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
         let slack = 1e-9 * (hull.top() - hull.bottom());
-        let mut immersion = Self { hull, draught: draught.min(hull.top()), waterline, above, deck_immersed: false };
+        let mut immersion =
+            Self { hull, draught: draught.clamp(hull.bottom(), hull.top()), waterline, above, deck_immersed: false };
         if immersion.draught > lowest_deck + slack {
             immersion.deck_immersed = true;
         }

@@ -6,12 +6,15 @@ mod area;
 mod form;
 mod functional;
 mod immersion;
+mod offsets;
 mod particulars;
 mod section;
 
 pub use area::SectionalAreaCurve;
+pub(crate) use area::{crossings, is_slanting};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
+pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};

@@ -9,6 +9,7 @@ mod trace;
 
 use super::form::Hull;
 use crate::spline::BsplineCurve;
+pub(super) use bernstein::curve_sign_changes;
 use bernstein::{Arc, join};
 use clip::below_deck;
 use closing::{cut_face, line};

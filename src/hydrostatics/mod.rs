@@ -1,6 +1,8 @@
 //! Hydrostatics of the upright hull: the quantities of a floating condition, their list, and tables over draughts.
 
 mod conventions;
+mod halves;
+mod draughts;
 mod quantity;
 mod sections;
 mod table;
@@ -8,5 +10,6 @@ mod volume;
 mod waterplane;
 
 pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell, Statement};
+pub use draughts::default_draughts;
 pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
 pub use table::CurvesOfForm;

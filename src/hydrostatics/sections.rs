@@ -110,14 +110,14 @@ impl<'a, const N: usize> Table<'a, N> {
             nodes::<N>(hull, span, f64::INFINITY, count, &mut all);
         }
         let mut table = Self { hull, spans, nodes: all, count, breadths: Vec::new() };
-        let sampled = table.spans.iter().filter(|span| !span.vertical).flat_map(|span| &span.x);
-        table.breadths = sampled
-            .map(|&x| {
-                let breadth =
-                    |node: &Node<N>| hull.length_parameter(x, node.v).map_or(0.0, |u| surface.eval(u, node.v)[1]);
-                table.nodes.iter().map(breadth).collect()
-            })
-            .collect();
+        let places: Vec<f64> =
+            table.spans.iter().filter(|span| !span.vertical).flat_map(|span| span.x.iter().copied()).collect();
+        table.breadths = vec![Vec::with_capacity(table.nodes.len()); places.len()];
+        if !places.is_empty() {
+            for node in &table.nodes {
+                half_breadths(hull, node, &places, &mut table.breadths);
+            }
+        }
         table
     }
 
@@ -174,7 +174,7 @@ impl<'a, const N: usize> Table<'a, N> {
         // Exact value at a place of a span.
         let exact = |k: usize, u: f64| -> (f64, f64) {
             let span = &self.spans[k];
-            let x = self.place(span, u);
+            let x = self.place(u);
             (x, if span.vertical && !deck { spline(span, u)[0] } else { self.area(x, immersion) })
         };
         let at_midship = self
@@ -188,23 +188,27 @@ impl<'a, const N: usize> Table<'a, N> {
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let top = samples.iter().map(|values| highest(values)).fold(0.0, f64::max);
         let (mut best, mut place) = (midship_area, midship);
-        if top > 0.0 {
-            for (k, values) in samples.iter().enumerate() {
-                // Spans next to the highest sample hold the maximum; others are lower by more than a span can rise.
-                if highest(values) < top * (1.0 - 1e-2) {
-                    continue;
+        let mut highest_place = None;
+        let mut value = 0.0;
+        for (k, values) in samples.iter().enumerate() {
+            // The maximum lies in a span next to the highest sample; spans a hundredth lower are far from it.
+            if top <= 0.0 || highest(values) < top * (1.0 - 1e-2) {
+                continue;
+            }
+            let span = &self.spans[k];
+            let polynomial = Interpolant { u: &span.u, values };
+            for u in polynomial.maxima(span.ends) {
+                let found = polynomial.value(u);
+                if found > value * (1.0 + ROUNDING) {
+                    value = found;
+                    highest_place = Some((k, u));
                 }
-                let span = &self.spans[k];
-                let polynomial = Interpolant { u: &span.u, values };
-                for u in polynomial.maxima(span.ends) {
-                    if polynomial.value(u) < best * (1.0 - 1e-3) {
-                        continue;
-                    }
-                    let (x, area) = exact(k, u);
-                    if area > best * (1.0 + ROUNDING) {
-                        (best, place) = (area, x);
-                    }
-                }
+            }
+        }
+        if let Some((k, u)) = highest_place {
+            let (x, area) = exact(k, u);
+            if area > best * (1.0 + ROUNDING) {
+                (best, place) = (area, x);
             }
         }
         if best <= 0.0 {
@@ -216,9 +220,8 @@ impl<'a, const N: usize> Table<'a, N> {
     }
 
     /// x at `u`, on the reference line.
-    fn place(&self, span: &Span, u: f64) -> f64 {
+    fn place(&self, u: f64) -> f64 {
         let v = self.hull.surface().v().domain().1;
-        let _ = span;
         self.hull.surface().eval(u, v)[0]
     }
 
@@ -253,7 +256,7 @@ impl<'a, const N: usize> Table<'a, N> {
                     bad = middle;
                 }
             }
-            self.place(span, good)
+            self.place(good)
         };
         let ends =
             [edge(flat[low], low.checked_sub(1).map(|i| flat[i])), edge(flat[high], flat.get(high + 1).copied())];
@@ -296,6 +299,74 @@ impl<'a, const N: usize> Table<'a, N> {
     }
 }
 
+/// Half-breadths at rising `places` on the line of a node, 0 beyond its ends, appended to the list of each place.
+fn half_breadths<const N: usize>(hull: &Hull, node: &Node<N>, places: &[f64], into: &mut [Vec<f64>]) {
+    let surface = hull.surface();
+    let (knots, p, columns) = (surface.u(), surface.u().degree(), surface.shape()[1]);
+    let line: Vec<[f64; 2]> = surface
+        .points()
+        .chunks_exact(columns)
+        .map(|row| {
+            let mut sum = [0.0; 2];
+            for (point, b) in row[node.first..].iter().zip(&node.value) {
+                sum[0] += b * point[0];
+                sum[1] += b * point[1];
+            }
+            sum
+        })
+        .collect();
+    let at = |span: usize, u: f64| {
+        let rows = knots.basis_derivatives::<2>(span, u);
+        let points = &line[span - p..=span];
+        let sum = |row: &[f64], c: usize| row.iter().zip(points).map(|(b, point)| b * point[c]).sum::<f64>();
+        [sum(&rows[0], 0), sum(&rows[1], 0), sum(&rows[0], 1)]
+    };
+    let spans = knots.spans();
+    let slack = 1e-12 * (line[line.len() - 1][0] - line[0][0]).abs();
+    let mut ends: Option<(usize, f64, f64)> = None;
+    let mut k = 0;
+    for (&x, target) in places.iter().zip(into) {
+        if x < line[0][0] - slack || x > line[line.len() - 1][0] + slack {
+            target.push(0.0);
+            continue;
+        }
+        // The span that holds x.
+        let (from, to) = loop {
+            let (low, high) = (knots.knots()[spans[k]], knots.knots()[spans[k] + 1]);
+            let (_, from, to) = match ends {
+                Some(found) if found.0 == k => found,
+                _ => (k, at(spans[k], low)[0], at(spans[k], high)[0]),
+            };
+            ends = Some((k, from, to));
+            if x <= to || k + 1 == spans.len() {
+                break (from, to);
+            }
+            k += 1;
+        };
+        let (mut low, mut high) = (knots.knots()[spans[k]], knots.knots()[spans[k] + 1]);
+        let resolution = 1e-12 * (high - low);
+        let mut u = if to > from { low + (high - low) * ((x - from) / (to - from)).clamp(0.0, 1.0) } else { low };
+        let mut y = 0.0;
+        for _ in 0..60 {
+            let [value, slope, breadth] = at(spans[k], u);
+            y = breadth;
+            if value > x {
+                high = u;
+            } else {
+                low = u;
+            }
+            let newton = u - (value - x) / slope;
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            let step = (next - u).abs();
+            u = next;
+            if step <= resolution {
+                break;
+            }
+        }
+        target.push(y);
+    }
+}
+
 /// The Lagrange polynomial of site `k` at `t`.
 fn lagrange(sites: &[f64], k: usize, t: f64) -> f64 {
     let others = sites.iter().enumerate().filter(|&(i, _)| i != k);
@@ -313,7 +384,7 @@ impl Interpolant<'_> {
         self.values.iter().enumerate().map(|(k, value)| value * lagrange(self.u, k, u)).sum()
     }
 
-    /// The derivative, by the exact rule for the polynomial of degree n: a Gauss rule is not needed, a sum over pairs is.
+    /// The derivative.
     fn slope(&self, u: f64) -> f64 {
         let mut sum = 0.0;
         for (k, value) in self.values.iter().enumerate() {
@@ -336,15 +407,25 @@ impl Interpolant<'_> {
             if self.slope(low) <= 0.0 || self.slope(high) >= 0.0 {
                 continue;
             }
-            for _ in 0..52 {
-                let middle = 0.5 * (low + high);
-                if self.slope(middle) > 0.0 {
-                    low = middle;
+            // False position with the Illinois weights, which settles in some eight steps.
+            let (mut at_low, mut at_high) = (self.slope(low), self.slope(high));
+            let mut u = 0.5 * (low + high);
+            for _ in 0..40 {
+                let next = (low * at_high - high * at_low) / (at_high - at_low);
+                let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+                let settled = (next - u).abs() <= 1e-15 * (ends.1 - ends.0);
+                u = next;
+                let slope = self.slope(u);
+                if settled || slope == 0.0 {
+                    break;
+                }
+                if slope > 0.0 {
+                    (low, at_low, at_high) = (u, slope, 0.5 * at_high);
                 } else {
-                    high = middle;
+                    (high, at_high, at_low) = (u, slope, 0.5 * at_low);
                 }
             }
-            found.push(0.5 * (low + high));
+            found.push(u);
         }
         found
     }

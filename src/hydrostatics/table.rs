@@ -200,3 +200,134 @@ fn row(
         remark: None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::{Functional, PrincipalParticulars};
+    use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+    use proptest::prelude::*;
+
+    /// A hull with raked ends, a flat of bottom 0.5 m above the base line and a deck with sheer; `noise` bends its sides.
+    fn hull(noise: &[f64], lowest_deck: f64) -> Hull {
+        let (u, v) = (KnotVector::uniform(3, 4).unwrap(), KnotVector::uniform(3, 3).unwrap());
+        let mut points = Vec::new();
+        for (i, &s) in u.greville().iter().enumerate() {
+            for (j, &t) in v.greville().iter().enumerate() {
+                let x = 2.0 - 5.0 * t + (94.0 + 11.0 * t) * s;
+                let bend = noise.get((7 * i + j) % noise.len().max(1)).copied().unwrap_or(0.0);
+                let y = 8.0 * (1.0 - s.powi(3)) * (0.2 + 0.8 * t) * (1.0 + bend);
+                points.push([x, y, 0.5 + 8.5 * t]);
+            }
+        }
+        let line = KnotVector::uniform(2, 1).unwrap();
+        let deck = BsplineCurve::new(line, vec![[-5.0, 9.0], [50.0, 2.0 * lowest_deck - 9.0], [105.0, 9.0]]).unwrap();
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: 5.0, depth: 9.0 };
+        Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+    }
+
+    fn row_at(hull: &Hull, draught: f64) -> Hydrostatics {
+        CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn coefficients_belong_together(noise in prop::collection::vec(-0.1..0.1f64, 12), draught in 0.8..8.9f64) {
+            let hull = hull(&noise, 9.0);
+            let row = row_at(&hull, draught);
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-13 * b.abs();
+            let (cb, cp) = (row.block_coefficient.unwrap(), row.prismatic_coefficient.unwrap());
+            prop_assert!(close(cb, cp * row.maximum_section_coefficient.unwrap()));
+            prop_assert!(close(cb, row.vertical_prismatic_coefficient.unwrap() * row.waterplane_coefficient.unwrap()));
+            prop_assert!(close(row.km_transverse.unwrap(), row.kb.unwrap() + row.bm_transverse.unwrap()));
+            let halves = row.prismatic_coefficient_fore.unwrap() + row.prismatic_coefficient_aft.unwrap();
+            prop_assert!(close(halves, 2.0 * cp));
+            prop_assert!(row.maximum_section_area >= row.midship_section_area);
+            // dV/dT is the waterplane area.
+            let step = 1e-4;
+            let rows = CurvesOfForm::new(&hull, &[draught - step, draught + step], &Conventions::default()).rows;
+            let slope = (rows[1].displacement_volume - rows[0].displacement_volume) / (2.0 * step);
+            prop_assert!((slope - row.waterplane_area).abs() < 1e-7 * slope);
+            // The rows over the net are the table.
+            for (functional, value) in [
+                (Functional::Volume, row.displacement_volume),
+                (Functional::LongitudinalMoment, row.lcb.unwrap() * row.displacement_volume),
+                (Functional::VerticalMoment, row.kb.unwrap() * row.displacement_volume),
+                (Functional::WaterplaneArea, row.waterplane_area),
+                (Functional::WaterplaneMoment, row.lcf.unwrap() * row.waterplane_area),
+                (Functional::SectionArea { x: 50.0 }, row.midship_section_area),
+            ] {
+                prop_assert!((functional.value(&hull, draught) - value).abs() <= 1e-13 * value, "{:?}", functional);
+            }
+            // No section is larger than the largest.
+            for k in 0..=60 {
+                let area = Functional::SectionArea { x: 105.0 * f64::from(k) / 60.0 - 3.0 }.value(&hull, draught);
+                prop_assert!(area <= row.maximum_section_area * (1.0 + 1e-6), "{area} {row:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_draught_out_of_the_ordinary_has_a_finite_row_and_a_remark() {
+        for hull in [hull(&[], 9.0), hull(&[], 7.0)] {
+            for draught in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3.0, 0.0, 0.2, 0.5, 9.5, 1e9] {
+                let row = row_at(&hull, draught);
+                assert!(row.remark.is_some(), "{draught}");
+                for quantity in crate::hydrostatics::QUANTITIES {
+                    assert!((quantity.value)(&row).is_none_or(f64::is_finite), "{draught} {}", quantity.key);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_keel_is_the_limit_from_above() {
+        let hull = hull(&[], 9.0);
+        let (keel, above) = (row_at(&hull, 0.5), row_at(&hull, 0.5 + 1e-9));
+        assert!(keel.displacement_volume.abs() < 1e-300 && keel.kb.is_none() && keel.block_coefficient.is_none());
+        assert!((keel.waterplane_area - above.waterplane_area).abs() < 1e-6 && keel.waterplane_area > 100.0);
+        assert!((keel.wetted_surface - keel.waterplane_area).abs() < 1e-9);
+        assert!(row_at(&hull, 0.49).waterplane_area.abs() < 1e-300);
+    }
+
+    #[test]
+    fn above_the_deck_the_body_is_whole_and_has_no_waterplane() {
+        let hull = hull(&[], 9.0);
+        let (top, above) = (row_at(&hull, 9.0), row_at(&hull, 12.0));
+        assert!(top.remark.is_none() && top.waterplane_area > 0.0);
+        assert!((above.displacement_volume - top.displacement_volume).abs() < 1e-12 * top.displacement_volume);
+        assert!(above.waterplane_area.abs() < 1e-300 && above.lcf.is_none() && above.km_transverse.is_none());
+    }
+
+    #[test]
+    fn an_immersed_deck_closes_the_body() {
+        let hull = hull(&[], 7.0);
+        let dry = row_at(&hull, 6.9);
+        assert!(dry.remark.is_none());
+        let row = row_at(&hull, 8.0);
+        // The deck is the parabola 9 - 4 * 2 s (1 - s), lowest at x = 50 m; it is at 8 m where s (1 - s) = 1/8.
+        let s = 0.5 - (0.25f64 - 0.125).sqrt();
+        let wet = format!("x = {:.3} to {:.3} m", 110.0 * s - 5.0, 110.0 * (1.0 - s) - 5.0);
+        assert!(row.remark.as_ref().unwrap().contains(&wet), "{:?} {wet}", row.remark);
+        assert!(row.prismatic_coefficient_fore.is_none());
+        assert!(
+            (Functional::Volume.value(&hull, 8.0) - row.displacement_volume).abs() < 1e-9 * row.displacement_volume
+        );
+        let step = 1e-3;
+        let slope = (row_at(&hull, 8.0 + step).displacement_volume - row_at(&hull, 8.0 - step).displacement_volume)
+            / (2.0 * step);
+        assert!((slope - row.waterplane_area).abs() < 1e-5 * slope, "{slope} {}", row.waterplane_area);
+        // The area over the sections is the volume.
+        let n = 2000;
+        let sum: f64 = (0..n)
+            .map(|k| {
+                let x = 110.0 * (f64::from(k) + 0.5) / f64::from(n) - 4.0;
+                Functional::SectionArea { x }.value(&hull, 8.0) * 110.0 / f64::from(n)
+            })
+            .sum();
+        assert!((sum - row.displacement_volume).abs() < 1e-3 * sum, "{sum} {}", row.displacement_volume);
+    }
+}

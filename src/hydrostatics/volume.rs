@@ -8,6 +8,7 @@
 //! surface 2 int int |S_u x S_v| dv du is not polynomial; its relative error is below 1e-8 where the surface is smooth within
 //! its spans. Draughts that immerse the deck at side are integrated one by one, u-line by u-line up to the deck.
 
+use super::halves::volumes_to_midship;
 use crate::hull::{Hull, Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
 use crate::spline::MAX_DEGREE;
@@ -185,7 +186,12 @@ fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], mids
             (whole, start..all.len())
         })
         .collect();
-    let lines = pass(hull, &all, midship);
+    // The knot line in u next to midship on the highest waterline.
+    let top = hull.surface().v().domain().1;
+    let parting = hull.length_parameter(midship, top).unwrap_or(hull.surface().u().domain().0);
+    let parting = hull.surface().u().find_span(parting);
+    let lines = pass(hull, &all, parting);
+    let to_midship = volumes_to_midship(hull, immersions, midship, parting);
     let mut below = vec![Body { aft: Some(0.0), ..Body::default() }];
     let mut sum = below[0];
     for (k, (node, line)) in all.iter().zip(&lines).take(spans.len() * count).enumerate() {
@@ -195,7 +201,7 @@ fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], mids
         }
     }
     let mut bodies = Vec::with_capacity(immersions.len());
-    for (immersion, (whole, range)) in immersions.iter().zip(own) {
+    for ((immersion, (whole, range)), rest) in immersions.iter().zip(own).zip(to_midship) {
         bodies.push(match immersion {
             None => Body::default(),
             Some(immersion) if immersion.deck_immersed() => body_below_deck::<N>(hull, immersion),
@@ -204,6 +210,7 @@ fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], mids
                 for (node, line) in all[range.clone()].iter().zip(&lines[range]) {
                     body.add(&contribution(hull, node, line));
                 }
+                body.aft = body.aft.zip(rest).map(|(aft, rest)| aft + rest);
                 body
             }
         });
@@ -211,21 +218,16 @@ fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], mids
     bodies
 }
 
-/// The pass over the surface: integrals in u at every node.
-fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], midship: f64) -> Vec<Line> {
+/// The pass over the surface: integrals in u at every node; `aft` is the part of the area before the span `parting`.
+fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], parting: usize) -> Vec<Line> {
     let knots = hull.surface().u();
     let count = count_along(hull);
     let mut columns = vec![[0.0; 4]; hull.surface().shape()[1]];
     let mut lines = vec![Line::default(); nodes.len()];
-    // The span in which each node's line passes midship, and the parameter there.
-    let passages: Vec<Option<(usize, f64)>> =
-        nodes.iter().map(|node| hull.length_parameter(midship, node.v).map(|u| (knots.find_span(u), u))).collect();
     for span in knots.spans() {
-        for ((node, line), passage) in nodes.iter().zip(&mut lines).zip(&passages) {
-            if let Some((at, u)) = *passage
-                && at == span
-            {
-                line.aft = line.area + part_of_span(hull, node, span, u);
+        if span == parting {
+            for line in &mut lines {
+                line.aft = line.area;
             }
         }
         for (u, weight) in gauss_legendre(count).on(knots.knots()[span], knots.knots()[span + 1]) {
@@ -239,36 +241,7 @@ fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], midship: f64) -> Vec<Lin
             }
         }
     }
-    for ((node, line), passage) in nodes.iter().zip(&mut lines).zip(&passages) {
-        if passage.is_none() {
-            let stern = hull.surface().eval(knots.domain().0, node.v)[0];
-            line.aft = if stern < midship { line.area } else { 0.0 };
-        }
-    }
     lines
-}
-
-/// int y x_u du from the start of `span` to `end` at a node.
-fn part_of_span<const N: usize>(hull: &Hull, node: &Node<N>, span: usize, end: f64) -> f64 {
-    let surface = hull.surface();
-    let (knots, p, columns) = (surface.u(), surface.u().degree(), surface.shape()[1]);
-    let mut row = [[0.0; 2]; MAX_DEGREE + 1];
-    for (i, at) in row.iter_mut().enumerate().take(p + 1) {
-        let points = &surface.points()[(span - p + i) * columns + node.first..];
-        for (b, point) in node.value.iter().zip(points) {
-            at[0] += b * point[0];
-            at[1] += b * point[1];
-        }
-    }
-    gauss_legendre(p)
-        .on(knots.knots()[span], end)
-        .map(|(u, weight)| {
-            let [value, slope] = knots.basis_derivatives::<2>(span, u);
-            let y: f64 = value.iter().zip(&row).map(|(b, c)| b * c[1]).sum();
-            let along: f64 = slope.iter().zip(&row).map(|(b, c)| b * c[0]).sum();
-            weight * y * along
-        })
-        .sum()
 }
 
 /// Half-breadth and length along the profile of one end at a node: x, y, and the length of S_v.

@@ -172,12 +172,16 @@ pub fn ellipsoid(name: &str, dimensions: &Dimensions) -> Result<Generated, Vec<I
         let v = KnotVector::from_breakpoints(7, &angles, &vec![1; angles.len() - 2])?;
         let z = loft::interpolate(&v, |theta| 2.0 * d.draught * (0.5 * theta).sin().powi(2))?;
         let phi = |s: f64| PI * (s - 0.5);
-        let x = loft::interpolate_tensor(&u, &v, |s, theta| 0.5 * d.length * (1.0 + theta.sin() * phi(s).sin()))?;
+        let mut x = loft::interpolate_tensor(&u, &v, |s, theta| 0.5 * d.length * (1.0 + theta.sin() * phi(s).sin()))?;
         let mut y = loft::interpolate_tensor(&u, &v, |s, theta| 0.5 * d.breadth * theta.sin() * phi(s).cos())?;
         let columns = v.basis_count();
         let last = u.basis_count() - 1;
         for j in 0..columns {
             (y[j], y[last * columns + j]) = (0.0, 0.0);
+        }
+        // The pole on the keel is one point.
+        for row in 0..=last {
+            (x[row * columns], y[row * columns]) = (0.5 * d.length, 0.0);
         }
         loft::level_hull(name, d.particulars(), loft::surface(&u, &v, &x, &y, &z)?)
     };

@@ -1,6 +1,7 @@
 //! Interpolation: the banded collocation matrix of a knot vector at given sites.
 
 use super::knots::{KnotVector, SplineError};
+use super::parametrize::check_sites;
 use crate::numeric::BandedLu;
 
 /// What is given at a site: the value (order 0) or a derivative.
@@ -23,9 +24,14 @@ impl Collocation {
     /// Values at increasing sites, one a basis function.
     ///
     /// # Errors
-    /// [`SplineError::PointCount`] when their number is not that of the basis functions, [`SplineError::Undetermined`]
-    /// when they do not determine the spline (Schoenberg & Whitney 1953).
+    /// [`SplineError::PointCount`] when their number is not that of the basis functions, [`SplineError::Site`] when they do
+    /// not increase, [`SplineError::Undetermined`] when they do not determine the spline (Schoenberg & Whitney 1953).
     pub fn new(knots: &KnotVector, sites: &[f64]) -> Result<Self, SplineError> {
+        if sites.len() != knots.basis_count() {
+            return Err(SplineError::PointCount { found: sites.len(), expected: knots.basis_count() });
+        }
+        check_sites(sites)?;
+        knots.check_determined(sites, 0, knots.basis_count() - 1)?;
         let conditions: Vec<Condition> = sites.iter().map(|&site| Condition { site, order: 0 }).collect();
         Self::with_conditions(knots, &conditions)
     }
@@ -33,7 +39,8 @@ impl Collocation {
     /// Values and derivatives at sites that do not decrease, one condition a basis function.
     ///
     /// # Errors
-    /// As [`Collocation::new`].
+    /// [`SplineError::PointCount`] when their number is not that of the basis functions, [`SplineError::Undetermined`]
+    /// when they do not determine the spline.
     pub fn with_conditions(knots: &KnotVector, conditions: &[Condition]) -> Result<Self, SplineError> {
         let count = knots.basis_count();
         if conditions.len() != count {

@@ -34,6 +34,16 @@ pub enum SplineError {
     /// A control point that is not finite.
     #[error("control point {0} is not finite")]
     NotFinite(usize),
+    /// Sites of data that are not finite, do not increase or lie where they cannot.
+    #[error("data site {index} ({value}): {problem}")]
+    Site {
+        /// Index of the site, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
     /// Data sites that do not determine the spline (Schoenberg-Whitney condition).
     #[error("the data sites do not determine the spline: no site belongs to basis function {column}")]
     Undetermined {

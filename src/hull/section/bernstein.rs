@@ -216,7 +216,7 @@ fn isolate(c: &[f64; ORDER], degree: usize, low: f64, width: f64, depth: u32, ou
 }
 
 /// The parameters at which the sign of a scalar spline changes, in increasing order.
-pub(super) fn curve_sign_changes(curve: &BsplineCurve<1>) -> Vec<f64> {
+pub(in super::super) fn curve_sign_changes(curve: &BsplineCurve<1>) -> Vec<f64> {
     let (a, b) = curve.knots().domain();
     let mut changes = Vec::new();
     let mut local = Vec::new();

@@ -95,5 +95,16 @@ pub(super) fn below_deck(
             }));
         }
     }
-    parts.iter().filter_map(|arcs| join(arcs)).map(|part| (part, false)).collect()
+    // Where the curve only touches the deck nothing of it is left.
+    let extent = |arcs: &[Arc<3>]| {
+        let start = arcs[0].points[0];
+        let away = |p: &[f64; 3]| (0..3).map(|d| (p[d] - start[d]).abs()).fold(0.0, f64::max);
+        arcs.iter().flat_map(Arc::control).map(away).fold(0.0, f64::max)
+    };
+    parts
+        .iter()
+        .filter(|arcs| extent(arcs) > tolerance)
+        .filter_map(|arcs| join(arcs))
+        .map(|part| (part, false))
+        .collect()
 }

@@ -1,8 +1,8 @@
 //! From a chain of graph segments to a curve: quintic Hermite arcs between points of the contour.
 //!
 //! Position, first and second derivatives with respect to the running coordinate are exact at both ends of an arc (implicit
-//! differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter and halved until
-//! the distance is below half the tolerance; the error of an arc of length h is P^(6) (tau (1 - tau))^3 h^6 / 720.
+//! differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter and divided until
+//! the distance is below 0.7 of the tolerance; the error of an arc of length h is P^(6) (tau (1 - tau))^3 h^6 / 720.
 
 use super::bernstein::Arc;
 use super::contour::{Chain, Link, Running};
@@ -12,15 +12,22 @@ use super::field::{Node, Patch};
 const DEGREE: usize = 5;
 /// Steepest graph that is followed over a coordinate when the other one would do as well.
 const STEEPEST: f64 = 3.0;
-/// Halvings of a segment at most.
+/// Divisions of a segment at most.
 const DEEPEST: u32 = 48;
+/// Divisions of one segment of the contour in all: a bound on the work where rounding leaves nothing to converge to.
+const MOST_DIVISIONS: usize = 4000;
+/// Parts into which an arc with too large an error is divided at most.
+const MOST_PARTS: usize = 6;
+/// Share of the tolerance that the error at the compared points may have; the rest is for the points between them.
+const SHARE: f64 = 0.7;
 
 /// The arcs of a chain; parameters run on from 0 in units of the parameters of the surface.
 pub(super) fn trace(chain: &Chain, patches: &[Patch], tolerance: f64) -> Vec<Arc<3>> {
-    let mut tracer = Tracer { arcs: Vec::new(), at: 0.0, tolerance };
+    let mut tracer = Tracer { arcs: Vec::new(), at: 0.0, tolerance, divisions: 0 };
     for link in &chain.links {
         let patch = &patches[link.segment.patch];
         let (a, b) = (patch.node(link.from), patch.node(link.to));
+        tracer.divisions = 0;
         tracer.segment(patch, link, &a, &b, 0);
     }
     let arcs = &mut tracer.arcs;
@@ -39,6 +46,8 @@ struct Tracer {
     arcs: Vec<Arc<3>>,
     at: f64,
     tolerance: f64,
+    /// Divisions of the segment at hand.
+    divisions: usize,
 }
 
 /// What one arc is a graph over.
@@ -57,6 +66,7 @@ impl Tracer {
         }
         let Some(mode) = self.mode(patch, link.segment.running, a, b, depth) else {
             // Steep over either coordinate: halve the larger extent.
+            self.divisions += 1;
             let fixed = usize::from(extent[1].abs() > extent[0].abs());
             let middle = self.middle(patch, link, Mode::Over(fixed), a, b, 0.5);
             let node = patch.node(middle);
@@ -70,18 +80,38 @@ impl Tracer {
         };
         let arc = Arc { degree: DEGREE, low: self.at, high: self.at + length, points };
         let short = apart(a.point, b.point) <= 0.5 * self.tolerance;
-        if short || depth >= DEEPEST {
+        if short || depth >= DEEPEST || self.divisions >= MOST_DIVISIONS {
             self.push(arc);
             return;
         }
-        let middle = self.middle(patch, link, mode, a, b, 0.5);
-        let close = |st: [f64; 2], tau: f64| apart(patch.point(st), arc.at(tau)) <= 0.5 * self.tolerance;
-        let holds =
-            close(middle, 0.5) && [0.22, 0.78].iter().all(|&tau| close(self.middle(patch, link, mode, a, b, tau), tau));
-        if !holds {
-            let node = patch.node(middle);
-            self.segment(patch, link, a, &node, depth + 1);
-            self.segment(patch, link, &node, b, depth + 1);
+        let error = |tau: f64| {
+            let st = self.middle(patch, link, mode, a, b, tau);
+            (apart(patch.point(st), arc.at(tau)), st)
+        };
+        let limit = SHARE * self.tolerance;
+        let (at_middle, middle) = error(0.5);
+        let worst = if at_middle > limit { at_middle } else { at_middle.max(error(0.22).0).max(error(0.78).0) };
+        if worst > limit {
+            self.divisions += 1;
+            // Where plane and surface nearly touch, the contour is not determined to the tolerance; any line close to the
+            // plane will do.
+            if mode != Mode::Straight && straight(patch, a, b, 0.25 * self.tolerance) {
+                let mut link = *link;
+                link.segment.running = Running::Straight;
+                self.segment(patch, &link, a, b, depth + 1);
+                return;
+            }
+            // The error falls with the sixth power of the length.
+            let parts = ((worst / (0.7 * limit)).powf(1.0 / 6.0).ceil() as usize).clamp(2, MOST_PARTS);
+            let mut from = *a;
+            for k in 1..parts {
+                let st =
+                    if 2 * k == parts { middle } else { self.middle(patch, link, mode, a, b, k as f64 / parts as f64) };
+                let node = patch.node(st);
+                self.segment(patch, link, &from, &node, depth + 1);
+                from = node;
+            }
+            self.segment(patch, link, &from, b, depth + 1);
             return;
         }
         self.push(arc);
@@ -104,12 +134,7 @@ impl Tracer {
             let (x, y) = (over(a), over(b));
             if x > y { x } else { y }
         };
-        let straight = |limit: f64| {
-            [0.25, 0.5, 0.75].iter().all(|&r| {
-                let st = [a.st[0] + r * (b.st[0] - a.st[0]), a.st[1] + r * (b.st[1] - a.st[1])];
-                patch.distance(st).abs() <= limit
-            })
-        };
+        let straight = |limit: f64| straight(patch, a, b, limit);
         let (over_s, over_t) = (steepness(0), steepness(1));
         match running {
             Running::Straight => Some(Mode::Straight),
@@ -118,7 +143,9 @@ impl Tracer {
             Running::OverT if over_t.is_finite() || depth < 8 => Some(Mode::Over(1)),
             Running::OverS if over_s.is_finite() || depth < 8 => Some(Mode::Over(0)),
             Running::Both if over_s.min(over_t) <= STEEPEST => Some(Mode::Over(usize::from(over_t <= over_s))),
-            _ if straight(0.25 * self.tolerance) || depth >= DEEPEST => Some(Mode::Straight),
+            _ if straight(0.25 * self.tolerance) || depth >= DEEPEST || self.divisions >= MOST_DIVISIONS => {
+                Some(Mode::Straight)
+            }
             Running::OverT => Some(Mode::Over(1)),
             Running::OverS => Some(Mode::Over(0)),
             Running::Both => None,
@@ -144,6 +171,14 @@ impl Tracer {
         let guess = line[other] + bump * ((1.0 - r) * (ga - rise) - r * (gb - rise));
         patch.solve(k, line[k], ends, guess)
     }
+}
+
+/// Whether f stays within `limit` on the straight line between two points in the parameters.
+fn straight(patch: &Patch, a: &Node, b: &Node, limit: f64) -> bool {
+    [0.12, 0.3, 0.5, 0.7, 0.88].iter().all(|&r| {
+        let st = [a.st[0] + r * (b.st[0] - a.st[0]), a.st[1] + r * (b.st[1] - a.st[1])];
+        patch.distance(st).abs() <= limit
+    })
 }
 
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {

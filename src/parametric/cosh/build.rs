@@ -12,13 +12,13 @@ use crate::parametric::{DesignValue, Generated, Infeasible, Origin, Target, achi
 const ORDINARY: f64 = 4.0;
 
 impl Resolved {
-    /// The form with shoulders and profiles, its fullness still open.
-    fn form(&self, aft_shoulder: f64, fore_shoulder: f64) -> Form {
+    /// The form with shoulders and profiles, its fullness still open; `rise` scales a cut-up that is ours to choose.
+    fn form(&self, (aft_shoulder, fore_shoulder): (f64, f64), rise: f64) -> Form {
         let law = Law { keel: 0.6, waterline: 0.7, character: self.character, flare: 0.0 };
         // A preset that starts to rise forward of the shoulder gives way.
         let cut_up = match self.cut_up.origin {
             Origin::Given => self.cut_up.value,
-            _ => self.cut_up.value.min(0.85 * aft_shoulder),
+            _ => (rise * self.cut_up.value).min(0.85 * aft_shoulder),
         };
         Form {
             length: self.length,
@@ -29,7 +29,7 @@ impl Resolved {
             stern: Stern {
                 cut_up,
                 end: -self.overhang,
-                height: self.transom_height,
+                height: self.transom_height.value,
                 sweep: self.sweep,
                 transom: self.transom,
             },
@@ -98,16 +98,23 @@ impl Resolved {
         let bodies = self.bodies();
         let mut best: Option<(f64, Form, Sourced, Sourced)> = None;
         for fine in [false, true] {
-            for &(aft, fore) in &bodies {
-                let form = self.form(aft, fore);
-                if form.stern.cut_up >= 0.98 * aft {
+            if fine && self.waterplane.origin != Origin::Given {
+                break;
+            }
+            let usual = bodies.iter().map(|&body| (body, 1.0));
+            let others = [0.6, 1.4, 0.3].map(|rise| (bodies[0], rise));
+            for (body, rise) in usual.chain(others) {
+                if (rise - 1.0f64).abs() > 1e-9 && self.cut_up.origin == Origin::Given {
+                    break;
+                }
+                let form = self.form(body, rise);
+                if form.stern.cut_up >= 0.98 * body.0 {
                     continue;
                 }
                 let nodes = form.height_nodes();
                 for waterplane in self.waterplanes() {
                     let goal = self.goal(waterplane, self.lcb.value);
-                    let given = self.waterplane.origin == Origin::Given;
-                    let Some(found) = solve::solve(&form, &nodes, &goal, fine && given) else { continue };
+                    let Some(found) = solve::solve(&form, &nodes, &goal, fine) else { continue };
                     let same = (waterplane - self.waterplane.value).abs() < 1e-12;
                     let origin = if same { self.waterplane.origin } else { Origin::Solved };
                     let far = ((waterplane - self.waterplane.value) / 0.04).powi(2);
@@ -135,7 +142,7 @@ impl Resolved {
 
     /// An LCB of our own choice gives way: into the range that the usual body can have.
     fn search_lcb(&self, body: (f64, f64)) -> Option<(f64, Form, Sourced, Sourced)> {
-        let form = self.form(body.0, body.1);
+        let form = self.form(body, 1.0);
         let nodes = form.height_nodes();
         self.waterplanes().into_iter().find_map(|waterplane| {
             let goal = self.goal(waterplane, self.lcb.value);
@@ -158,6 +165,22 @@ impl Resolved {
         };
         for _ in 0..40 {
             let (low, high) = (breadth_at(&form, 0.0), breadth_at(&form, Stern::LARGEST_SWEEP));
+            // A height of our own choice gives way.
+            let step = if wish < low { 0.04 } else { -0.04 } * self.draught;
+            let height = form.stern.height + step;
+            let free = self.transom_height.origin != Origin::Given;
+            if (wish < low || wish > high)
+                && free
+                && (0.6 * self.draught..0.5 * (self.draught + self.depth)).contains(&height)
+            {
+                let mut trial = form;
+                trial.stern.height = height;
+                let nodes = trial.height_nodes();
+                if let Some(found) = solve::solve(&trial, &nodes, goal, false) {
+                    form = found.form;
+                    continue;
+                }
+            }
             let Ok(sweep) = bracketed_root(|w| breadth_at(&form, w) - wish, 0.0, Stern::LARGEST_SWEEP, 1e-13) else {
                 return Err(vec![Infeasible {
                     code: "E112",
@@ -298,15 +321,15 @@ impl Resolved {
     /// The wish that cannot be had, with the intervals that can.
     pub(super) fn build(mut self, name: &str) -> Result<Generated, Vec<Infeasible>> {
         let Some((form, waterplane, lcb)) = self.search() else {
-            let (aft, fore) = self.bodies()[0];
-            let form = self.form(aft, fore);
-            if form.stern.cut_up >= 0.98 * aft {
+            let body = self.bodies()[0];
+            let form = self.form(body, 1.0);
+            if form.stern.cut_up >= 0.98 * body.0 {
                 return Err(vec![Infeasible {
                     code: "E109",
                     keys: vec!["cut_up", "parallel_body"],
                     message: format!(
-                        "the keel rises from {:.3} m, at or forward of the aft shoulder at {aft:.3} m; move one of them",
-                        form.stern.cut_up
+                        "the keel rises from {:.3} m, at or forward of the aft shoulder at {:.3} m; move one of them",
+                        form.stern.cut_up, body.0
                     ),
                 }]);
             }
@@ -362,7 +385,25 @@ impl Resolved {
 
     /// Enters what was solved into the list of values.
     fn note_solved(&mut self, form: &Form, waterplane: Sourced, lcb: Sourced) {
+        let cut_up = Sourced {
+            value: form.stern.cut_up,
+            origin: if (form.stern.cut_up - self.cut_up.value).abs() < 1e-12 {
+                self.cut_up.origin
+            } else {
+                Origin::Solved
+            },
+        };
+        let height = Sourced {
+            value: form.stern.height,
+            origin: if (form.stern.height - self.transom_height.value).abs() < 1e-12 {
+                self.transom_height.origin
+            } else {
+                Origin::Solved
+            },
+        };
         for (key, sourced, why) in [
+            ("transom_height", height, "for the breadth of the transom"),
+            ("cut_up", cut_up, "the nearest to the preset that Cb, LCB and Cwp allow"),
             ("Cwp", waterplane, "nearest to the usual value that Cb and LCB allow"),
             ("LCB", lcb, "nearest to the usual value that Cb and Cwp allow"),
         ] {

@@ -96,6 +96,61 @@ fn girth_knots(form: &Form, top: f64) -> Result<KnotVector, SplineError> {
     KnotVector::from_breakpoints(3, &breaks, &times)
 }
 
+/// What the net meets in v: a value, or, on the tangent lines of the bilge, the value and the slope there, so that flat
+/// floors and flat sides are flat. The slope is the one-sided five-point difference from the flat (error 1e-11).
+struct Level {
+    condition: Condition,
+    /// The girth of a value, or the five girths of a difference.
+    girths: [f64; 5],
+    /// Weights of the functions at these girths.
+    weights: [f64; 5],
+}
+
+impl Level {
+    fn combine(&self, at: impl Fn(usize) -> f64) -> f64 {
+        if self.condition.order == 0 {
+            return at(0);
+        }
+        // Differences to the first value: a constant has slope 0 exactly.
+        let first = at(0);
+        (1..5).map(|k| self.weights[k] * (at(k) - first)).sum()
+    }
+
+    fn data(&self, value: impl Fn(f64) -> f64) -> f64 {
+        self.combine(|k| value(self.girths[k]))
+    }
+}
+
+/// The conditions in v, one a basis function.
+fn levels(form: &Form, v: &KnotVector, girth: f64) -> Vec<Level> {
+    let value = |site: f64| Level {
+        condition: Condition { site, order: 0 },
+        girths: [site * girth; 5],
+        weights: [1.0, 0.0, 0.0, 0.0, 0.0],
+    };
+    let mut levels: Vec<Level> = loft::sites(v).into_iter().map(value).collect();
+    let (floor, bilge) = form.section.girths();
+    for (line, direction) in [(floor, -1.0), (floor + bilge, 1.0)] {
+        let knots = v.knots();
+        let Some(first) = knots.iter().position(|t| (t * girth - line).abs() < 1e-9 * girth) else { continue };
+        let times = knots[first..].iter().take_while(|&&t| t <= knots[first]).count();
+        if times != 2 {
+            continue;
+        }
+        // The two basis functions whose sites straddle a double knot.
+        let site = knots[first];
+        let Some(above) = levels.iter().position(|level| level.condition.site > site) else { continue };
+        let step = 1e-3 * direction * if direction < 0.0 { floor } else { girth - line };
+        let mut slope = value(site);
+        slope.condition.order = 1;
+        slope.girths = [0.0, 1.0, 2.0, 3.0, 4.0].map(|k| line + k * step);
+        slope.weights = [-25.0, 48.0, -36.0, 16.0, -3.0].map(|w| w * girth / (12.0 * step));
+        levels[above - 1] = value(site);
+        levels[above] = slope;
+    }
+    levels
+}
+
 /// The hull through the analytic form, before the correction.
 pub(super) fn interpolate(
     name: &str,
@@ -106,32 +161,28 @@ pub(super) fn interpolate(
     let (deck, top) = deck(form, sheer)?;
     let v = girth_knots(form, top)?;
     let girth = form.section.girth_at(top);
-    let sites_v = loft::sites(&v);
-    let heights: Vec<f64> = sites_v.iter().map(|t| form.section.at_girth(t * girth).1).collect();
-    let across = Collocation::new(&v, &sites_v)?;
+    let levels = levels(form, &v, girth);
+    let across = Collocation::with_conditions(&v, &levels.iter().map(|l| l.condition).collect::<Vec<_>>())?;
     let in_v = |value: &dyn Fn(f64) -> f64| {
-        let mut values: Vec<f64> = heights.iter().map(|&z| value(z)).collect();
-        across.solve_strided(&mut values, 0, 1);
+        let mut values: Vec<f64> =
+            levels.iter().map(|level| level.data(|g| value(form.section.at_girth(g).1))).collect();
+        across.solve(&mut values);
         values
     };
-    let mut z = if form.section.deadrise > 0.0 {
-        in_v(&|z| z)
-    } else {
-        // The bilge leaves the flat of bottom with dz/dv = 0: that is a condition, not a matter of interpolation.
-        let mut conditions: Vec<Condition> = sites_v.iter().map(|&site| Condition { site, order: 0 }).collect();
-        conditions[1] = Condition { site: 0.0, order: 1 };
-        let mut values = heights.clone();
-        values[1] = 0.0;
-        Collocation::with_conditions(&v, &conditions)?.solve(&mut values);
-        values[1] = 0.0;
-        values
-    };
+    let mut z = in_v(&|z| z);
     (z[0], z[v.basis_count() - 1]) = (0.0, top);
+    if form.section.deadrise <= 0.0 {
+        // The bilge leaves the flat of bottom with dz/dv = 0.
+        let mut conditions: Vec<Condition> = levels.iter().map(|level| level.condition).collect();
+        conditions[1] = Condition { site: 0.0, order: 1 };
+        z = levels.iter().map(|level| level.data(|g| form.section.at_girth(g).1)).collect();
+        z[1] = 0.0;
+        Collocation::with_conditions(&v, &conditions)?.solve(&mut z);
+        (z[0], z[1], z[v.basis_count() - 1]) = (0.0, 0.0, top);
+    }
 
     // Lengths: the shortest waterline rules the linear part.
-    let low = heights.iter().copied().chain([0.0]);
-    let aft = low.clone().map(|z| form.stern.at(z)).fold(f64::NEG_INFINITY, f64::max);
-    let fore = low.map(|z| form.stem.at(z)).fold(f64::INFINITY, f64::min);
+    let (aft, fore) = (form.stern.at(0.0), form.stem.at(0.0));
     let parameter = |x: f64| (x - aft) / (fore - aft);
     let (ua, uf) = (parameter(form.aft_shoulder), parameter(form.fore_shoulder));
     let parallel = form.fore_shoulder > form.aft_shoulder;
@@ -175,13 +226,19 @@ pub(super) fn interpolate(
         }
     }
     let mut y = vec![0.0; rows * columns];
-    let waterlines: Vec<_> = heights.iter().map(|&z| (z, form.section.breadth_at(z), form.waterline(z))).collect();
-    for (i, condition) in conditions.iter().enumerate() {
-        for (j, (z, breadth, waterline)) in waterlines.iter().enumerate() {
+    for (j, level) in levels.iter().enumerate() {
+        let waterlines = level.girths.map(|g| {
+            let (breadth, z) = form.section.at_girth(g);
+            (breadth, form.stern.at(z) - aft, form.stem.at(z) - fore, form.waterline(z))
+        });
+        for (i, condition) in conditions.iter().enumerate() {
             let t = condition.site;
-            let x =
-                aft + (fore - aft) * t + (form.stern.at(*z) - aft) * run(t) + (form.stem.at(*z) - fore) * entrance(t);
-            y[i * columns + j] = if condition.order > 0 { 0.0 } else { breadth * waterline.fraction(x) };
+            let at = |k: usize| {
+                let (breadth, stern, stem, waterline) = &waterlines[k];
+                let x = aft + (fore - aft) * t + stern * run(t) + stem * entrance(t);
+                breadth * waterline.fraction(x)
+            };
+            y[i * columns + j] = if condition.order > 0 { 0.0 } else { level.combine(at) };
         }
     }
     along.solve_tensor(&across, &mut y);

@@ -33,7 +33,7 @@ pub(super) struct Resolved {
     pub(super) rake: f64,
     pub(super) forefoot: f64,
     pub(super) transom: bool,
-    pub(super) transom_height: f64,
+    pub(super) transom_height: Sourced,
     pub(super) transom_breadth: Option<f64>,
     pub(super) overhang: f64,
     pub(super) cut_up: Sourced,
@@ -333,20 +333,18 @@ impl Resolved {
                 (0.05, 0.98),
             );
         }
-        let (mut transom_height, mut overhang) = (draught, 0.0);
+        let (mut transom_height, mut overhang) = (Sourced { value: draught, origin: Origin::Preset }, 0.0);
         if transom {
-            transom_height = book
-                .take(
-                    "transom_height",
-                    "lowest point of the transom",
-                    "m",
-                    1.0,
-                    wishes.transom_height,
-                    preset.transom_height * draught,
-                    &label,
-                    (0.05 * draught, depth),
-                )
-                .value;
+            transom_height = book.take(
+                "transom_height",
+                "lowest point of the transom",
+                "m",
+                1.0,
+                wishes.transom_height,
+                (preset.transom_height * draught).min(0.5 * (draught + depth)),
+                &label,
+                (0.05 * draught, depth),
+            );
             overhang = book
                 .take(
                     "overhang",

@@ -157,7 +157,7 @@ pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) 
 
 /// A finer scan, for goals that only a narrow range of entrances can reach.
 fn narrow(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Option<Found> {
-    let cells = 120;
+    let cells = 60;
     (0..=cells)
         .filter_map(|k| {
             let ew = LOWEST_FULLNESS + (FULLEST - LOWEST_FULLNESS) * f64::from(k) / f64::from(cells);

@@ -1,0 +1,45 @@
+//! Tables of hydrostatics of a bicubic net of 24 x 14 control points: 40 draughts, and 80 for the growth of the cost.
+//!
+//! `wigley`: Wigley-like half-breadths between a raked stem and a raked stern, x(u, v) non-linear in u and dependent on v in
+//! the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use loftsman::hull::{Hull, PrincipalParticulars};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use std::hint::black_box;
+
+fn hull(slanting: bool) -> Hull {
+    let (u, v) = (KnotVector::uniform(3, 21).unwrap(), KnotVector::uniform(3, 11).unwrap());
+    let (length, breadth, depth) = (100.0, 16.0, 10.0);
+    let mut points = Vec::new();
+    for &s in &u.greville() {
+        for &t in &v.greville() {
+            let (aft, fore) = ((0.35 - s).max(0.0) / 0.35, (s - 0.65).max(0.0) / 0.35);
+            let rake = if slanting { 4.0 * (2.0 * s - 1.0) * t } else { 4.0 * t * (fore * fore - aft * aft) };
+            let x = length * (s + 0.02 * (fore * fore * (1.0 - fore) - aft * aft * (1.0 - aft))) + rake;
+            let y = 0.5 * breadth * (1.0 - (2.0 * s - 1.0).powi(2)) * (1.0 - (1.0 - t).powi(2));
+            points.push([x, y, depth * t]);
+        }
+    }
+    let line = KnotVector::uniform(1, 1).unwrap();
+    let deck = BsplineCurve::new(line, vec![[-10.0, depth], [110.0, depth]]).unwrap();
+    let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: 6.0, depth };
+    Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+}
+
+fn tables(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("hydrostatics 24x14");
+    for (name, hull) in [("wigley", hull(false)), ("slanting", hull(true))] {
+        for count in [40, 80] {
+            let draughts: Vec<f64> = (1..=count).map(|k| 10.0 * f64::from(k) / f64::from(count + 1)).collect();
+            group.bench_with_input(BenchmarkId::new(name, count), &draughts, |bench, draughts| {
+                bench.iter(|| CurvesOfForm::new(black_box(&hull), draughts, &Conventions::default()));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, tables);
+criterion_main!(benches);

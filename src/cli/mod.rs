@@ -1,0 +1,100 @@
+//! The command line: one file a subcommand. Data goes to stdout, messages to stderr; every number that is printed was
+//! returned by a library function.
+
+mod generate;
+mod hydro;
+mod new;
+mod offsets;
+mod schema;
+mod section;
+mod self_test;
+mod stream;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::report::Failure;
+
+/// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.
+#[derive(Debug, Parser)]
+#[command(name = "loftsman", version, max_term_width = 100, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Lists: 1:9:1 (from:to:step, both ends), 1,2.5,4 or 0,5,...,30; lengths are metres, or carry a unit: \
+6150mm, 20ft6in, 3-4-5+.\nExit codes: 0 ok, 1 internal error, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Generate a hull from a design file: hull, offsets, hydrostatics, summary, figures
+    Generate(generate::Arguments),
+    /// Print a commented design file; without a name, list the names
+    New(new::Arguments),
+    /// Print the JSON Schema of the design file
+    Schema(schema::Arguments),
+    /// Hydrostatic table of a hull at any draughts
+    Hydro(hydro::Arguments),
+    /// Table of offsets of a hull at any stations and waterlines
+    Offsets(offsets::Arguments),
+    /// The curves in which a plane cuts a hull
+    Section(section::Arguments),
+    /// Compare the analytic bodies with their closed forms
+    SelfTest(self_test::Arguments),
+}
+
+/// A list of lengths [m] on the command line.
+#[derive(Debug, Clone)]
+struct Lengths(Vec<f64>);
+
+fn lengths(text: &str) -> Result<Lengths, String> {
+    crate::units::parse_list(text).map(Lengths).map_err(|error| error.to_string())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    crate::units::parse_length(text).map_err(|error| error.to_string())
+}
+
+/// Runs the program on its arguments, the first of which is its name, and returns its exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version go to stdout and are no error; a closed pipe changes neither.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let done = match &cli.command {
+        Command::Generate(arguments) => generate::run(arguments),
+        Command::New(arguments) => new::run(arguments),
+        Command::Schema(arguments) => schema::run(arguments),
+        Command::Hydro(arguments) => hydro::run(arguments),
+        Command::Offsets(arguments) => offsets::run(arguments),
+        Command::Section(arguments) => section::run(arguments),
+        Command::SelfTest(arguments) => self_test::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => report(&failure),
+    }
+}
+
+fn report(failure: &Failure) -> ExitCode {
+    stream::message(&failure.to_string());
+    ExitCode::from(failure.exit_code())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,26 @@
+//! `loftsman schema [design]`
+
+use clap::{Args, ValueEnum};
+
+use super::stream;
+use crate::config::design_schema;
+use crate::report::Failure;
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum File {
+    /// The design file of `generate`
+    Design,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Which file
+    #[arg(value_enum, default_value = "design")]
+    file: File,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match arguments.file {
+        File::Design => stream::data(&stream::json(&design_schema())?),
+    }
+}

@@ -1,0 +1,252 @@
+//! What a design file says: the values of the known keys with their places.
+
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::diagnostic::{Diagnostic, Severity, position};
+use super::keys::{KEYS, Key};
+
+/// Files longer than this are not design files [bytes].
+pub(super) const LARGEST: usize = 1 << 20;
+
+/// A value as it stands in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Raw {
+    /// A string.
+    Text(String),
+    /// A whole or decimal number.
+    Number(f64),
+    /// true, false, a date.
+    Other(&'static str),
+    /// An array with the place of each item.
+    Array(Vec<(Raw, Range<usize>)>),
+    /// A table, usually inline.
+    Table(Vec<(String, Raw, Range<usize>)>),
+}
+
+impl Raw {
+    /// The words for messages, with the value where it is short.
+    pub(super) fn describe(&self) -> String {
+        match self {
+            Self::Text(text) if text.chars().count() <= 40 => format!("\"{text}\""),
+            Self::Text(_) => "a long text".into(),
+            Self::Number(value) => format!("{value}"),
+            Self::Other(kind) => format!("a {kind}"),
+            Self::Array(items) => format!("a list of {}", items.len()),
+            Self::Table(_) => "a table".into(),
+        }
+    }
+}
+
+/// One known key of the file.
+#[derive(Debug)]
+pub(super) struct Entry {
+    pub(super) key: &'static Key,
+    pub(super) value: Raw,
+    /// Bytes of the value.
+    pub(super) span: Range<usize>,
+    /// Bytes of the key.
+    pub(super) key_span: Range<usize>,
+}
+
+/// A design file: its known keys, and the messages about it so far.
+pub(super) struct Document<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+    pub(super) entries: Vec<Entry>,
+    pub(super) problems: Vec<Diagnostic>,
+}
+
+fn raw(value: &DeValue<'_>) -> Raw {
+    match value {
+        DeValue::String(text) => Raw::Text(text.to_string()),
+        DeValue::Integer(number) => {
+            let digits = number.as_str();
+            i128::from_str_radix(digits, number.radix()).map_or(Raw::Number(f64::INFINITY), |n| Raw::Number(n as f64))
+        }
+        DeValue::Float(number) => Raw::Number(number.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Array(items) => Raw::Array(items.iter().map(|v| (raw(v.get_ref()), v.span())).collect()),
+        DeValue::Table(table) => Raw::Table(
+            table
+                .iter()
+                .map(|(k, v)| (k.get_ref().to_string(), raw(v.get_ref()), k.span().start..v.span().end))
+                .collect(),
+        ),
+        other => Raw::Other(other.type_str()),
+    }
+}
+
+/// The candidate nearest to `word` by edit distance, when it is near (Jaro-Winkler similarity above 0.75).
+pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
+    let word = word.to_lowercase();
+    candidates
+        .map(|candidate| (strsim::jaro_winkler(&word, &candidate.to_lowercase()), candidate))
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+impl<'a> Document<'a> {
+    /// Reads a text; whatever is wrong with it stands in `problems`.
+    pub(super) fn read(file: &'a str, text: &'a str) -> Self {
+        let mut document = Self { file, text, entries: Vec::new(), problems: Vec::new() };
+        if text.len() > LARGEST {
+            document
+                .whole_file("E120", format!("the file has {} bytes; a design file has at most {LARGEST}", text.len()));
+            return document;
+        }
+        let (table, errors) = DeTable::parse_recoverable(text);
+        for error in &errors {
+            let span = error.span().unwrap_or(text.len()..text.len());
+            let help = document.syntax_help(&span);
+            document.problem("E120", "", &span, format!("not TOML: {}", error.message()), help);
+        }
+        document.walk("", table.get_ref());
+        document.entries.sort_by_key(|entry| entry.key_span.start);
+        document
+    }
+
+    /// What usually stands behind a syntax error on a line.
+    fn syntax_help(&self, span: &Range<usize>) -> String {
+        let (line, _) = position(self.text, span.start);
+        let line = self.text.lines().nth(line - 1).unwrap_or("");
+        let line = line.split('#').next().unwrap_or("");
+        let Some((_, value)) = line.split_once('=') else { return String::new() };
+        let value = value.trim();
+        if let Some((whole, decimals)) = value.split_once(',')
+            && !value.starts_with(['[', '{', '"', '\''])
+            && whole.trim().parse::<i64>().is_ok()
+            && decimals.starts_with(|c: char| c.is_ascii_digit())
+        {
+            return format!("A decimal comma? Write {}.{}.", whole.trim(), decimals.trim());
+        }
+        if value.starts_with(|c: char| c.is_ascii_alphabetic() || c.is_ascii_digit() || c == '+' || c == '-') {
+            return format!("Words, and numbers with units, stand in quotes: \"{value}\".");
+        }
+        String::new()
+    }
+
+    /// Takes the keys of one table, and of the tables in it.
+    fn walk(&mut self, path: &str, table: &DeTable<'_>) {
+        for (name, value) in table {
+            let full = if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
+            let lower = full.to_lowercase();
+            let is_table = KEYS.iter().any(|k| under(k.table, &lower));
+            let known = KEYS.iter().find(|k| k.path().to_lowercase() == lower);
+            match (value.get_ref(), known) {
+                (DeValue::Table(inner), None) if is_table => self.walk(&lower, inner),
+                (other, None) if is_table => {
+                    let found = raw(other).describe();
+                    self.problem(
+                        "E122",
+                        &full,
+                        &value.span(),
+                        format!("{full} is {found}, expected a table"),
+                        format!("Write [{lower}] on its own line."),
+                    );
+                }
+                (value_ref, Some(key)) => {
+                    if let Some(first) = self.entries.iter().find(|e| e.key.path() == key.path()) {
+                        let (line, _) = position(self.text, first.key_span.start);
+                        self.problem(
+                            "E126",
+                            &full,
+                            &name.span(),
+                            format!("{full} is written a second time; it stands in line {line}"),
+                            "Upper and lower case are the same key.".into(),
+                        );
+                        continue;
+                    }
+                    self.entries.push(Entry { key, value: raw(value_ref), span: value.span(), key_span: name.span() });
+                }
+                (_, None) => self.unknown(path, name.get_ref(), &full, &name.span()),
+            }
+        }
+    }
+
+    fn unknown(&mut self, path: &str, name: &str, full: &str, span: &Range<usize>) {
+        let here = KEYS.iter().filter(|k| k.table.to_lowercase() == path).map(|k| k.name);
+        let tables = [
+            "project",
+            "dimensions",
+            "form",
+            "water",
+            "weight",
+            "conventions",
+            "output",
+            "bow",
+            "stern",
+            "deck",
+            "raw",
+        ];
+        let elsewhere = KEYS.iter().find(|k| k.name.eq_ignore_ascii_case(name));
+        let help = if let Some(key) = elsewhere {
+            if key.table.is_empty() {
+                format!("{} stands at the top of the file.", key.name)
+            } else {
+                format!("{} belongs to [{}].", key.name, key.table)
+            }
+        } else if let Some(near) = nearest(name, here.clone().chain(tables)) {
+            format!("Did you mean {near}?")
+        } else if let Some(near) = nearest(name, KEYS.iter().map(|k| k.name)) {
+            let table = KEYS.iter().find(|k| k.name == near).map_or("", |k| k.table);
+            format!("Did you mean {near} of [{table}]?")
+        } else {
+            let names: Vec<&str> = here.collect();
+            if names.is_empty() {
+                "`loftsman schema` lists all keys.".into()
+            } else {
+                format!("Known here: {}.", names.join(", "))
+            }
+        };
+        self.problem("E121", full, span, format!("{full} is not a key of a design"), help);
+    }
+
+    /// The entry of a key, by its path as in [`KEYS`].
+    pub(super) fn entry(&self, path: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key.path() == path)
+    }
+
+    /// Notes a problem at a place of the file.
+    pub(super) fn problem(
+        &mut self,
+        code: &'static str,
+        key: &str,
+        span: &Range<usize>,
+        message: String,
+        help: String,
+    ) {
+        let (line, column) = position(self.text, span.start);
+        self.problems.push(Diagnostic {
+            severity: Severity::Error,
+            code,
+            file: self.file.to_owned(),
+            line: Some(line),
+            column: Some(column),
+            key: key.to_owned(),
+            message,
+            help,
+        });
+    }
+
+    /// Notes a problem of the whole file.
+    pub(super) fn whole_file(&mut self, code: &'static str, message: String) {
+        self.problems.push(Diagnostic {
+            severity: Severity::Error,
+            code,
+            file: self.file.to_owned(),
+            line: None,
+            column: None,
+            key: String::new(),
+            message,
+            help: String::new(),
+        });
+    }
+}
+
+/// Whether `table` is the table `path` or lies in it.
+fn under(table: &str, path: &str) -> bool {
+    let table = table.to_lowercase();
+    table == path || table.strip_prefix(path).is_some_and(|rest| rest.starts_with('.'))
+}

@@ -1,0 +1,19 @@
+//! The design file: what it says (a document of known keys with their places), then what it means (a [`Design`]).
+//!
+//! Every problem of a file is found in one reading and reported with line, column, key, what was found, what was
+//! expected and the remedy. [`KEYS`] is the one list of keys: reading, messages, the JSON Schema and the templates of
+//! `loftsman new` come from it.
+
+mod design;
+mod diagnostic;
+mod document;
+mod keys;
+mod schema;
+mod template;
+mod value;
+
+pub use design::{Design, Output, StationZero, read};
+pub use diagnostic::{Diagnostic, Severity};
+pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind};
+pub use schema::design_schema;
+pub use template::{TEMPLATES, template};

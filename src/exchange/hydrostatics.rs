@@ -1,0 +1,179 @@
+//! Hydrostatic tables as CSV and JSON, with the ITTC codes of the one list of quantities as keys.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::number::{cell, json_number, line};
+use crate::hydrostatics::{
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, PrismaticSection, QUANTITIES, Shell,
+};
+
+/// Conventions as they stand in JSON files.
+#[derive(Debug, Clone, Serialize, Deserialize, Default)]
+#[serde(default)]
+pub(super) struct ConventionsRecord {
+    density: Option<f64>,
+    coefficient_length: Option<LengthWord>,
+    #[serde(rename = "section_for_Cp")]
+    section_for_cp: Option<SectionWord>,
+    shell: Option<ShellRecord>,
+    keel_thickness: Option<f64>,
+    #[serde(rename = "KG")]
+    kg: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+enum LengthWord {
+    Lpp,
+    Lwl,
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum SectionWord {
+    Maximum,
+    Midship,
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum ShellRecord {
+    Factor(f64),
+    Thickness(f64),
+}
+
+impl From<&Conventions> for ConventionsRecord {
+    fn from(c: &Conventions) -> Self {
+        Self {
+            density: Some(c.density),
+            coefficient_length: Some(match c.coefficient_length {
+                CoefficientLength::BetweenPerpendiculars => LengthWord::Lpp,
+                CoefficientLength::Waterline => LengthWord::Lwl,
+            }),
+            section_for_cp: Some(match c.prismatic_section {
+                PrismaticSection::Maximum => SectionWord::Maximum,
+                PrismaticSection::Midship => SectionWord::Midship,
+            }),
+            shell: match c.shell {
+                Shell::None => None,
+                Shell::Factor(factor) => Some(ShellRecord::Factor(factor)),
+                Shell::Thickness(thickness) => Some(ShellRecord::Thickness(thickness)),
+            },
+            keel_thickness: Some(c.keel_thickness),
+            kg: c.centre_of_gravity_height,
+        }
+    }
+}
+
+impl From<ConventionsRecord> for Conventions {
+    fn from(record: ConventionsRecord) -> Self {
+        let defaults = Self::default();
+        Self {
+            density: record.density.unwrap_or(defaults.density),
+            coefficient_length: match record.coefficient_length {
+                Some(LengthWord::Lwl) => CoefficientLength::Waterline,
+                _ => CoefficientLength::BetweenPerpendiculars,
+            },
+            prismatic_section: match record.section_for_cp {
+                Some(SectionWord::Midship) => PrismaticSection::Midship,
+                _ => PrismaticSection::Maximum,
+            },
+            shell: match record.shell {
+                None => Shell::None,
+                Some(ShellRecord::Factor(factor)) => Shell::Factor(factor),
+                Some(ShellRecord::Thickness(thickness)) => Shell::Thickness(thickness),
+            },
+            keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
+            centre_of_gravity_height: record.kg,
+        }
+    }
+}
+
+/// The conventions as a JSON object: density [t/m^3], coefficient_length, section_for_Cp, shell, keel_thickness [m], KG [m],
+/// and the reference points in words.
+#[must_use]
+pub fn conventions_json(conventions: &Conventions) -> Value {
+    let mut value = serde_json::to_value(ConventionsRecord::from(conventions)).unwrap_or(Value::Null);
+    if let Some(object) = value.as_object_mut() {
+        object.insert("lengths".into(), json!("m"));
+        object.insert("masses".into(), json!("t"));
+        object.insert("origin".into(), json!("x from AP, + forward; z from the moulded base line, + up"));
+        object.insert("XCBPC".into(), json!("% of Lpp from midship, + forward"));
+    }
+    value
+}
+
+/// One row as a JSON object; a quantity that is not defined is null.
+#[must_use]
+pub fn row_json(row: &Hydrostatics) -> Value {
+    let mut object: Map<String, Value> =
+        QUANTITIES.iter().map(|quantity| (quantity.key.to_owned(), json_number((quantity.value)(row)))).collect();
+    if let Some(remark) = &row.remark {
+        object.insert("remark".into(), json!(remark));
+    }
+    Value::Object(object)
+}
+
+/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...]}`
+#[must_use]
+pub fn hydrostatics_json(table: &CurvesOfForm) -> Value {
+    json!({
+        "conventions": conventions_json(&table.conventions),
+        "rows": table.rows.iter().map(row_json).collect::<Vec<_>>(),
+    })
+}
+
+/// A CSV table: the keys, the units, one row a draught, and a last column with remarks.
+#[must_use]
+pub fn hydrostatics_csv(table: &CurvesOfForm) -> String {
+    let head = |of: fn(&crate::hydrostatics::Quantity) -> &'static str, last: &str| {
+        let mut fields: Vec<String> = QUANTITIES.iter().map(|q| of(q).to_owned()).collect();
+        fields.push(last.to_owned());
+        line(&fields)
+    };
+    let mut text = head(|q| q.key, "remark");
+    text.push_str(&head(|q| q.unit, ""));
+    for row in &table.rows {
+        let mut fields: Vec<String> = QUANTITIES.iter().map(|q| cell((q.value)(row))).collect();
+        fields.push(row.remark.clone().unwrap_or_default());
+        text.push_str(&line(&fields));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conventions_survive_their_record() {
+        for shell in [Shell::None, Shell::Factor(1.006), Shell::Thickness(0.01)] {
+            let conventions = Conventions {
+                density: 1.0,
+                coefficient_length: CoefficientLength::Waterline,
+                prismatic_section: PrismaticSection::Midship,
+                shell,
+                keel_thickness: 0.015,
+                centre_of_gravity_height: Some(7.5),
+            };
+            let text = serde_json::to_string(&ConventionsRecord::from(&conventions)).unwrap();
+            let back: ConventionsRecord = serde_json::from_str(&text).unwrap();
+            assert_eq!(Conventions::from(back), conventions);
+        }
+        let empty: ConventionsRecord = serde_json::from_str("{}").unwrap();
+        assert_eq!(Conventions::from(empty), Conventions::default());
+    }
+
+    #[test]
+    fn undefined_quantities_are_empty_and_null() {
+        let row = Hydrostatics { draught: 0.5, remark: Some("below, the keel".into()), ..Hydrostatics::default() };
+        let table = CurvesOfForm { conventions: Conventions::default(), rows: vec![row] };
+        let csv = hydrostatics_csv(&table);
+        let lines: Vec<&str> = csv.lines().collect();
+        assert!(lines[0].starts_with('T') && lines[1].starts_with('m') && lines[2].starts_with("0.5"));
+        assert!(lines[2].ends_with("\"below, the keel\""));
+        let json = hydrostatics_json(&table);
+        assert_eq!(json["rows"][0]["T"], json!(0.5));
+        assert_eq!(json["conventions"]["density"], json!(1.025));
+    }
+}

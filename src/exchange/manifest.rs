@@ -1,0 +1,53 @@
+//! `manifest.json`: what was read and written, by their SHA-256; no times, so that the same input gives the same bytes.
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+/// One file and its hash.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ManifestEntry {
+    /// Name of the file, without its folder.
+    pub file: String,
+    /// Length [bytes].
+    pub bytes: usize,
+    /// SHA-256 in hexadecimal.
+    pub sha256: String,
+}
+
+impl ManifestEntry {
+    /// The entry of a file with these contents.
+    #[must_use]
+    pub fn new(file: &str, contents: &[u8]) -> Self {
+        Self { file: file.to_owned(), bytes: contents.len(), sha256: sha256(contents) }
+    }
+}
+
+/// What a run read and wrote.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Manifest {
+    /// Name of the program.
+    pub program: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// The design that was read.
+    pub input: ManifestEntry,
+    /// The files that were written, in the order of their names; the manifest itself is not among them.
+    pub outputs: Vec<ManifestEntry>,
+}
+
+/// SHA-256 in hexadecimal.
+#[must_use]
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_of_abc() {
+        // FIPS 180-4, example of SHA-256.
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

@@ -1,0 +1,19 @@
+//! Files that other programs, or this one, read and write: one file a format. Text in, values out, and back; the file
+//! system is the business of whoever calls.
+
+mod hgf;
+mod hull_json;
+mod hydrostatics;
+mod manifest;
+mod number;
+mod offsets;
+mod section;
+mod summary;
+
+pub use hgf::{HgfError, HgfShip, read_hgf};
+pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
+pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
+pub use manifest::{Manifest, ManifestEntry, sha256};
+pub use offsets::{heights_csv, offsets_csv};
+pub use section::{section_csv, section_json};
+pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};

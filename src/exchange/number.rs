@@ -1,0 +1,44 @@
+//! Numbers in files: the shortest decimal that reads back the same, and nothing that is not finite.
+
+use serde_json::Value;
+
+/// The number, or null.
+pub(super) fn json_number(value: Option<f64>) -> Value {
+    value.and_then(serde_json::Number::from_f64).map_or(Value::Null, Value::Number)
+}
+
+/// The number, or an empty cell; a negative zero is zero.
+pub(super) fn cell(value: Option<f64>) -> String {
+    match value {
+        Some(value) if value.is_finite() => format!("{}", value + 0.0),
+        _ => String::new(),
+    }
+}
+
+/// One CSV line with quotes where they are needed.
+pub(super) fn line(fields: &[String]) -> String {
+    let quote = |field: &String| {
+        if field.contains([',', '"', '\n', '\r']) {
+            format!("\"{}\"", field.replace('"', "\"\""))
+        } else {
+            field.clone()
+        }
+    };
+    let mut line = fields.iter().map(quote).collect::<Vec<_>>().join(",");
+    line.push('\n');
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_is_not_finite_is_written() {
+        assert_eq!(cell(Some(f64::NAN)), "");
+        assert_eq!(cell(Some(-0.0)), "0");
+        assert_eq!(cell(Some(0.1)), "0.1");
+        assert_eq!(json_number(Some(f64::INFINITY)), Value::Null);
+        assert_eq!(line(&["a,b".into(), "c\"d".into(), "e".into()]), "\"a,b\",\"c\"\"d\",e\n");
+    }
+}

@@ -1,0 +1,101 @@
+//! Tables of offsets as CSV: half-breadths over stations and waterlines, heights over stations and buttocks.
+//!
+//! One row a station, its first cell the distance from AP; the header carries the heights of the waterlines, or the
+//! distances of the buttocks from the centreplane. The first cell of the header names both and the unit. A cell is empty
+//! where there is no hull.
+
+use super::number::line;
+use crate::hull::OffsetTable;
+use crate::units::Notation;
+
+fn write(notation: Notation, value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(String::new, |v| notation.write(v))
+}
+
+/// Half-breadths. With `endings`, two more rows give x of the stern and of the stem at each waterline.
+#[must_use]
+pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> String {
+    let one = |value: f64| write(notation, Some(value));
+    let mut head = vec![format!("x\\z [{}]", notation.as_str())];
+    head.extend(table.waterlines.iter().map(|&z| one(z)));
+    let mut text = line(&head);
+    for station in &table.stations {
+        let mut row = vec![one(station.station.x)];
+        row.extend(station.half_breadths.iter().map(|&y| write(notation, y)));
+        text.push_str(&line(&row));
+    }
+    if endings {
+        for (name, end) in [("stern", 0), ("stem", 1)] {
+            let mut row = vec![name.to_owned()];
+            row.extend(table.endings.iter().map(|ends| write(notation, ends.map(|ends| ends[end]))));
+            text.push_str(&line(&row));
+        }
+    }
+    text
+}
+
+/// Heights at the buttocks; then keel (lowest point on the centreplane), half-breadth of the flat of bottom, height of the
+/// deck at side and half-breadth there.
+#[must_use]
+pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
+    let one = |value: f64| write(notation, Some(value));
+    let mut head = vec![format!("x\\y [{}]", notation.as_str())];
+    head.extend(table.buttocks.iter().map(|&y| one(y)));
+    head.extend(["keel", "flat of bottom", "deck at side", "half-breadth at deck"].map(str::to_owned));
+    let mut text = line(&head);
+    for station in &table.stations {
+        let mut row = vec![one(station.station.x)];
+        row.extend(station.heights.iter().map(|&z| write(notation, z)));
+        let last = [station.keel_height, station.flat_of_bottom, station.deck_height, station.deck_half_breadth];
+        row.extend(last.map(|value| write(notation, value)));
+        text.push_str(&line(&row));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::{OffsetStation, StationOffsets};
+
+    fn table() -> OffsetTable {
+        let station = |x: f64, half_breadths, heights| StationOffsets {
+            station: OffsetStation { name: "1".into(), x },
+            half_breadths,
+            heights,
+            keel_height: Some(0.0),
+            flat_of_bottom: None,
+            deck_height: Some(3.5),
+            deck_half_breadth: Some(2.0),
+        };
+        OffsetTable {
+            waterlines: vec![0.5, 1.0],
+            buttocks: vec![1.0],
+            stations: vec![
+                station(0.0, vec![None, Some(1.25)], vec![Some(0.9)]),
+                station(5.0, vec![Some(1.5), Some(2.0)], vec![None]),
+            ],
+            endings: vec![Some([0.2, 9.0]), None],
+        }
+    }
+
+    #[test]
+    fn a_matrix_with_endings() {
+        assert_eq!(
+            offsets_csv(&table(), Notation::Metres, true),
+            "x\\z [m],0.5,1\n0,,1.25\n5,1.5,2\nstern,0.2,\nstem,9,\n"
+        );
+        assert_eq!(
+            offsets_csv(&table(), Notation::FeetInchesEighths, false),
+            "x\\z [feet-inches-eighths],1-7-5+,3-3-3\n0-0-0,,4-1-1+\n16-4-7,4-11-0+,6-6-6\n"
+        );
+    }
+
+    #[test]
+    fn heights_with_keel_and_deck() {
+        assert_eq!(
+            heights_csv(&table(), Notation::Millimetres),
+            "x\\y [mm],1000,keel,flat of bottom,deck at side,half-breadth at deck\n0,900,0,,3500,2000\n5000,,0,,3500,2000\n"
+        );
+    }
+}

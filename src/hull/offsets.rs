@@ -1,0 +1,299 @@
+//! Offset tables: half-breadths at stations and waterlines, heights at buttocks, endings.
+//!
+//! Half-breadths are values of the surface, exact to 1e-12 m. Heights are found on the station's section, which keeps
+//! 1e-11 m from the surface, and are exact to that over the slope of the section.
+
+use super::form::Hull;
+use super::section::{Cut, Face, Section, curve_sign_changes};
+use crate::spline::BsplineCurve;
+
+/// A station of an offset table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffsetStation {
+    /// Number or name, as it is written over the column.
+    pub name: String,
+    /// Position forward of AP [m].
+    pub x: f64,
+}
+
+/// What belongs to a station besides its half-breadths. Values are absent where there is no hull.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StationOffsets {
+    /// The station.
+    pub station: OffsetStation,
+    /// Half-breadth at each waterline of the table [m]; none beyond the ends of the waterline and above the deck.
+    pub half_breadths: Vec<Option<f64>>,
+    /// Height at each buttock of the table [m]: the lowest point of the body there; none where the body is narrower.
+    pub heights: Vec<Option<f64>>,
+    /// Height of the lowest point on the centreplane: keel line, stem or stern profile [m].
+    pub keel_height: Option<f64>,
+    /// Half-breadth of the flat of bottom [m]; 0 where the keel is a line.
+    pub flat_of_bottom: Option<f64>,
+    /// Height of the deck at side [m].
+    pub deck_height: Option<f64>,
+    /// Half-breadth at the deck at side [m].
+    pub deck_half_breadth: Option<f64>,
+}
+
+/// Offsets of a hull. Lengths from AP forward, heights above the base line, half-breadths from the centreplane, in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffsetTable {
+    /// Heights of the waterlines [m].
+    pub waterlines: Vec<f64>,
+    /// Distances of the buttocks from the centreplane [m].
+    pub buttocks: Vec<f64>,
+    /// The stations with their offsets.
+    pub stations: Vec<StationOffsets>,
+    /// Ends of each waterline: x at the stern and at the stem profile [m]; none outside the surface.
+    pub endings: Vec<Option<[f64; 2]>>,
+}
+
+impl OffsetTable {
+    /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
+    #[must_use]
+    pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {
+        Self {
+            waterlines: waterlines.to_vec(),
+            buttocks: buttocks.to_vec(),
+            stations: stations.iter().map(|station| lift(hull, station, waterlines, buttocks)).collect(),
+            endings: waterlines.iter().map(|&z| hull.endings(z)).collect(),
+        }
+    }
+
+    /// The offsets at [`default_stations`], [`default_waterlines`] and [`default_buttocks`].
+    #[must_use]
+    pub fn with_defaults(hull: &Hull) -> Self {
+        Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull))
+    }
+}
+
+fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f64]) -> StationOffsets {
+    let x = station.x;
+    let deck = hull.deck_height(x);
+    let slack = 1e-12 * (hull.top() - hull.bottom());
+    let half_breadths =
+        waterlines.iter().map(|&z| if z <= deck + slack { hull.half_breadth(x, z) } else { None }).collect();
+    let keel_height = lowest(hull, x).filter(|&z| z <= deck + slack);
+    let section = hull.section(Cut::Station { x }, 0.0);
+    let heights = buttocks.iter().map(|&y| if y <= 0.0 { keel_height } else { height_at(&section, y) }).collect();
+    let on_deck = keel_height.and_then(|_| hull.half_breadth(x, deck.min(hull.top())));
+    StationOffsets {
+        station: station.clone(),
+        half_breadths,
+        heights,
+        keel_height,
+        flat_of_bottom: hull.half_breadth(x, hull.bottom()),
+        deck_height: on_deck.map(|_| deck),
+        deck_half_breadth: on_deck,
+    }
+}
+
+/// The lowest height at which the surface reaches `x`.
+fn lowest(hull: &Hull, x: f64) -> Option<f64> {
+    if let Some([aft, forward]) = hull.endings(hull.bottom())
+        && (aft..=forward).contains(&x)
+    {
+        return Some(hull.bottom());
+    }
+    let (a, b) = hull.surface().u().domain();
+    let mut heights: Vec<f64> = Vec::new();
+    for u in [a, b] {
+        let edge = hull.surface().curve_at_u(u);
+        let gaps = edge.points().iter().map(|p| [if u > a { p[0] - x } else { x - p[0] }]).collect();
+        let Ok(gap) = BsplineCurve::new(edge.knots().clone(), gaps) else { continue };
+        heights.extend(curve_sign_changes(&gap).into_iter().map(|v| edge.eval(v)[2]));
+    }
+    heights.into_iter().min_by(f64::total_cmp)
+}
+
+/// The lowest height at which the section is `y` wide.
+fn height_at(section: &Section, y: f64) -> Option<f64> {
+    let mut heights = Vec::new();
+    for branch in &section.branches {
+        let curve = &branch.curve;
+        if branch.face == Face::Side {
+            let gaps = curve.points().iter().map(|p| [p[1] - y]).collect();
+            let Ok(gap) = BsplineCurve::new(curve.knots().clone(), gaps) else { continue };
+            heights.extend(curve_sign_changes(&gap).into_iter().map(|t| curve.eval(t)[2]));
+        }
+        let points = curve.points();
+        let (a, b) = (points[0], points[points.len() - 1]);
+        if branch.face != Face::Side && a[1] <= y && y <= b[1] {
+            // Lines across.
+            heights.push(a[2]);
+        }
+        // A section that starts as wide as that.
+        if (a[1] - y).abs() <= 1e-11 {
+            heights.push(a[2]);
+        }
+    }
+    heights.into_iter().min_by(f64::total_cmp)
+}
+
+/// The largest of 1, 2, 2.5 and 5 times a power of ten that is not above `value`; the steps of grids.
+fn nice_step(value: f64) -> f64 {
+    let decade = 10f64.powf(value.log10().floor());
+    [5.0, 2.5, 2.0].into_iter().find(|m| m * decade <= value * (1.0 + 1e-9)).unwrap_or(1.0) * decade
+}
+
+/// Default stations: 0 (AP) to 20 (FP) in equal spaces, half stations in the two spaces at each end, and the extreme ends of
+/// the hull where they overhang.
+#[must_use]
+pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
+    let length = hull.particulars().length_between_perpendiculars;
+    let halves = [0.5, 1.5, 18.5, 19.5];
+    let mut stations: Vec<OffsetStation> = (0..=20)
+        .map(f64::from)
+        .chain(halves)
+        .map(|number| OffsetStation { name: format!("{number}"), x: length * number / 20.0 })
+        .collect();
+    let (a, b) = hull.surface().u().domain();
+    let ends = |u: f64, fold: fn(f64, f64) -> f64, start: f64| {
+        let edge = hull.surface().curve_at_u(u);
+        let (from, to) = edge.knots().domain();
+        // Extremes of the profile: at its ends or where x'(v) changes sign.
+        let slopes = slope(&edge);
+        let turns = slopes.map(|s| curve_sign_changes(&s)).unwrap_or_default();
+        turns.into_iter().chain([from, to]).map(|v| edge.eval(v)[0]).fold(start, fold)
+    };
+    let (aft, forward) = (ends(a, f64::min, f64::INFINITY), ends(b, f64::max, f64::NEG_INFINITY));
+    if aft < -1e-6 * length {
+        stations.push(OffsetStation { name: "aft end".to_owned(), x: aft });
+    }
+    if forward > (1.0 + 1e-6) * length {
+        stations.push(OffsetStation { name: "fore end".to_owned(), x: forward });
+    }
+    stations.sort_by(|p, q| p.x.total_cmp(&q.x));
+    stations
+}
+
+/// x'(v) of a profile.
+fn slope(edge: &BsplineCurve<3>) -> Option<BsplineCurve<1>> {
+    let (knots, p) = (edge.knots().knots(), edge.knots().degree());
+    if p < 2 {
+        return None;
+    }
+    let points = (0..edge.points().len() - 1)
+        .map(|i| {
+            let width = knots[i + p + 1] - knots[i + 1];
+            let rise = edge.points()[i + 1][0] - edge.points()[i][0];
+            [if width > 0.0 { p as f64 * rise / width } else { 0.0 }]
+        })
+        .collect();
+    let knots = crate::spline::KnotVector::new(p - 1, knots[1..knots.len() - 1].to_vec()).ok()?;
+    BsplineCurve::new(knots, points).ok()
+}
+
+/// Default waterlines [m]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design draught, up
+/// to the highest point of the deck; half the step in the first space; the bottom and the design draught itself (other
+/// lines nearer to it than a fifth of the step are left out).
+#[must_use]
+pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
+    let draught = hull.particulars().draught;
+    let step = nice_step(draught / 7.0);
+    let highest = hull.deck().points().iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max).min(hull.top());
+    let bottom = hull.bottom();
+    let first = (bottom / step).ceil() as i64;
+    let last = ((highest + 1e-9 * step) / step).floor() as i64;
+    let mut lines = vec![bottom];
+    let mut add = |z: f64| {
+        if z > bottom + 0.2 * step && z <= highest + 1e-9 * step && (z - draught).abs() > 0.2 * step {
+            lines.push(z);
+        }
+    };
+    add((first as f64 + 0.5) * step);
+    (first..=last).for_each(|k| add(k as f64 * step));
+    if draught > bottom && draught <= highest {
+        lines.push(draught);
+    }
+    lines.sort_by(f64::total_cmp);
+    lines.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * step);
+    lines
+}
+
+/// Default buttocks [m]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least four.
+#[must_use]
+pub fn default_buttocks(hull: &Hull) -> Vec<f64> {
+    let half = 0.5 * hull.particulars().breadth;
+    let step = nice_step(half / 4.5);
+    (1..).map(|k| f64::from(k) * step).take_while(|&y| y < half - 0.2 * step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::PrincipalParticulars;
+    use super::*;
+    use crate::spline::{BsplineSurface, KnotVector};
+
+    /// y = 4 (1 - (x/50 - 1)^2) (0.25 + 0.75 z / 10) with a stem that rakes 3 m over the height and a flat of bottom.
+    fn hull() -> Hull {
+        let (u, v) = (KnotVector::uniform(2, 1).unwrap(), KnotVector::uniform(1, 1).unwrap());
+        let mut points = Vec::new();
+        for (i, breadth) in [0.0, 8.0, 0.0].into_iter().enumerate() {
+            for (stem, share, z) in [(100.0, 0.25, 0.0), (103.0, 1.0, 10.0)] {
+                points.push([0.5 * stem * i as f64, breadth * share, z]);
+            }
+        }
+        let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 9.0], [103.0, 10.0]]).unwrap();
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 6.3, depth: 9.0 };
+        Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+    }
+
+    fn breadth(x: f64, z: f64) -> f64 {
+        let a = x / (100.0 + 0.3 * z);
+        16.0 * a * (1.0 - a) * (0.25 + 0.075 * z)
+    }
+
+    #[test]
+    fn offsets_are_the_surface() {
+        let hull = hull();
+        let table = OffsetTable::with_defaults(&hull);
+        assert_eq!(table.stations.len(), 26);
+        for column in &table.stations {
+            let x = column.station.x;
+            for (&z, y) in table.waterlines.iter().zip(&column.half_breadths) {
+                let inside = x <= 100.0 + 0.3 * z + 1e-12 && z <= 9.0 + x / 103.0 + 1e-12;
+                assert_eq!(y.is_some(), inside, "{x} {z}");
+                if let Some(y) = y {
+                    assert!((y - breadth(x, z)).abs() < 1e-12, "{x} {z} {y}");
+                }
+            }
+            for (&y, z) in table.buttocks.iter().zip(&column.heights) {
+                match z {
+                    Some(z) if *z > 0.0 => assert!((breadth(x, *z) - y).abs() < 1e-10, "{x} {y} {z}"),
+                    Some(_) => assert!(breadth(x, 0.0) >= y),
+                    None => assert!(breadth(x, 9.0 + x / 103.0) < y + 1e-9, "{x} {y}"),
+                }
+            }
+            let deck = column.deck_height.unwrap();
+            assert!((deck - 9.0 - x / 103.0).abs() < 1e-12);
+            assert!((column.deck_half_breadth.unwrap() - breadth(x, deck)).abs() < 1e-12);
+            let keel = column.keel_height.unwrap();
+            assert!((keel - ((x - 100.0) / 0.3).max(0.0)).abs() < 1e-10, "{x} {keel}");
+        }
+        let last = &table.stations[25];
+        assert_eq!(last.station.name, "fore end");
+        assert!((last.station.x - 103.0).abs() < 1e-12);
+        for (&z, ends) in table.waterlines.iter().zip(&table.endings) {
+            let [aft, forward] = ends.unwrap();
+            assert!(aft.abs() < 1e-12 && (forward - 100.0 - 0.3 * z).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn default_lines_are_round_numbers_and_the_draught() {
+        let hull = hull();
+        let lines = default_waterlines(&hull);
+        let expected = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.3, 6.5];
+        for (line, expected) in lines.iter().zip(expected) {
+            assert!((line - expected).abs() < 1e-12, "{lines:?}");
+        }
+        assert!((lines[lines.len() - 1] - 10.0).abs() < 1e-12);
+        assert_eq!(default_buttocks(&hull).len(), 7);
+        assert_eq!(default_stations(&hull)[1].name, "0.5");
+        for (value, step) in [(0.9, 0.5), (1.0, 1.0), (2.4, 2.0), (2.6, 2.5), (7.0, 5.0), (30.0, 25.0)] {
+            assert!((nice_step(value) - step).abs() < 1e-12, "{value}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Why a job did not end well, and what the program returns then.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::config::Diagnostic;
+
+/// Why a job did not end well.
+#[derive(Debug)]
+pub enum Failure {
+    /// A file that says something wrong: every message about it.
+    Input(Vec<Diagnostic>),
+    /// A design that cannot be built: every reason.
+    Infeasible(Vec<Diagnostic>),
+    /// A check that did not pass.
+    Check(String),
+    /// Files that are there already.
+    Exists(Vec<PathBuf>),
+    /// The file system refused.
+    FileSystem {
+        /// What was tried, `read`, `write`.
+        act: &'static str,
+        /// On which path.
+        path: PathBuf,
+        /// What it answered.
+        error: std::io::Error,
+    },
+    /// A fault of this program.
+    Internal(String),
+}
+
+impl Failure {
+    /// Exit code: 1 internal, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Internal(_) => 1,
+            Self::Input(_) => 3,
+            Self::Infeasible(_) => 4,
+            Self::Check(_) => 5,
+            Self::Exists(_) | Self::FileSystem { .. } => 6,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(messages) | Self::Infeasible(messages) => {
+                for (index, message) in messages.iter().enumerate() {
+                    write!(f, "{}{message}", if index > 0 { "\n" } else { "" })?;
+                }
+                Ok(())
+            }
+            Self::Check(message) => write!(f, "{message}"),
+            Self::Exists(paths) => {
+                let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+                write!(
+                    f,
+                    "E601 {} is there already. Use --force to overwrite, or -o for another place",
+                    names.join(", ")
+                )
+            }
+            Self::FileSystem { act, path, error } => write!(f, "E602 cannot {act} {}: {error}", path.display()),
+            Self::Internal(message) => write!(f, "E901 {message}. This is a fault of the program; please report it"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}

@@ -1,0 +1,148 @@
+//! The main job: a design in, every file about it out. Nothing is written here.
+
+use std::path::Path;
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::source::build;
+use crate::config::{Design, Diagnostic, Severity};
+use crate::exchange::{
+    Manifest, ManifestEntry, SummaryFile, TargetLine, ValueLine, conventions_json, heights_csv, hydrostatics_csv,
+    offsets_csv, row_json, write_hull,
+};
+use crate::hull::{Hull, OffsetStation, OffsetTable, default_buttocks, default_stations, default_waterlines};
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics, default_draughts};
+use crate::parametric::Family;
+use crate::plot::{Figure, FigureInputs};
+use crate::units::Notation;
+
+/// What the main job gives.
+#[derive(Debug, Clone)]
+pub struct Outputs {
+    /// The hull.
+    pub hull: Hull,
+    /// The design condition.
+    pub summary: SummaryFile,
+    /// Hydrostatics at the design draught.
+    pub design_row: Hydrostatics,
+    /// The hydrostatic table.
+    pub table: CurvesOfForm,
+    /// Remarks about the design.
+    pub remarks: Vec<Diagnostic>,
+    /// The files, in the order of their names; the manifest is the last.
+    pub files: Vec<OutputFile>,
+}
+
+fn family_word(family: &Family) -> &'static str {
+    match family {
+        Family::Cosh(_) => "cosh",
+        Family::UclCosh(_) => "ucl-cosh",
+        Family::Wigley(_) => "wigley",
+        Family::Box(_) => "box",
+        Family::Ellipsoid(_) => "ellipsoid",
+    }
+}
+
+/// Positions of the stations of the offset table.
+fn stations(design: &Design, hull: &Hull) -> Vec<OffsetStation> {
+    let named = |x: f64, name: String| OffsetStation { name, x };
+    if let Some(list) = &design.output.stations {
+        return list.iter().map(|&x| named(x, format!("{x}"))).collect();
+    }
+    let spaces = f64::from(design.output.station_spaces);
+    if design.output.station_spaces == 20 {
+        return default_stations(hull);
+    }
+    let length = hull.particulars().length_between_perpendiculars;
+    let mut numbers: Vec<f64> = (0..=design.output.station_spaces).map(f64::from).collect();
+    numbers.extend([0.5, 1.5, spaces - 1.5, spaces - 0.5]);
+    numbers.sort_by(f64::total_cmp);
+    numbers.into_iter().map(|number| named(length * number / spaces, format!("{number}"))).collect()
+}
+
+/// Generates the hull of a design, its tables and its figures. `input` is the file name and the bytes of the design, for the
+/// manifest; `figures` are drawn.
+///
+/// # Errors
+/// [`Failure::Infeasible`] with every reason; [`Failure::Internal`] when a table or a figure cannot be made.
+pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figure]) -> Result<Outputs, Failure> {
+    let internal = |what: &str, error: &dyn std::fmt::Display| Failure::Internal(format!("{what}: {error}"));
+    let generated = build(design)?;
+    let hull = generated.hull;
+    let particulars = *hull.particulars();
+    let draughts =
+        design.output.draughts.clone().unwrap_or_else(|| default_draughts(particulars.draught, particulars.depth));
+    let table = CurvesOfForm::new(&hull, &draughts, &design.conventions);
+    let design_row = CurvesOfForm::new(&hull, &[particulars.draught], &design.conventions).rows.swap_remove(0);
+    let waterlines = design.output.waterlines.clone().unwrap_or_else(|| default_waterlines(&hull));
+    let buttocks = design.output.buttocks.clone().unwrap_or_else(|| default_buttocks(&hull));
+    let offsets = OffsetTable::from_hull(&hull, &stations(design, &hull), &waterlines, &buttocks);
+
+    let remarks: Vec<Diagnostic> =
+        generated.remarks.iter().map(|r| design.diagnose(Severity::Warning, r.code, &[r.key], &r.message)).collect();
+    let summary = SummaryFile {
+        name: design.name.clone(),
+        family: family_word(&design.family),
+        particulars: (&particulars).into(),
+        design: row_json(&design_row),
+        targets: generated
+            .targets
+            .iter()
+            .map(|t| TargetLine {
+                key: t.key,
+                requested: t.requested,
+                achieved: t.achieved,
+                error: t.achieved - t.requested,
+                origin: t.origin.as_str(),
+            })
+            .collect(),
+        values: generated
+            .values
+            .iter()
+            .map(|v| ValueLine {
+                key: v.key,
+                name: v.name,
+                value: Some(v.value).filter(|value| value.is_finite()),
+                unit: v.unit,
+                origin: v.origin.as_str(),
+                source: v.source.clone(),
+            })
+            .collect(),
+        conventions: conventions_json(&design.conventions),
+        remarks: generated.remarks.iter().map(|r| format!("{} {}", r.code, r.message)).collect(),
+    };
+
+    let mut summary_text = serde_json::to_string_pretty(&summary).map_err(|e| internal("summary.json", &e))?;
+    summary_text.push('\n');
+    let mut files = vec![
+        OutputFile::text("hull.json", write_hull(&hull, &design.conventions).map_err(|e| internal("hull.json", &e))?),
+        OutputFile::text("offsets.csv", offsets_csv(&offsets, Notation::Metres, true)),
+        OutputFile::text("heights.csv", heights_csv(&offsets, Notation::Metres)),
+        OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
+        OutputFile::text("summary.json", summary_text),
+    ];
+    let inputs = FigureInputs { hull: &hull, design: &design_row, curves: &table };
+    for figure in figures {
+        let svg = figure.draw(&inputs).map_err(|e| internal(figure.key(), &e))?;
+        // The body plan goes into documents and cutters as it is; the others are looked at.
+        files.push(match figure {
+            Figure::Sections => OutputFile::text("sections.svg", svg.as_str().to_owned()),
+            _ => OutputFile {
+                name: format!("{}.png", figure.key()),
+                contents: svg.to_png(figure.dots_per_inch()).map_err(|e| internal(figure.key(), &e))?,
+            },
+        });
+    }
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    let name = input.0.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let manifest = Manifest {
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        input: ManifestEntry::new(&name, input.1),
+        outputs: files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
+    };
+    let mut manifest_text = serde_json::to_string_pretty(&manifest).map_err(|e| internal("manifest.json", &e))?;
+    manifest_text.push('\n');
+    files.push(OutputFile::text("manifest.json", manifest_text));
+    Ok(Outputs { hull, summary, design_row, table, remarks, files })
+}

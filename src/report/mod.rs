@@ -1,0 +1,15 @@
+//! Whole jobs: from a design to the files about it, and what is printed of them.
+
+mod failure;
+mod files;
+mod generate;
+mod page;
+mod self_test;
+mod source;
+
+pub use failure::Failure;
+pub use files::{OutputFile, write_all};
+pub use generate::{Outputs, generate_outputs};
+pub use page::{hydrostatics_page, self_test_page, summary_page};
+pub use self_test::{SelfCheck, self_test};
+pub use source::{Source, offsets, read_design, read_source, sections_of};

@@ -1,0 +1,170 @@
+//! What is printed on a terminal: pages of at most 80 columns.
+
+use super::generate::Outputs;
+use super::self_test::SelfCheck;
+use crate::hydrostatics::{
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, PrismaticSection, QUANTITIES, Shell,
+};
+
+const WIDTH: usize = 80;
+
+/// Value of a quantity with its decimals; empty when it is not defined.
+fn value(row: &Hydrostatics, key: &str) -> String {
+    QUANTITIES
+        .iter()
+        .find(|quantity| quantity.key == key)
+        .and_then(|quantity| {
+            (quantity.value)(row).filter(|v| v.is_finite()).map(|v| format!("{:.*}", quantity.decimals, v + 0.0))
+        })
+        .unwrap_or_default()
+}
+
+fn unit(key: &str) -> &'static str {
+    QUANTITIES
+        .iter()
+        .find(|quantity| quantity.key == key)
+        .map_or("", |quantity| if quantity.unit == "-" { "" } else { quantity.unit })
+}
+
+/// Cuts a text at words to lines of at most [`WIDTH`] characters, later lines indented.
+fn wrapped(text: &str, indent: usize) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        let line = &mut lines[last];
+        if line.trim().is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(format!("{}{word}", " ".repeat(indent)));
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn conventions_line(c: &Conventions) -> String {
+    let length = match c.coefficient_length {
+        CoefficientLength::BetweenPerpendiculars => "Lpp",
+        CoefficientLength::Waterline => "Lwl",
+    };
+    let section = match c.prismatic_section {
+        PrismaticSection::Maximum => "the largest section",
+        PrismaticSection::Midship => "the midship section",
+    };
+    let shell = match c.shell {
+        Shell::None => String::new(),
+        Shell::Factor(factor) => format!("; shell factor {factor}"),
+        Shell::Thickness(thickness) => format!("; shell {} mm", thickness * 1000.0),
+    };
+    let trim = match c.centre_of_gravity_height {
+        Some(height) => format!("MTC from GML with KG {height} m"),
+        None => "MTC from BML".to_owned(),
+    };
+    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP.", c.density)
+}
+
+/// The summary of the main job: at most 24 lines of 80 columns.
+#[must_use]
+pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) -> String {
+    let summary = &outputs.summary;
+    let p = summary.particulars;
+    let name: String = summary.name.chars().take(WIDTH - 14).collect();
+    let mut page = format!("{name} ({})\n", summary.family);
+    page.push_str(&format!("Lpp {:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.lpp, p.b, p.t, p.d));
+    if !summary.targets.is_empty() {
+        page.push_str(&format!("{:<6}{:>14}{:>14}{:>12}  {}\n", "", "requested", "achieved", "error", "origin"));
+        for target in &summary.targets {
+            page.push_str(&format!(
+                "{:<6}{:>14.6}{:>14.6}{:>12.1e}  {}\n",
+                target.key, target.requested, target.achieved, target.error, target.origin
+            ));
+        }
+        page.push('\n');
+    }
+    let keys = [
+        ["DISPVOL", "DISPM", "XCB"],
+        ["XCBPC", "KB", "AWL"],
+        ["XWL", "LWL", "BWL"],
+        ["BMT", "KMT", "KML"],
+        ["TPC", "MTC", "S"],
+        ["CP", "CWP", "CVP"],
+    ];
+    for keys in keys {
+        let cells = keys.map(|key| format!("{key:<8}{:>11} {:<6}", value(&outputs.design_row, key), unit(key)));
+        page.push_str(cells.join("").trim_end());
+        page.push('\n');
+    }
+    page.push('\n');
+    page.push_str(&wrapped(&conventions_line(conventions), 2));
+    let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
+    page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
+    page
+}
+
+/// A hydrostatic table in blocks of 80 columns.
+#[must_use]
+pub fn hydrostatics_page(table: &CurvesOfForm) -> String {
+    let blocks: [&[&str]; 3] = [
+        &["T", "DISPVOL", "DISPM", "XCB", "KB", "AWL", "XWL", "TPC"],
+        &["T", "MTC", "BMT", "BML", "KMT", "KML", "LWL", "BWL"],
+        &["T", "CB", "CM", "CX", "CP", "CWP", "CVP", "S"],
+    ];
+    let mut page = wrapped(&conventions_line(&table.conventions), 2);
+    for block in blocks {
+        page.push('\n');
+        let row = |cell: &dyn Fn(&str) -> String| {
+            block.iter().map(|key| format!("{:>10}", cell(key))).collect::<String>() + "\n"
+        };
+        page.push_str(&row(&|key| key.to_owned()));
+        page.push_str(&row(&|key| unit(key).to_owned()));
+        for line in &table.rows {
+            page.push_str(&row(&|key| value(line, key)));
+        }
+    }
+    for line in &table.rows {
+        if let Some(remark) = &line.remark {
+            page.push_str(&wrapped(&format!("T {} m: {remark}", value(line, "T")), 2));
+        }
+    }
+    page
+}
+
+/// The table of the self-test.
+#[must_use]
+pub fn self_test_page(checks: &[SelfCheck]) -> String {
+    let mut page = format!("{:<20}{:<9}{:>18}{:>18}{:>9}\n", "body", "quantity", "ours", "exact", "error");
+    for check in checks {
+        let ours = check.ours.map_or_else(|| "-".to_owned(), |v| format!("{v:.8}"));
+        let verdict = if check.passed() { "" } else { "  FAILED" };
+        page.push_str(&format!(
+            "{:<20}{:<9}{ours:>18}{:>18.8}{:>9.0e}{verdict}\n",
+            check.body, check.key, check.exact, check.error
+        ));
+    }
+    let failed = checks.iter().filter(|check| !check.passed()).count();
+    page.push_str(&format!("{} of {} checks passed.\n", checks.len() - failed, checks.len()));
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_never_pass_80_columns() {
+        let text = wrapped(&"word ".repeat(60), 2);
+        assert!(text.lines().count() > 3 && text.lines().all(|line| line.len() <= WIDTH));
+        assert!(text.lines().nth(1).unwrap().starts_with("  word"));
+    }
+
+    #[test]
+    fn the_conventions_are_said() {
+        let line = conventions_line(&Conventions { centre_of_gravity_height: Some(7.5), ..Conventions::default() });
+        assert_eq!(
+            line,
+            "Coefficients on Lpp, CP on the largest section; 1.025 t/m3; MTC from GML with KG 7.5 m; x from AP."
+        );
+    }
+}

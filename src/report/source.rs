@@ -1,0 +1,132 @@
+//! What a job starts from: a design file, or a hull.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use crate::config::{self, Design, Diagnostic, Severity};
+use crate::exchange::{self, HullFile, HullFileError};
+use crate::hull::{Cut, Hull, OffsetStation, OffsetTable, Section};
+use crate::hydrostatics::Conventions;
+use crate::parametric::{Family, Generated};
+
+/// A hull with the conventions of its tables.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The hull.
+    pub hull: Hull,
+    /// Conventions it was made with.
+    pub conventions: Conventions,
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| Failure::FileSystem { act: "read", path: path.to_owned(), error })
+}
+
+fn diagnostic(
+    code: &'static str,
+    file: &Path,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: String,
+) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        code,
+        file: file.display().to_string(),
+        line,
+        column,
+        key: String::new(),
+        message,
+        help: String::new(),
+    }
+}
+
+fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count() + 1;
+        let message = format!("byte {at} is not UTF-8 text");
+        Failure::Input(vec![diagnostic("E129", path, Some(line), None, message)])
+    })
+}
+
+/// The design of a file, TOML or `.hgf` by its name, and its bytes.
+///
+/// # Errors
+/// [`Failure::FileSystem`], [`Failure::Input`].
+pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
+    let bytes = read_bytes(path)?;
+    let text = utf8(path, bytes.clone())?;
+    let shown = path.display().to_string();
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if matches!(extension.as_str(), "hgf" | "huf") {
+        let ship = exchange::read_hgf(&text).map_err(|errors| {
+            let messages = errors.iter().map(|error| {
+                // The line stands in the place of the message already.
+                let message = error.to_string();
+                let message = match error.line() {
+                    Some(line) => message
+                        .trim_start_matches(&format!("line {line}"))
+                        .trim_start_matches([':', ',', ' '])
+                        .to_owned(),
+                    None => message,
+                };
+                diagnostic("E130", path, error.line(), None, message)
+            });
+            Failure::Input(messages.collect())
+        })?;
+        let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = if ship.name.is_empty() { stem } else { ship.name };
+        return Ok((Design::new(&shown, &name, Family::UclCosh(ship.parameters)), bytes));
+    }
+    let design = config::read(&shown, &text).map_err(Failure::Input)?;
+    Ok((design, bytes))
+}
+
+/// Generates the hull of a design.
+///
+/// # Errors
+/// [`Failure::Infeasible`] with every reason.
+pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
+    design.family.generate(&design.name).map_err(|reasons| {
+        Failure::Infeasible(
+            reasons.iter().map(|r| design.diagnose(Severity::Error, r.code, &r.keys, &r.message)).collect(),
+        )
+    })
+}
+
+/// The hull of a `hull.json`, of a folder that holds one, or of a design file.
+///
+/// # Errors
+/// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
+pub fn read_source(path: &Path) -> Result<Source, Failure> {
+    let file: PathBuf = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
+    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if matches!(extension.as_str(), "toml" | "hgf" | "huf") {
+        let (design, _) = read_design(&file)?;
+        let hull = build(&design)?.hull;
+        return Ok(Source { hull, conventions: design.conventions });
+    }
+    let text = utf8(&file, read_bytes(&file)?)?;
+    match exchange::read_hull(&text) {
+        Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions }),
+        Err(HullFileError::Json { line, column, field, message }) => {
+            Err(Failure::Input(vec![diagnostic("E140", &file, Some(line), Some(column), format!("{field}{message}"))]))
+        }
+        Err(error) => Err(Failure::Input(vec![diagnostic("E141", &file, None, None, error.to_string())])),
+    }
+}
+
+/// The offsets of a hull at any stations, waterlines and buttocks [m].
+#[must_use]
+pub fn offsets(hull: &Hull, stations: &[f64], waterlines: &[f64], buttocks: &[f64]) -> OffsetTable {
+    let stations: Vec<OffsetStation> = stations.iter().map(|&x| OffsetStation { name: format!("{x}"), x }).collect();
+    OffsetTable::from_hull(hull, &stations, waterlines, buttocks)
+}
+
+/// The section of a hull by a plane, within 1e-9 m of both.
+#[must_use]
+pub fn sections_of(hull: &Hull, cut: Cut) -> Section {
+    hull.section(cut, 1e-9)
+}
