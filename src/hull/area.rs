@@ -279,11 +279,11 @@ fn roots(c: &[f64], from: f64, to: f64, zero: f64, depth: usize, found: &mut imp
     let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
     right[..=n].copy_from_slice(c);
     left[0] = c[0];
-    for r in 1..=n {
+    for (r, last) in left.iter_mut().enumerate().take(n + 1).skip(1) {
         for j in 0..=n - r {
             right[j] = 0.5 * (right[j] + right[j + 1]);
         }
-        left[r] = right[0];
+        *last = right[0];
     }
     roots(&left[..=n], from, middle, zero, depth + 1, found);
     if left[n].abs() <= zero {
