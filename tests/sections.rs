@@ -448,3 +448,39 @@ fn polylines_keep_the_ends_and_the_deviation() {
         assert!(branch.polyline(1e-3).len() < 400);
     }
 }
+
+/// Nets of whole numbers cut at whole numbers: flats, saddles and corners on the plane everywhere.
+#[test]
+fn degenerate_nets_give_connected_branches_in_bounded_work() {
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+    let net = prop::collection::vec(0..4u8, 81);
+    let seeds = (prop::collection::vec(0..1usize, 0..4), prop::collection::vec(0..3usize, 0..2));
+    let strategy = (net, seeds, (1..=3usize, 1..=3usize), 0..4usize);
+    let config = Config { cases: 300, failure_persistence: None, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
+    let outcome = runner.run(&strategy, |(net, seeds, degrees, kind)| {
+        let (u, v) = (knots(degrees.0, &seeds.0), knots(degrees.1, &seeds.1));
+        let net: Vec<f64> = net.iter().map(|&y| f64::from(y)).collect();
+        let hull = sheet(&u, &v, &net[..u.basis_count() * v.basis_count()]);
+        let cut = match kind {
+            0 => Cut::Plane { normal: [0.0, 1.0, 0.0], offset: 0.0 },
+            1 => Cut::Plane { normal: [1.0 / LENGTH, 1.0, 0.0], offset: 1.0 },
+            _ => Cut::Buttock { y: kind as f64 - 1.0 },
+        };
+        let section = hull.section(cut, 1e-9);
+        assert_connected(&section);
+        for branch in sides(&section) {
+            prop_assert!(branch.curve.points().len() < 20_000, "{}", branch.curve.points().len());
+            for p in points(branch) {
+                prop_assert!(distance_to_plane(cut, p) < 1e-9, "{:?} {}", cut, distance_to_plane(cut, p));
+                let surface = hull.half_breadth(p[0].clamp(0.0, LENGTH), p[2].clamp(0.0, DRAUGHT)).unwrap();
+                prop_assert!((surface - p[1]).abs() < 1e-6, "{:?} {:?} {}", cut, p, surface - p[1]);
+            }
+        }
+        Ok(())
+    });
+    if let Err(error) = outcome {
+        panic!("{error}");
+    }
+}

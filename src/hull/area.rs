@@ -19,7 +19,7 @@ const NODES: usize = 7;
 /// Halvings of a piece at most.
 const HALVINGS: usize = 12;
 
-/// Change of a row by halving, relative to its largest entry, at which a piece is settled. The halved rule that is kept is
+/// Change of a row by halving, relative to the height of the section, at which a piece is settled. The halved rule that is kept is
 /// better than the change by a factor of about 2^14.
 const SETTLED: f64 = 1e-11;
 
@@ -54,6 +54,8 @@ struct Cell<'a> {
     span_v: usize,
     /// Whether x depends on v within the cell.
     slanting: bool,
+    /// Height of the section, which the weights of the row sum up to (twice, for both sides) [m].
+    height: f64,
     /// Whether the cell is next to the stern or the stem profile and x depends on v.
     at_profile: bool,
 }
@@ -125,12 +127,11 @@ impl Cell<'_> {
         let left = self.rule(ends, (part.0, middle), NODES, &mut at);
         let between = at;
         let right = self.rule(ends, (middle, part.1), NODES, &mut at);
-        let (mut change, mut largest) = (0.0f64, 0.0f64);
+        let mut change = 0.0f64;
         for ((l, r), w) in left.iter().flatten().zip(right.iter().flatten()).zip(rough.iter().flatten()) {
             change = change.max((l + r - w).abs());
-            largest = largest.max((l + r).abs());
         }
-        if change <= SETTLED * largest || depth >= HALVINGS {
+        if change <= SETTLED * self.height || depth >= HALVINGS {
             for ((target, l), r) in block.iter_mut().flatten().zip(left.iter().flatten()).zip(right.iter().flatten()) {
                 *target += l + r;
             }
@@ -170,7 +171,8 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
             let span_u = surface.u().find_span(u);
             let slanting = is_slanting(hull, span_u, span_v);
             let outermost = span_u == p || span_u + 1 == surface.u().basis_count();
-            let cell = Cell { hull, station, span_u, span_v, slanting, at_profile: slanting && outermost };
+            let height = immersion.draught() - hull.bottom();
+            let cell = Cell { hull, station, span_u, span_v, slanting, height, at_profile: slanting && outermost };
             let mut start = u;
             let mut block: Block = Default::default();
             if cell.slanting {
@@ -277,11 +279,11 @@ fn roots(c: &[f64], from: f64, to: f64, zero: f64, depth: usize, found: &mut imp
     let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
     right[..=n].copy_from_slice(c);
     left[0] = c[0];
-    for r in 1..=n {
+    for (r, last) in left.iter_mut().enumerate().take(n + 1).skip(1) {
         for j in 0..=n - r {
             right[j] = 0.5 * (right[j] + right[j + 1]);
         }
-        left[r] = right[0];
+        *last = right[0];
     }
     roots(&left[..=n], from, middle, zero, depth + 1, found);
     if left[n].abs() <= zero {

@@ -167,9 +167,9 @@ fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMu
                     *target += factor * b;
                 }
             }
-            for i in 0..=p {
+            for (i, b) in basis[..=p].iter().enumerate() {
                 for (target, value) in scaled.iter_mut().zip(&line) {
-                    *target = basis[i] * value;
+                    *target = b * value;
                 }
                 sink(first + i, 0, &scaled);
             }
@@ -198,9 +198,9 @@ fn waterplane_weights(hull: &Hull, draught: f64, with_moment: bool, sink: &mut d
                 |row: &[f64]| row.iter().zip(&line.points()[first..=piece.span]).map(|(b, c)| b * c[0]).sum::<f64>();
             let arm = if with_moment { sum(&basis) } else { 1.0 };
             let factor = 2.0 * weight * sum(&slopes) * arm;
-            for i in 0..=p {
+            for (i, along) in basis[..=p].iter().enumerate() {
                 for (target, b) in scaled.iter_mut().zip(&across) {
-                    *target = factor * basis[i] * b;
+                    *target = factor * along * b;
                 }
                 sink(first + i, span_v - q, &scaled[..=q]);
             }
@@ -218,12 +218,10 @@ mod tests {
     fn hull(sheer: f64) -> Hull {
         let u = KnotVector::new(3, vec![0.0, 0.0, 0.0, 0.0, 0.3, 0.5, 0.5, 0.8, 1.0, 1.0, 1.0, 1.0]).unwrap();
         let v = KnotVector::new(3, vec![0.0, 0.0, 0.0, 0.0, 0.4, 0.7, 1.0, 1.0, 1.0, 1.0]).unwrap();
-        let (m, n) = (u.basis_count(), v.basis_count());
         let (gu, gv) = (u.greville(), v.greville());
         let mut points = Vec::new();
-        for i in 0..m {
-            for j in 0..n {
-                let (s, t) = (gu[i], gv[j]);
+        for &s in &gu {
+            for &t in &gv {
                 let (stern, stem) = (3.0 - 6.0 * t, 95.0 + 8.0 * (7.0 * t).sin() + 4.0 * t);
                 let x = stern + (stem - stern) * (1.0 - (1.0 - s).powi(2)).mul_add(0.6, 0.4 * s);
                 let y =

@@ -2,9 +2,9 @@
 //!
 //! On the spans of u whose lines are vertical (x does not depend on v) the area of the section through u is itself a spline in
 //! u, A(u) = 2 sum_i N_i(u) sum_j y_ij int M_j z_v dv, whose maximum is found exactly. Elsewhere areas are sampled from
-//! half-breadths at the nodes in v, interpolated in each span of u, and the area at the place so found is taken from
-//! [`Functional::SectionArea`]; its place is then known to about 1e-4 of the length of the span and the area to the square
-//! of that.
+//! half-breadths at the nodes in v and interpolated in each span of u; from the places so found parabolas through exact areas
+//! ([`Functional::SectionArea`]) lead to the maximum. Its place is then known to about 1e-6 of the length of the span and the
+//! area to rounding. Corners of the areas at a raked transom or flat bow are looked at by themselves.
 
 use super::volume::{Node, count_up, nodes};
 use crate::hull::{Functional, Hull, Immersion};
@@ -18,6 +18,9 @@ pub(super) const PARALLEL_LENGTH: f64 = 0.01;
 
 /// Two areas are equal when they differ by less than this, relative to the larger one.
 const ROUNDING: f64 = 1e-13;
+
+/// Relative error of interpolated areas that is allowed for in the choice of the places to be refined.
+const INTERPOLATION: f64 = 1e-3;
 
 /// Sections below one draught.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -171,12 +174,6 @@ impl<'a, const N: usize> Table<'a, N> {
                     .collect()
             })
             .collect();
-        // Exact value at a place of a span.
-        let exact = |k: usize, u: f64| -> (f64, f64) {
-            let span = &self.spans[k];
-            let x = self.place(u);
-            (x, if span.vertical && !deck { spline(span, u)[0] } else { self.area(x, immersion) })
-        };
         let at_midship = self
             .spans
             .iter()
@@ -188,25 +185,39 @@ impl<'a, const N: usize> Table<'a, N> {
         let highest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let top = samples.iter().map(|values| highest(values)).fold(0.0, f64::max);
         let (mut best, mut place) = (midship_area, midship);
-        let mut highest_place = None;
-        let mut value = 0.0;
+        let mut candidates = Vec::new();
         for (k, values) in samples.iter().enumerate() {
             // The maximum lies in a span next to the highest sample; spans a hundredth lower are far from it.
             if top <= 0.0 || highest(values) < top * (1.0 - 1e-2) {
                 continue;
             }
+            let polynomial = Interpolant { u: &self.spans[k].u, values };
+            let maxima = polynomial.maxima(self.spans[k].ends);
+            candidates.extend(maxima.into_iter().map(|u| (polynomial.value(u), k, u)));
+        }
+        candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let highest_value = candidates.first().map_or(0.0, |candidate| candidate.0);
+        let mut taken: Vec<f64> = Vec::new();
+        for &(value, k, u) in &candidates {
             let span = &self.spans[k];
-            let polynomial = Interpolant { u: &span.u, values };
-            for u in polynomial.maxima(span.ends) {
-                let found = polynomial.value(u);
-                if found > value * (1.0 + ROUNDING) {
-                    value = found;
-                    highest_place = Some((k, u));
-                }
+            let (mut x, width) = (self.place(u), span.x[span.x.len() - 1] - span.x[0]);
+            let exact = span.vertical && !deck;
+            let near = taken.iter().any(|other| (other - x).abs() < 0.5 * width);
+            if value < highest_value * (1.0 - if exact { ROUNDING } else { INTERPOLATION }) || near || taken.len() >= 3
+            {
+                continue;
+            }
+            let mut area = if exact { spline(span, u)[0] } else { self.area(x, immersion) };
+            if !exact {
+                self.climb(&mut x, &mut area, 0.05 * width, immersion);
+            }
+            taken.push(x);
+            if area > best * (1.0 + ROUNDING) {
+                (best, place) = (area, x);
             }
         }
-        if let Some((k, u)) = highest_place {
-            let (x, area) = exact(k, u);
+        for x in self.corners(immersion) {
+            let area = self.area(x, immersion);
             if area > best * (1.0 + ROUNDING) {
                 (best, place) = (area, x);
             }
@@ -217,6 +228,50 @@ impl<'a, const N: usize> Table<'a, N> {
         let parallel = self.parallel(&samples, best, place);
         let place = parallel.map_or(place, |[aft, fore]| 0.5 * (aft + fore));
         Sections { midship: midship_area, largest: best, place: Some(place), parallel }
+    }
+
+    /// Moves (x, area) uphill to the vertex of parabolas through exact areas, first `step` and then a fiftieth of it apart.
+    fn climb(&self, x: &mut f64, area: &mut f64, step: f64, immersion: &Immersion) {
+        let mut step = step;
+        let mut refined = 0;
+        for _ in 0..16 {
+            let (before, after) = (self.area(*x - step, immersion), self.area(*x + step, immersion));
+            if before.max(after) > *area * (1.0 + ROUNDING) {
+                (*x, *area) = if before > after { (*x - step, before) } else { (*x + step, after) };
+                continue;
+            }
+            let bend = before - 2.0 * *area + after;
+            if bend >= -ROUNDING * *area {
+                return;
+            }
+            let vertex = *x + 0.5 * step * (before - after) / bend;
+            let value = self.area(vertex, immersion);
+            if value >= *area {
+                (*x, *area) = (vertex, value);
+            }
+            refined += 1;
+            if refined == 2 {
+                return;
+            }
+            step *= 0.02;
+        }
+    }
+
+    /// Places where the areas have a corner: ends of a raked transom or flat bow, at the lowest line and the waterline.
+    fn corners(&self, immersion: &Immersion) -> Vec<f64> {
+        let surface = self.hull.surface();
+        let [rows, columns] = surface.shape();
+        let mut corners = Vec::new();
+        for (row, u) in [(0, surface.u().domain().0), (rows - 1, surface.u().domain().1)] {
+            let points = &surface.points()[row * columns..(row + 1) * columns];
+            let flat = points.iter().any(|point| point[1] > 0.0);
+            let raked = points.iter().any(|point| point[0].to_bits() != points[0][0].to_bits());
+            if flat && raked {
+                corners.push(points[0][0]);
+                corners.push(surface.eval(u, immersion.waterline())[0]);
+            }
+        }
+        corners
     }
 
     /// x at `u`, on the reference line.

@@ -9,7 +9,7 @@ pub(super) fn sites(knots: &KnotVector) -> Vec<f64> {
     let mut sites = knots.greville();
     let breaks = knots.breakpoints();
     for &at in &breaks[1..breaks.len() - 1] {
-        if knots.knots().iter().filter(|&&t| t >= at && t <= at).count() > 1 {
+        if knots.multiplicity(at) > 1 {
             continue;
         }
         let nearest = (1..sites.len() - 1).min_by(|&i, &j| (sites[i] - at).abs().total_cmp(&(sites[j] - at).abs()));

@@ -163,7 +163,6 @@ impl ShipType {
                 sweep: 0.5,
                 keel: 0.05,
                 sheer: [0.035, 0.012],
-                ..common
             },
             Self::Fishing => Preset {
                 length_breadth: [4.6, 3.0, 6.3],
@@ -181,7 +180,6 @@ impl ShipType {
                 sweep: 0.6,
                 keel: 0.04,
                 sheer: [0.05, 0.02],
-                ..common
             },
             Self::Frigate => Preset {
                 length_breadth: [7.8, 7.4, 10.0],
@@ -199,7 +197,6 @@ impl ShipType {
                 sweep: 0.5,
                 keel: 0.03,
                 sheer: [0.012, 0.0],
-                ..common
             },
             Self::Yacht => Preset {
                 length_breadth: [3.6, 3.0, 4.5],
@@ -217,7 +214,6 @@ impl ShipType {
                 sweep: 0.0,
                 keel: 0.02,
                 sheer: [0.03, 0.01],
-                ..common
             },
         }
     }

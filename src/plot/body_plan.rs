@@ -9,7 +9,7 @@ use crate::hull::Hull;
 /// Room beside the sections for the names of waterlines [mm].
 pub(super) const SIDE_ROOM: f64 = 20.0;
 /// Room above the sections for the names of stations [mm].
-pub(super) const TOP_ROOM: f64 = 17.0;
+pub(super) const TOP_ROOM: f64 = 14.0;
 /// Room below the sections for the names of buttocks [mm].
 pub(super) const BOTTOM_ROOM: f64 = 9.0;
 /// Grid lines go this far beyond the hull [mm].
@@ -60,9 +60,9 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
         let sign = half.sign();
         let project = |points: &[[f64; 3]]| points.iter().map(|p| [sign * p[1], p[2]]).collect::<Vec<_>>();
         for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
-            for curve in &plane.curves {
+            for (k, curve) in plane.curves.iter().enumerate() {
                 let placed = view.draw(canvas, project(curve), &STATION);
-                owners.push((&plane.name, length(&placed)));
+                owners.push((&plane.name, if k < plane.on_side { length(&placed) } else { 0.0 }));
                 placer.add_curve(&placed);
             }
         }

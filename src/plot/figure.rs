@@ -24,9 +24,9 @@ pub enum PlotError {
     PictureSize {
         /// Resolution asked for.
         dots_per_inch: f64,
-        /// Width [pixels].
+        /// Width, in pixels.
         width: f64,
-        /// Height [pixels].
+        /// Height, in pixels.
         height: f64,
     },
     /// The picture could not be packed.
@@ -126,6 +126,23 @@ impl Figure {
     }
 
     /// Draws the figure.
+    ///
+    /// ```
+    /// use loftsman::hydrostatics::{Conventions, CurvesOfForm};
+    /// use loftsman::parametric::analytic::{Dimensions, wigley};
+    /// use loftsman::plot::{Figure, FigureInputs};
+    ///
+    /// let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
+    /// let hull = wigley("Wigley", &dimensions).map_err(|_| "dimensions out of range")?.hull;
+    /// let conventions = Conventions::default();
+    /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
+    /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
+    /// let inputs = FigureInputs { hull: &hull, design: &design.rows[0], curves: &curves };
+    /// let lines = Figure::Lines.draw(&inputs)?;
+    /// assert!(lines.as_str().starts_with("<svg"));
+    /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`PlotError`] when there is nothing to draw.

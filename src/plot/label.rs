@@ -136,7 +136,7 @@ impl LabelPlacer {
             let place = Canvas::text_place(at, name, style);
             if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
                 // Names side by side need more room between them than names in rows.
-                let (beside, above) = (0.45 * style.size, 0.08 * style.size);
+                let (beside, above) = (0.35 * style.size, 0.08 * style.size);
                 self.take(Rectangle::new(
                     place.left - beside,
                     place.top - above,

@@ -25,10 +25,13 @@ fn ship(name: &str, ship_type: ShipType, [length, breadth, draught, depth, block
     cosh::generate(name, &wishes).unwrap().hull
 }
 
-/// Fine with a transom, full with a parallel body, short with sheer.
+/// Sharp at both ends, flat at both ends; fine with a transom, full with a parallel body, short with sheer.
 fn hulls() -> Vec<Hull> {
+    let body = |breadth| Dimensions { length: 40.0, breadth, draught: 3.0, depth: 5.0 };
     vec![
         wigley(),
+        analytic::rectangular_box("box", &body(12.0)).unwrap().hull,
+        ship("container ship", ShipType::Container, [230.0, 32.2, 11.5, 19.0, 0.65]),
         ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]),
         ship("bulk carrier", ShipType::BulkCarrier, [180.0, 30.0, 11.0, 16.0, 0.82]),
         ship("fishing vessel", ShipType::Fishing, [23.0, 7.0, 2.9, 4.0, 0.52]),

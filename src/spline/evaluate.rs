@@ -103,47 +103,39 @@ impl<const D: usize> BsplineSurface<D> {
     }
 
     fn jet_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceJet<D> {
-        let [point, du, dv, duu, duv, dvv] = match D {
-            3 => self.jet_lanes::<K, 4>(u, v).map(|lanes| narrow(&lanes)),
-            2 => self.jet_lanes::<K, 2>(u, v).map(|lanes| narrow(&lanes)),
-            _ => self.jet_lanes::<K, D>(u, v).map(|lanes| narrow(&lanes)),
-        };
+        let [point, du, dv, duu, duv, dvv] = self.jet_lanes::<K>(u, v);
         SurfaceJet { point, du, dv, duu, duv, dvv }
     }
 
     #[inline(never)]
-    fn jet_lanes<const K: usize, const L: usize>(&self, u: f64, v: f64) -> [[f64; L]; 6] {
+    fn jet_lanes<const K: usize>(&self, u: f64, v: f64) -> [[f64; D]; 6] {
         let (first_u, basis_u) = self.u().orders_at_fixed::<K, 3>(u);
         let (first_v, basis_v) = self.v().orders_at_fixed::<K, 3>(v);
-        let mut result = [[0.0; L]; 6];
-        let strip = self.strip::<K, L>(first_u, first_v, &basis_u[0]);
+        let mut result = [[0.0; D]; 6];
+        let strip = self.strip::<K>(first_u, first_v, &basis_u[0]);
         result[0] = combine(&basis_v[0], &strip);
         result[2] = combine(&basis_v[1], &strip);
         result[5] = combine(&basis_v[2], &strip);
-        let strip = self.strip::<K, L>(first_u, first_v, &basis_u[1]);
+        let strip = self.strip::<K>(first_u, first_v, &basis_u[1]);
         result[1] = combine(&basis_v[0], &strip);
         result[4] = combine(&basis_v[1], &strip);
-        let strip = self.strip::<K, L>(first_u, first_v, &basis_u[2]);
+        let strip = self.strip::<K>(first_u, first_v, &basis_u[2]);
         result[3] = combine(&basis_v[0], &strip);
         result
     }
 
     fn tangents_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceTangents<D> {
-        let [point, du, dv] = match D {
-            3 => self.tangents_lanes::<K, 4>(u, v).map(|lanes| narrow(&lanes)),
-            2 => self.tangents_lanes::<K, 2>(u, v).map(|lanes| narrow(&lanes)),
-            _ => self.tangents_lanes::<K, D>(u, v).map(|lanes| narrow(&lanes)),
-        };
+        let [point, du, dv] = self.tangents_lanes::<K>(u, v);
         SurfaceTangents { point, du, dv }
     }
 
     #[inline(never)]
-    fn tangents_lanes<const K: usize, const L: usize>(&self, u: f64, v: f64) -> [[f64; L]; 3] {
+    fn tangents_lanes<const K: usize>(&self, u: f64, v: f64) -> [[f64; D]; 3] {
         let (first_u, basis_u) = self.u().orders_at_fixed::<K, 2>(u);
         let (first_v, basis_v) = self.v().orders_at_fixed::<K, 2>(v);
-        let strip = self.strip::<K, L>(first_u, first_v, &basis_u[0]);
+        let strip = self.strip::<K>(first_u, first_v, &basis_u[0]);
         let (point, dv) = (combine(&basis_v[0], &strip), combine(&basis_v[1], &strip));
-        let du = combine(&basis_v[0], &self.strip::<K, L>(first_u, first_v, &basis_u[1]));
+        let du = combine(&basis_v[0], &self.strip::<K>(first_u, first_v, &basis_u[1]));
         [point, du, dv]
     }
 
@@ -197,34 +189,23 @@ impl<const D: usize> BsplineSurface<D> {
         }
     }
 
-    /// The K x K net at (`first_u`, `first_v`), weighted and summed in u, in L lanes a point: the processor adds pairs, and a
-    /// lane beyond the coordinates (it holds part of the next point) costs less than taking the pairs apart.
+    /// The K x K net at (`first_u`, `first_v`), weighted and summed in u.
     #[inline(always)]
-    fn strip<const K: usize, const L: usize>(
-        &self,
-        first_u: usize,
-        first_v: usize,
-        weights: &[f64; K],
-    ) -> [[f64; L]; K] {
+    fn strip<const K: usize>(&self, first_u: usize, first_v: usize, weights: &[f64; K]) -> [[f64; D]; K] {
         let columns = self.v().basis_count();
-        let numbers = self.padded();
-        let mut strip = [[0.0; L]; K];
+        let numbers = self.points().as_flattened();
+        let mut strip = [[0.0; D]; K];
         for i in 0..K {
-            let row = &numbers[((first_u + i) * columns + first_v) * D..][..(K - 1) * D + L];
+            let row = &numbers[((first_u + i) * columns + first_v) * D..][..K * D];
             for j in 0..K {
-                for l in 0..L {
-                    strip[j][l] += weights[i] * row[j * D + l];
+                for l in 0..D {
+                    let term = weights[i] * row[j * D + l];
+                    strip[j][l] = if i == 0 { term } else { strip[j][l] + term };
                 }
             }
         }
         strip
     }
-}
-
-/// The first D lanes.
-#[inline(always)]
-fn narrow<const L: usize, const D: usize>(lanes: &[f64; L]) -> [f64; D] {
-    std::array::from_fn(|d| lanes[d])
 }
 
 /// The weighted sum of points.
@@ -233,7 +214,8 @@ fn combine<const K: usize, const L: usize>(weights: &[f64; K], points: &[[f64; L
     let mut sum = [0.0; L];
     for j in 0..K {
         for l in 0..L {
-            sum[l] += weights[j] * points[j][l];
+            let term = weights[j] * points[j][l];
+            sum[l] = if j == 0 { term } else { sum[l] + term };
         }
     }
     sum

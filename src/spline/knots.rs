@@ -246,7 +246,7 @@ impl KnotVector {
     /// As [`Self::orders_at`] where the order K, the degree plus 1, is known.
     ///
     /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the ends).
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn orders_at_fixed<const K: usize, const N: usize>(&self, t: f64) -> (usize, [[f64; K]; N]) {
         let t = self.clamp(t);
         let number = self.table.locate(t);

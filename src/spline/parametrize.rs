@@ -60,7 +60,7 @@ impl Parametrization {
         }
         mean.iter_mut().for_each(|m| *m /= used);
         mean[count - 1] = 1.0;
-        match mean.windows(2).position(|w| w[1].is_nan() || w[1] <= w[0]) {
+        match mean.windows(2).position(|w| w[0].is_nan() || w[1] <= w[0]) {
             Some(k) => Err(SplineError::Site { index: k + 1, value: mean[k + 1], problem: "points coincide" }),
             None => Ok(mean),
         }

@@ -8,7 +8,6 @@ use super::knots::{KnotVector, SplineError};
 pub struct BsplineSurface<const D: usize> {
     u: KnotVector,
     v: KnotVector,
-    /// The net and one point of padding behind it, so that evaluation may read whole pairs of numbers.
     points: Vec<[f64; D]>,
 }
 
@@ -29,9 +28,8 @@ impl<const D: usize> BsplineSurface<D> {
     }
 
     /// A surface whose parts are known to fit; used inside the kernel only.
-    pub(super) fn from_parts(u: KnotVector, v: KnotVector, mut points: Vec<[f64; D]>) -> Self {
+    pub(super) fn from_parts(u: KnotVector, v: KnotVector, points: Vec<[f64; D]>) -> Self {
         debug_assert_eq!(points.len(), u.basis_count() * v.basis_count());
-        points.push([0.0; D]);
         Self { u, v, points }
     }
 
@@ -58,13 +56,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// The net, `u` slowest.
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
-        &self.points[..self.points.len() - 1]
-    }
-
-    /// The numbers of the net, then D zeros.
-    #[inline]
-    pub(super) fn padded(&self) -> &[f64] {
-        self.points.as_flattened()
+        &self.points
     }
 
     /// Numbers of control points in u and in v.

@@ -157,24 +157,25 @@ pub(super) fn halve(c: &[f64; ORDER], degree: usize) -> [[f64; ORDER]; 2] {
 /// bisection keeps. When the signs do not differ, the end at which the value is smaller.
 pub(super) fn bracketed(c: &[f64], low: f64, high: f64, guess: f64) -> f64 {
     let (mut a, mut b) = (low, high);
-    let (at_a, at_b) = (value_and_slope(c, a).0, value_and_slope(c, b).0);
-    if at_a == 0.0 {
+    let ((at_a, slope_a), (at_b, slope_b)) = (value_and_slope(c, a), value_and_slope(c, b));
+    let rising = minus(at_a);
+    if rising == minus(at_b) {
+        return if at_a.abs() <= at_b.abs() { a } else { b };
+    }
+    // A zero at an end is the place only if the sign changes there; else the polynomial comes back to zero inside.
+    if at_a == 0.0 && slope_a < 0.0 {
         return a;
     }
-    if at_b == 0.0 {
+    if at_b == 0.0 && slope_b > 0.0 {
         return b;
-    }
-    let rising = at_a < 0.0;
-    if rising == (at_b < 0.0) {
-        return if at_a.abs() <= at_b.abs() { a } else { b };
     }
     let mut t = if guess > a && guess < b { guess } else { 0.5 * (a + b) };
     for _ in 0..120 {
         let (value, slope) = value_and_slope(c, t);
-        if value == 0.0 {
+        if value == 0.0 && (slope > 0.0) == rising {
             return t;
         }
-        if (value < 0.0) == rising {
+        if minus(value) == rising {
             a = t;
         } else {
             b = t;
@@ -257,6 +258,22 @@ mod tests {
         for (root, exact) in roots.iter().zip([0.2, 0.5, 0.9]) {
             assert!((root - exact).abs() < 1e-14, "{root} {exact}");
         }
+    }
+
+    #[test]
+    fn a_zero_at_an_end_is_not_taken_for_a_later_change() {
+        // t (0.5 - t): + at 0, rises, falls through 0 at 0.5.
+        let mut c = [0.0; ORDER];
+        c[..3].copy_from_slice(&[0.0, 0.25, -0.5]);
+        let mut roots = Vec::new();
+        sign_changes(&c, 2, &mut roots);
+        assert_eq!(roots.len(), 1);
+        assert!((roots[0] - 0.5).abs() < 1e-15);
+        // -t: + at 0 only.
+        roots.clear();
+        c[..3].copy_from_slice(&[0.0, -0.5, -1.0]);
+        sign_changes(&c, 2, &mut roots);
+        assert_eq!(roots, [0.0]);
     }
 
     #[test]

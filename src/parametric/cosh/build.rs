@@ -143,6 +143,9 @@ impl Resolved {
     /// An LCB of our own choice gives way: into the range that the usual body can have.
     fn search_lcb(&self, body: (f64, f64)) -> Option<(f64, Form, Sourced, Sourced)> {
         let form = self.form(body, 1.0);
+        if form.stern.cut_up >= 0.98 * body.0 {
+            return None;
+        }
         let nodes = form.height_nodes();
         self.waterplanes().into_iter().find_map(|waterplane| {
             let goal = self.goal(waterplane, self.lcb.value);
@@ -154,42 +157,53 @@ impl Resolved {
         })
     }
 
+    /// Breadth of the transom at the deck over B, with the sweep `sweep`.
+    fn transom_at(form: &Form, sweep: f64) -> f64 {
+        let mut trial = *form;
+        trial.stern.sweep = sweep;
+        trial.half_breadth(trial.stern.end, trial.depth) / trial.section.half_breadth
+    }
+
+    /// A form whose transom can have the breadth `wish`: the one given, or, where height and cut-up are ours to choose, the
+    /// nearest to the preset.
+    fn transom_in_reach(&self, form: &Form, goal: &Goal, wish: f64) -> Option<Form> {
+        let holds =
+            |form: &Form| Self::transom_at(form, 0.0) <= wish && wish <= Self::transom_at(form, Stern::LARGEST_SWEEP);
+        if holds(form) {
+            return Some(*form);
+        }
+        let free =
+            |wish: Sourced, scales: &'static [f64]| if wish.origin == Origin::Given { &scales[..1] } else { scales };
+        let heights = free(self.transom_height, &[1.0, 1.06, 0.94, 0.88, 0.8]);
+        let rises = free(self.cut_up, &[1.0, 0.8, 1.2, 0.6, 1.5, 0.4, 0.25]);
+        rises.iter().flat_map(|rise| heights.iter().map(move |height| (rise, height))).find_map(|(rise, height)| {
+            let mut trial = *form;
+            trial.stern.cut_up = (form.stern.cut_up * rise).min(0.85 * form.aft_shoulder);
+            trial.stern.height = (form.stern.height * height).min(0.5 * (self.draught + self.depth));
+            let found = solve::solve(&trial, &trial.height_nodes(), goal, false)?;
+            holds(&found.form).then_some(found.form)
+        })
+    }
+
     /// The sweep of the stern profile that gives the transom its breadth, by repeated solution at one entrance.
     fn fit_transom(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
         let Some(wish) = self.transom_breadth else { return Ok(form) };
-        let mut form = form;
-        let breadth_at = |form: &Form, sweep: f64| {
-            let mut trial = *form;
-            trial.stern.sweep = sweep;
-            trial.half_breadth(trial.stern.end, trial.depth) / trial.section.half_breadth
+        let refused = |form: &Form| {
+            let (low, high) = (Self::transom_at(form, 0.0), Self::transom_at(form, Stern::LARGEST_SWEEP));
+            vec![Infeasible {
+                code: "E112",
+                keys: vec!["transom_beam", "transom_height", "cut_up"],
+                message: format!(
+                    "a transom of {wish:.3} B at the deck is out of reach: {low:.3} to {high:.3} B with its lowest point at {:.3} m and the cut-up at {:.3} m; a lower transom or a longer cut-up widens it",
+                    form.stern.height, form.stern.cut_up
+                ),
+            }]
         };
+        let Some(mut form) = self.transom_in_reach(&form, goal, wish) else { return Err(refused(&form)) };
         for _ in 0..40 {
-            let (low, high) = (breadth_at(&form, 0.0), breadth_at(&form, Stern::LARGEST_SWEEP));
-            // A height of our own choice gives way.
-            let step = if wish < low { 0.04 } else { -0.04 } * self.draught;
-            let height = form.stern.height + step;
-            let free = self.transom_height.origin != Origin::Given;
-            if (wish < low || wish > high)
-                && free
-                && (0.6 * self.draught..0.5 * (self.draught + self.depth)).contains(&height)
-            {
-                let mut trial = form;
-                trial.stern.height = height;
-                let nodes = trial.height_nodes();
-                if let Some(found) = solve::solve(&trial, &nodes, goal, false) {
-                    form = found.form;
-                    continue;
-                }
-            }
-            let Ok(sweep) = bracketed_root(|w| breadth_at(&form, w) - wish, 0.0, Stern::LARGEST_SWEEP, 1e-13) else {
-                return Err(vec![Infeasible {
-                    code: "E112",
-                    keys: vec!["transom_beam", "transom_height", "cut_up"],
-                    message: format!(
-                        "a transom of {wish:.3} B at the deck is out of reach: {low:.3} to {high:.3} B with its lowest point at {:.3} m and the cut-up at {:.3} m; a lower transom or a longer cut-up widens it",
-                        form.stern.height, form.stern.cut_up
-                    ),
-                }]);
+            let excess = |sweep| Self::transom_at(&form, sweep) - wish;
+            let Ok(sweep) = bracketed_root(excess, 0.0, Stern::LARGEST_SWEEP, 1e-13) else {
+                return Err(refused(&form));
             };
             let change = (sweep - form.stern.sweep).abs();
             form.stern.sweep = sweep;
