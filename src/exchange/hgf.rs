@@ -259,10 +259,22 @@ mod tests {
         let ship = read_hgf(FIRST).unwrap();
         let p = ship.parameters;
         assert_eq!(ship.name, "Ship 2");
-        assert_eq!([p.length, p.breadth, p.depth, p.draught], [80.0, 12.0, 8.0, 4.5]);
-        assert_eq!([p.midship_fullness, p.bow, p.transom_fullness, p.forward_deck], [1.4, 0.2, 1.3, 0.7]);
-        assert_eq!([p.transom_breadth_ratio, p.transom_tip_ratio, p.aft_cut_up_ratio], [0.8, 0.5, 0.25]);
-        assert_eq!([p.keel_forward_ratio, p.side_slope], [0.85, 0.1]);
+        let expected = Parameters {
+            length: 80.0,
+            breadth: 12.0,
+            depth: 8.0,
+            draught: 4.5,
+            midship_fullness: 1.4,
+            bow: 0.2,
+            transom_fullness: 1.3,
+            forward_deck: 0.7,
+            transom_breadth_ratio: 0.8,
+            transom_tip_ratio: 0.5,
+            aft_cut_up_ratio: 0.25,
+            keel_forward_ratio: 0.85,
+            side_slope: 0.1,
+        };
+        assert_eq!(p, expected);
     }
 
     #[test]
