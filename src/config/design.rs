@@ -18,7 +18,7 @@ pub enum StationZero {
     Forward,
 }
 
-/// What is to be written about the hull; what is `None` gets the default of the report. Lengths [m].
+/// What is to be written about the hull; what is `None` gets the default of the report. Lengths \[m\].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// Draughts of the hydrostatic table.
@@ -379,7 +379,7 @@ fn wishes(document: &mut Document<'_>, density: f64, complain: bool) -> Wishes {
     wishes
 }
 
-/// Cb and displaced volume [m^3]; when both are given with L, B and T they must agree to 0.1 %.
+/// Cb and displaced volume \[m^3\]; when both are given with L, B and T they must agree to 0.1 %.
 fn size(document: &mut Document<'_>, dimensions: [Option<f64>; 3], density: f64) -> (Option<f64>, Option<f64>) {
     let block = document.number("form.Cb");
     let displacement = document.dimensioned("form.displacement");
@@ -405,7 +405,7 @@ fn size(document: &mut Document<'_>, dimensions: [Option<f64>; 3], density: f64)
     (block, None)
 }
 
-/// LCB from AP [m].
+/// LCB from AP \[m\].
 fn centre_of_buoyancy(document: &mut Document<'_>, length: f64) -> Option<f64> {
     let path = "form.LCB";
     let (raw, span, kind) = document.raw(path)?;
@@ -519,7 +519,7 @@ fn lengths_add_up(document: &mut Document<'_>, wishes: &Wishes) {
     }
 }
 
-/// A fraction of a dimension, or a length with its unit [m].
+/// A fraction of a dimension, or a length with its unit \[m\].
 fn scaled(document: &mut Document<'_>, path: &str, whole: Option<f64>, name: &str) -> Option<f64> {
     let measure = document.dimensioned(path)?;
     match (measure.dimension, whole) {
@@ -550,7 +550,7 @@ fn absent(document: &mut Document<'_>, path: &str, name: &str, else_do: &str) {
     );
 }
 
-/// Height of the lowest point of the transom [m], from either of its two keys.
+/// Height of the lowest point of the transom \[m\], from either of its two keys.
 fn transom(document: &mut Document<'_>, draught: Option<f64>, depth: Option<f64>) -> Option<f64> {
     let height = scaled(document, "form.stern.transom_height", depth, "D");
     let immersion = scaled(document, "form.stern.transom_immersion", draught, "T");

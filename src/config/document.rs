@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use super::diagnostic::{Diagnostic, Severity, position};
 use super::keys::{KEYS, Key};
 
-/// Files longer than this are not design files [bytes].
+/// Files longer than this are not design files \[bytes\].
 pub(super) const LARGEST: usize = 1 << 20;
 
 /// A value as it stands in the file.

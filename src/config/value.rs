@@ -223,7 +223,7 @@ impl Document<'_> {
         None
     }
 
-    /// Positions [m] of a list.
+    /// Positions \[m\] of a list.
     pub(super) fn positions(&mut self, path: &str) -> Option<Vec<f64>> {
         let (raw, span, kind) = self.raw(path)?;
         let list = match &raw {

@@ -9,7 +9,7 @@
 
 use crate::parametric::ucl_cosh::Parameters;
 
-/// Files longer than this are not read [bytes].
+/// Files longer than this are not read \[bytes\].
 const LARGEST: usize = 1 << 20;
 
 /// Why a text is not a `.hgf` file.

@@ -89,7 +89,7 @@ impl From<ConventionsRecord> for Conventions {
     }
 }
 
-/// The conventions as a JSON object: density [t/m^3], coefficient_length, section_for_Cp, shell, keel_thickness [m], KG [m],
+/// The conventions as a JSON object: density \[t/m^3\], coefficient_length, section_for_Cp, shell, keel_thickness \[m\], KG \[m\],
 /// and the reference points in words.
 #[must_use]
 pub fn conventions_json(conventions: &Conventions) -> Value {

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 pub struct ManifestEntry {
     /// Name of the file, without its folder.
     pub file: String,
-    /// Length [bytes].
+    /// Length \[bytes\].
     pub bytes: usize,
     /// SHA-256 in hexadecimal.
     pub sha256: String,

@@ -14,7 +14,7 @@ fn face(face: Face) -> &'static str {
     }
 }
 
-/// `branch,x,y,z` [m], branches counted from 1; chords stay within `deviation` [m] of the curves.
+/// `branch,x,y,z` \[m\], branches counted from 1; chords stay within `deviation` \[m\] of the curves.
 #[must_use]
 pub fn section_csv(section: &Section, deviation: f64) -> String {
     let mut text = String::from("branch,x,y,z\n");

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::hull::PrincipalParticulars;
 
-/// Main dimensions [m].
+/// Main dimensions \[m\].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Particulars {
     /// Length between perpendiculars.

@@ -118,7 +118,7 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
     }
 }
 
-/// The offsets of a hull at any stations, waterlines and buttocks [m].
+/// The offsets of a hull at any stations, waterlines and buttocks \[m\].
 #[must_use]
 pub fn offsets(hull: &Hull, stations: &[f64], waterlines: &[f64], buttocks: &[f64]) -> OffsetTable {
     let stations: Vec<OffsetStation> = stations.iter().map(|&x| OffsetStation { name: format!("{x}"), x }).collect();

@@ -74,7 +74,7 @@ fn extend(list: &mut Vec<f64>, item: usize, from: f64, to: f64, step: f64) -> Re
     Ok(())
 }
 
-/// The lengths [m] of a list, in the order written.
+/// The lengths \[m\] of a list, in the order written.
 ///
 /// # Errors
 /// [`ListError`] naming the item.

@@ -25,7 +25,7 @@ impl Notation {
         }
     }
 
-    /// `length` [m] as it is written; rounding to the quantum of the notation (none, 1 mm, 1/16 in) is to the nearest.
+    /// `length` \[m\] as it is written; rounding to the quantum of the notation (none, 1 mm, 1/16 in) is to the nearest.
     #[must_use]
     pub fn write(self, length: f64) -> String {
         match self {

@@ -9,17 +9,17 @@
 pub enum Dimension {
     /// A plain number.
     None,
-    /// Length [m].
+    /// Length \[m\].
     Length,
-    /// Angle [rad].
+    /// Angle \[rad\].
     Angle,
-    /// Mass [t].
+    /// Mass \[t\].
     Mass,
-    /// Volume [m^3].
+    /// Volume \[m^3\].
     Volume,
-    /// Density [t/m^3].
+    /// Density \[t/m^3\].
     Density,
-    /// Speed [m/s].
+    /// Speed \[m/s\].
     Speed,
     /// A ratio written with `%`; the value is the fraction.
     Percent,
@@ -144,7 +144,7 @@ fn number(text: &str) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::TooLarge(quoted(text))) }
 }
 
-/// `3-4-5`, `3-4-5+`, `-3-4-5-`: feet, inches, eighths, and a sixteenth more or less [m]; none when it does not look so.
+/// `3-4-5`, `3-4-5+`, `-3-4-5-`: feet, inches, eighths, and a sixteenth more or less \[m\]; none when it does not look so.
 fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
     let (sign, body) = match text.strip_prefix('-') {
         Some(rest) => (-1.0, rest),
@@ -283,7 +283,7 @@ pub fn parse(text: &str) -> Result<Measure, UnitError> {
     if sum.value.is_finite() { Ok(sum) } else { Err(UnitError::TooLarge(quoted(text))) }
 }
 
-/// A length [m]; a plain number is metres.
+/// A length \[m\]; a plain number is metres.
 ///
 /// # Errors
 /// [`UnitError`] when the text writes no length.
