@@ -11,7 +11,7 @@ use super::{DesignValue, Generated, Infeasible, Origin, Target};
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::spline::KnotVector;
 
-/// Main dimensions of a test body [m].
+/// Main dimensions of a test body \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dimensions {
     /// L.

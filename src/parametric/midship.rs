@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::numeric::bracketed_root;
 
-/// A midship section, one side [m, rad].
+/// A midship section, one side \[m, rad\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MidshipSection {
     /// B/2.

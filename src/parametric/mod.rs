@@ -129,7 +129,7 @@ pub struct Generated {
     pub remarks: Vec<Remark>,
 }
 
-/// C_B, C_M, x of LCB [m] and C_WP of a hull at its design draught, on L_PP and B, integrated exactly.
+/// C_B, C_M, x of LCB \[m\] and C_WP of a hull at its design draught, on L_PP and B, integrated exactly.
 fn achieved(hull: &crate::hull::Hull) -> [f64; 4] {
     use crate::hull::Functional;
     let p = *hull.particulars();

@@ -38,7 +38,7 @@ pub struct Preset {
     pub lcb_percent: f64,
     /// Exponent of the vertical law: 0 linear, positive U sections, negative V.
     pub section_character: f64,
-    /// Rake of the stem [deg].
+    /// Rake of the stem \[deg\].
     pub stem_rake_deg: f64,
     /// Stem at the keel aft of FP, over Lpp, beyond what the rake takes.
     pub forefoot: f64,

@@ -25,13 +25,13 @@ use crate::spline::KnotVector;
 /// Raw parameters, named as in `.hgf` files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
-    /// LOA [m]
+    /// LOA \[m\]
     pub length: f64,
-    /// BOA [m]
+    /// BOA \[m\]
     pub breadth: f64,
-    /// D [m]
+    /// D \[m\]
     pub depth: f64,
-    /// Design draught [m].
+    /// Design draught \[m\].
     pub draught: f64,
     /// `ms_val`: midship fullness, a = ms pi.
     pub midship_fullness: f64,
@@ -49,7 +49,7 @@ pub struct Parameters {
     pub aft_cut_up_ratio: f64,
     /// `kf_val`: fore end of the keel over LOA.
     pub keel_forward_ratio: f64,
-    /// `sa_val`: slope of the transom from the vertical [rad].
+    /// `sa_val`: slope of the transom from the vertical \[rad\].
     pub side_slope: f64,
 }
 

@@ -90,7 +90,7 @@ impl Law {
     }
 }
 
-/// Every number of the analytic hull [m, rad].
+/// Every number of the analytic hull \[m, rad\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Form {
     pub(super) length: f64,
@@ -273,12 +273,12 @@ impl Form {
         Integrals { volume, volume_moment, waterplane: breadth * area, waterplane_moment: breadth * moment }
     }
 
-    /// Half angle of entrance of the design waterline [rad].
+    /// Half angle of entrance of the design waterline \[rad\].
     pub(super) fn half_entrance(&self) -> f64 {
         (self.section.breadth_at(self.draught) * self.waterline(self.draught).entrance_slope()).atan()
     }
 
-    /// Half-breadth [m].
+    /// Half-breadth \[m\].
     pub(super) fn half_breadth(&self, x: f64, z: f64) -> f64 {
         self.section.breadth_at(z) * self.waterline(z).fraction(x)
     }

@@ -31,7 +31,7 @@ pub enum MidshipWish {
     Benford,
 }
 
-/// What is wished of a hull of the cosh family; what is `None` gets a default. Lengths [m], angles [rad], x from AP.
+/// What is wished of a hull of the cosh family; what is `None` gets a default. Lengths \[m\], angles \[rad\], x from AP.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Wishes {
     /// Type of ship whose preset fills what is left out.
@@ -46,7 +46,7 @@ pub struct Wishes {
     pub depth: Option<f64>,
     /// Cb, on Lpp.
     pub block_coefficient: Option<f64>,
-    /// Displaced volume [m^3]; with it Cb follows.
+    /// Displaced volume \[m^3\]; with it Cb follows.
     pub displacement_volume: Option<f64>,
     /// Cm.
     pub midship_coefficient: Option<MidshipWish>,

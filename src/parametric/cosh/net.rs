@@ -11,14 +11,14 @@ use crate::hull::{Functional, Hull, HullError, PrincipalParticulars};
 use crate::parametric::loft;
 use crate::spline::{BsplineCurve, Collocation, Condition, KnotVector, SplineError};
 
-/// Rise of the deck at side above D at FP and at AP [m].
+/// Rise of the deck at side above D at FP and at AP \[m\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sheer {
     pub(super) fore: f64,
     pub(super) aft: f64,
 }
 
-/// Coefficients that the finished hull shall have, as integrals [m^2, m^3, m^4].
+/// Coefficients that the finished hull shall have, as integrals \[m^2, m^3, m^4\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Exact {
     pub(super) volume: f64,

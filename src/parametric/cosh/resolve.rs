@@ -15,7 +15,7 @@ pub(super) struct Sourced {
     pub(super) origin: Origin,
 }
 
-/// The wishes with every gap filled [m, rad].
+/// The wishes with every gap filled \[m, rad\].
 #[derive(Debug, Clone)]
 pub(super) struct Resolved {
     pub(super) length: f64,

@@ -13,7 +13,7 @@ use super::form::{Form, HeightNode};
 use crate::numeric::bracketed_root;
 use crate::parametric::kernel::{HIGHEST_FULLNESS, LOWEST_FULLNESS};
 
-/// What the fullness is solved for [m, m^2, m^3, rad].
+/// What the fullness is solved for \[m, m^2, m^3, rad\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Goal {
     pub(super) volume: f64,
@@ -171,11 +171,11 @@ fn narrow(form: &Form, nodes: &[HeightNode], goal: &Goal) -> Option<Found> {
 /// Intervals that the family can reach with the profiles, the parallel body and the section of `form`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
-    /// Waterplane area [m^2].
+    /// Waterplane area \[m^2\].
     pub(super) waterplane: (f64, f64),
-    /// Volume at the waterplane area of the goal [m^3].
+    /// Volume at the waterplane area of the goal \[m^3\].
     pub(super) volume: (f64, f64),
-    /// x of LCB at the volume and waterplane area of the goal [m]; none when the volume is out of reach.
+    /// x of LCB at the volume and waterplane area of the goal \[m\]; none when the volume is out of reach.
     pub(super) lcb: Option<(f64, f64)>,
 }
 
