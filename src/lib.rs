@@ -1,4 +1,73 @@
-//! loftsman: the shape of ships.
+//! loftsman generates ship hulls as B-spline surfaces that hold their displacement, block coefficient, midship coefficient and
+//! centre of buoyancy exactly, and computes their hydrostatics and drawings.
+//!
+//! # A hull from particulars
+//!
+//! ```
+//! use loftsman::parametric::ShipType;
+//! use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+//!
+//! let wishes = Wishes {
+//!     ship_type: Some(ShipType::BulkCarrier),
+//!     length: 217.0,
+//!     breadth: Some(32.25),
+//!     draught: Some(12.2),
+//!     block_coefficient: Some(0.80),
+//!     midship_coefficient: Some(MidshipWish::Value(0.99)),
+//!     ..Wishes::default()
+//! };
+//! let ship = cosh::generate("bulk carrier", &wishes).expect("feasible");
+//! for target in &ship.targets {
+//!     assert!((target.achieved - target.requested).abs() < 1e-10 * target.requested.max(1.0));
+//! }
+//! // What cannot be had is refused with numbers.
+//! let refused = cosh::generate("no ship", &Wishes { block_coefficient: Some(0.995), ..wishes }).unwrap_err();
+//! assert!(refused.iter().any(|problem| problem.message.contains("Cb")));
+//! ```
+//!
+//! # Hydrostatics
+//!
+//! ```
+//! use loftsman::hydrostatics::{Conventions, CurvesOfForm};
+//! use loftsman::parametric::analytic::{self, Dimensions};
+//!
+//! let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
+//! let hull = analytic::wigley("Wigley", &dimensions).expect("valid dimensions").hull;
+//! let table = CurvesOfForm::new(&hull, &[3.0, 6.25], &Conventions::default());
+//! assert!((table.rows[1].displacement_volume - 4.0 / 9.0 * 6250.0).abs() < 1e-8);
+//! assert!((table.rows[1].kb.expect("immersed") - 5.0 / 8.0 * 6.25).abs() < 1e-10);
+//! ```
+//!
+//! # Sections and offsets
+//!
+//! ```
+//! use loftsman::hull::{Cut, Functional};
+//! use loftsman::parametric::analytic::{self, Dimensions};
+//!
+//! let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
+//! let hull = analytic::wigley("Wigley", &dimensions).expect("valid dimensions").hull;
+//! let buttock = hull.section(Cut::Buttock { y: 2.0 }, 1e-9);
+//! assert_eq!(buttock.branches.len(), 1);
+//! assert!((hull.half_breadth(50.0, 6.25).expect("on the hull") - 5.0).abs() < 1e-12);
+//! // Volume is a row over the net: linear in the half-breadths.
+//! let row = Functional::Volume.row(&hull, 6.25);
+//! let volume: f64 = row.iter().zip(hull.surface().points()).map(|(r, p)| r * p[1]).sum();
+//! assert!((volume - Functional::Volume.value(&hull, 6.25)).abs() < 1e-9);
+//! ```
+//!
+//! # Splines
+//!
+//! ```
+//! use loftsman::spline::{BsplineCurve, KnotVector};
+//!
+//! let knots = KnotVector::uniform(3, 4).expect("valid knots");
+//! let points = knots.greville().iter().map(|&t| [t, t * t]).collect();
+//! let curve = BsplineCurve::new(knots, points).expect("as many points as basis functions");
+//! let [point, tangent, _second] = curve.derivatives::<3>(0.5);
+//! assert!((point[0] - 0.5).abs() < 1e-15 && (tangent[0] - 1.0).abs() < 1e-14);
+//! ```
+//!
+//! The floors of the library and what belongs where are in `ARCHITECTURE.md`.
 #![cfg_attr(
     not(test),
     warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)

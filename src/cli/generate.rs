@@ -10,9 +10,10 @@ use crate::report::{Failure, generate_outputs, read_design, summary_page, write_
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// Design file: TOML, or .hgf
-    design: PathBuf,
-    /// Folder for the files [default: out/<name of the design file>]
+    /// Design files: TOML, or .hgf
+    #[arg(required = true, value_name = "DESIGN")]
+    designs: Vec<PathBuf>,
+    /// Folder for the files; with several designs, a folder in it for each [default: out/<name of the design file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Overwrite files that are there already
@@ -40,7 +41,21 @@ fn figure(word: &str) -> Result<Figure, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let (design, bytes) = read_design(&arguments.design)?;
+    arguments.designs.iter().try_for_each(|design| generate(arguments, design))
+}
+
+/// Where the files of one design go.
+fn folder(arguments: &Arguments, design: &Path) -> PathBuf {
+    let name = design.file_stem().unwrap_or_else(|| "design".as_ref());
+    match &arguments.output {
+        Some(folder) if arguments.designs.len() == 1 => folder.clone(),
+        Some(folder) => folder.join(name),
+        None => Path::new("out").join(name),
+    }
+}
+
+fn generate(arguments: &Arguments, path: &Path) -> Result<(), Failure> {
+    let (design, bytes) = read_design(path)?;
     let figures: Vec<Figure> = if arguments.no_figures {
         Vec::new()
     } else if arguments.figures.is_empty() {
@@ -48,11 +63,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         arguments.figures.clone()
     };
-    let folder = arguments
-        .output
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(arguments.design.file_stem().unwrap_or_else(|| "design".as_ref())));
-    let outputs = generate_outputs(&design, (&arguments.design, &bytes), &figures)?;
+    let folder = folder(arguments, path);
+    let outputs = generate_outputs(&design, (path, &bytes), &figures)?;
     write_all(&folder, &outputs.files, arguments.force)?;
     if !arguments.quiet {
         for remark in &outputs.remarks {

@@ -3,6 +3,7 @@
 use super::diagnostic::{Diagnostic, Severity, position};
 use super::document::{Document, Raw};
 use super::keys::{FAMILIES, FIGURES, Kind};
+use super::reference::{Reference, reference};
 use super::value::Scalar;
 use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, Shell};
 use crate::parametric::cosh::{MidshipWish, Wishes};
@@ -62,6 +63,8 @@ pub struct Design {
     pub conventions: Conventions,
     /// What is to be written.
     pub output: Output,
+    /// Published figures to stand beside those of the hull.
+    pub reference: Option<Reference>,
     file: String,
     places: Vec<Place>,
 }
@@ -82,6 +85,7 @@ impl Design {
             family,
             conventions: Conventions::default(),
             output: Output::default(),
+            reference: None,
             file: file.to_owned(),
             places: Vec::new(),
         }
@@ -151,6 +155,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
         _ => Family::Cosh(Box::new(wishes(document, conventions.density, family_word.is_some()))),
     };
     let output = output(document);
+    let reference = reference(document);
     let places = document
         .entries
         .iter()
@@ -160,7 +165,15 @@ fn interpret(document: &mut Document<'_>) -> Design {
         })
         .collect();
     let file = document.file.to_owned();
-    Design { name: name.unwrap_or_else(|| stem(&file).to_owned()), family, conventions, output, file, places }
+    Design {
+        name: name.unwrap_or_else(|| stem(&file).to_owned()),
+        family,
+        conventions,
+        output,
+        reference,
+        file,
+        places,
+    }
 }
 
 /// Keys that the family does not have.

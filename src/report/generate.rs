@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::files::OutputFile;
+use super::markdown::markdown_page;
 use super::source::build;
 use crate::config::{Design, Diagnostic, Severity};
 use crate::exchange::{
@@ -134,15 +135,26 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         });
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
+    let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };
+    let references: Vec<_> = design.reference.iter().cloned().collect();
+    let rows: Vec<CurvesOfForm> = references
+        .iter()
+        .map(|reference| {
+            let draughts: Vec<f64> = reference.rows.iter().map(|row| row.draught).collect();
+            CurvesOfForm::new(&outputs.hull, &draughts, &design.conventions)
+        })
+        .collect();
+    outputs.files.push(OutputFile::text("report.md", markdown_page(&outputs, &references, &rows)));
+    outputs.files.sort_by(|a, b| a.name.cmp(&b.name));
     let name = input.0.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let manifest = Manifest {
         program: env!("CARGO_PKG_NAME"),
         version: env!("CARGO_PKG_VERSION"),
         input: ManifestEntry::new(&name, input.1),
-        outputs: files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
+        outputs: outputs.files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
     };
     let mut manifest_text = serde_json::to_string_pretty(&manifest).map_err(|e| internal("manifest.json", &e))?;
     manifest_text.push('\n');
-    files.push(OutputFile::text("manifest.json", manifest_text));
-    Ok(Outputs { hull, summary, design_row, table, remarks, files })
+    outputs.files.push(OutputFile::text("manifest.json", manifest_text));
+    Ok(outputs)
 }

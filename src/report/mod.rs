@@ -3,6 +3,7 @@
 mod failure;
 mod files;
 mod generate;
+mod markdown;
 mod page;
 mod self_test;
 mod source;

@@ -9,7 +9,7 @@ use crate::hydrostatics::{
 const WIDTH: usize = 80;
 
 /// Value of a quantity with its decimals; empty when it is not defined.
-fn value(row: &Hydrostatics, key: &str) -> String {
+pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
     QUANTITIES
         .iter()
         .find(|quantity| quantity.key == key)
@@ -19,7 +19,7 @@ fn value(row: &Hydrostatics, key: &str) -> String {
         .unwrap_or_default()
 }
 
-fn unit(key: &str) -> &'static str {
+pub(super) fn unit(key: &str) -> &'static str {
     QUANTITIES
         .iter()
         .find(|quantity| quantity.key == key)
@@ -44,7 +44,7 @@ fn wrapped(text: &str, indent: usize) -> String {
     lines.join("\n") + "\n"
 }
 
-fn conventions_line(c: &Conventions) -> String {
+pub(super) fn conventions_line(c: &Conventions) -> String {
     let length = match c.coefficient_length {
         CoefficientLength::BetweenPerpendiculars => "Lpp",
         CoefficientLength::Waterline => "Lwl",

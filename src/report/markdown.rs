@@ -1,0 +1,98 @@
+//! The page about a hull: what was asked, what it is, its figures, and published figures beside its own.
+
+use std::fmt::Write as _;
+
+use super::generate::Outputs;
+use super::page::{conventions_line, unit, value};
+use crate::config::Reference;
+use crate::hydrostatics::{CurvesOfForm, QUANTITIES};
+
+/// The page as Markdown. `rows` are the hydrostatics at the draughts of each reference, in the order of the references.
+pub(super) fn markdown_page(outputs: &Outputs, references: &[Reference], rows: &[CurvesOfForm]) -> String {
+    let mut page = String::new();
+    // Writing to a String cannot fail.
+    let _ = write_page(&mut page, outputs, references, rows);
+    page
+}
+
+/// Quantities of a reference in one table.
+const COLUMNS: usize = 5;
+
+/// Text that stands in a cell of a table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ")
+}
+
+fn write_page(
+    page: &mut String,
+    outputs: &Outputs,
+    references: &[Reference],
+    rows: &[CurvesOfForm],
+) -> std::fmt::Result {
+    let summary = &outputs.summary;
+    let p = summary.particulars;
+    writeln!(page, "# {}\n", summary.name)?;
+    writeln!(page, "Family {}; Lpp {:.3} m, B {:.3} m, T {:.3} m, D {:.3} m.\n", summary.family, p.lpp, p.b, p.t, p.d)?;
+    if !summary.targets.is_empty() {
+        writeln!(page, "| | requested | achieved | error | origin |\n|---|---|---|---|---|")?;
+        for t in &summary.targets {
+            writeln!(page, "| {} | {:.6} | {:.6} | {:.0e} | {} |", t.key, t.requested, t.achieved, t.error, t.origin)?;
+        }
+        writeln!(page)?;
+    }
+    for remark in &summary.remarks {
+        writeln!(page, "* {}", cell(remark))?;
+    }
+    for file in &outputs.files {
+        if file.name.ends_with(".png") || file.name.ends_with(".svg") {
+            writeln!(page, "![{}]({})\n", file.name, file.name)?;
+        }
+    }
+    writeln!(page, "## At the design draught\n\n{}", conventions_line(&outputs.table.conventions))?;
+    writeln!(page, "| | | value | unit |\n|---|---|---|---|")?;
+    for quantity in QUANTITIES {
+        let shown = value(&outputs.design_row, quantity.key);
+        if !shown.is_empty() {
+            writeln!(page, "| {} | {} | {} | {} |", quantity.key, cell(quantity.name), shown, unit(quantity.key))?;
+        }
+    }
+    writeln!(page, "\n## Design\n\n| | | value | unit | origin | from |\n|---|---|---|---|---|---|")?;
+    for v in &summary.values {
+        let number = v.value.map(|value| format!("{value:.4}")).unwrap_or_default();
+        writeln!(
+            page,
+            "| {} | {} | {number} | {} | {} | {} |",
+            v.key,
+            cell(v.name),
+            v.unit,
+            v.origin,
+            cell(&v.source)
+        )?;
+    }
+    for (reference, ours) in references.iter().zip(rows) {
+        writeln!(page, "\n## Against {}\n", reference.source)?;
+        for note in reference.note.lines().filter(|line| !line.trim().is_empty()) {
+            writeln!(page, "{}\n", note.trim())?;
+        }
+        writeln!(page, "Theirs, ours, ours less theirs in %.\n")?;
+        // Five quantities a table, so that it can be read without scrolling.
+        for (block, keys) in reference.columns.chunks(COLUMNS).enumerate() {
+            writeln!(page, "| T | {} | | |", keys.join(" | | | "))?;
+            writeln!(page, "|---|{}", "---|".repeat(3 * keys.len()))?;
+            for (line, row) in reference.rows.iter().zip(&ours.rows) {
+                write!(page, "| {} |", line.draught)?;
+                for (key, theirs) in keys.iter().zip(line.values.iter().skip(COLUMNS * block)) {
+                    let difference = QUANTITIES
+                        .iter()
+                        .find(|quantity| quantity.key == *key)
+                        .and_then(|quantity| (quantity.value)(row))
+                        .map(|ours| format!("{:+.2}", reference.difference_percent(*theirs, ours)));
+                    write!(page, " {theirs} | {} | {} |", value(row, key), difference.unwrap_or_default())?;
+                }
+                writeln!(page)?;
+            }
+            writeln!(page)?;
+        }
+    }
+    Ok(())
+}
