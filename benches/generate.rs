@@ -1,0 +1,51 @@
+//! The whole generator, from wishes to the exact hull, without tables and drawings.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use loftsman::parametric::ShipType;
+use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::ucl_cosh;
+use std::hint::black_box;
+
+fn wishes(ship: ShipType, dimensions: [f64; 4], block: f64, midship: f64) -> Wishes {
+    Wishes {
+        ship_type: Some(ship),
+        length: dimensions[0],
+        breadth: Some(dimensions[1]),
+        draught: Some(dimensions[2]),
+        depth: Some(dimensions[3]),
+        block_coefficient: Some(block),
+        midship_coefficient: Some(MidshipWish::Value(midship)),
+        ..Wishes::default()
+    }
+}
+
+fn generate(c: &mut Criterion) {
+    let mut group = c.benchmark_group("generate");
+    for (name, wishes) in [
+        ("bulk carrier", wishes(ShipType::BulkCarrier, [217.0, 32.25, 12.2, 18.0], 0.80, 0.99)),
+        ("frigate", wishes(ShipType::Frigate, [142.0, 19.06, 6.15, 12.0], 0.50, 0.80)),
+        ("fishing vessel", wishes(ShipType::Fishing, [21.04, 6.86, 2.5, 3.7], 0.50, 0.80)),
+    ] {
+        group.bench_function(name, |b| b.iter(|| cosh::generate("bench", black_box(&wishes))));
+    }
+    let raw = ucl_cosh::Parameters {
+        length: 100.0,
+        breadth: 15.0,
+        depth: 9.4,
+        draught: 5.0,
+        midship_fullness: 1.5,
+        bow: 0.1,
+        transom_fullness: 1.5,
+        forward_deck: 0.8,
+        transom_breadth_ratio: 0.9,
+        transom_tip_ratio: 0.4,
+        aft_cut_up_ratio: 0.2,
+        keel_forward_ratio: 0.9,
+        side_slope: 0.13,
+    };
+    group.bench_function("raw frigate", |b| b.iter(|| ucl_cosh::generate("bench", black_box(&raw))));
+    group.finish();
+}
+
+criterion_group!(benches, generate);
+criterion_main!(benches);
