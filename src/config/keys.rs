@@ -315,6 +315,7 @@ pub const KEYS: &[Key] = &[
         &[],
         "Buttocks of the heights table, from the centreplane [m]. Default: quarters of B/2.",
     ),
+    key("output", "figures", Kind::Figures, &[], "Figures to draw: names, \"all\" or \"none\". Default \"all\"."),
     key("reference", "source", Kind::Text, &[], "Where published hydrostatics of the ship stand."),
     key("reference", "note", Kind::Text, &[], "What explains the differences; printed above the comparison."),
     key(
@@ -324,7 +325,6 @@ pub const KEYS: &[Key] = &[
         &[],
         "Published hydrostatics, text with commas: a line of ITTC codes with T among them, then one line a draught.",
     ),
-    key("output", "figures", Kind::Figures, &[], "Figures to draw: names, \"all\" or \"none\". Default \"all\"."),
 ];
 
 #[cfg(test)]

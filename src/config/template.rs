@@ -198,6 +198,9 @@ fn sample(path: &str) -> &'static str {
         "output.waterlines" => "\"0:7:0.5\"",
         "output.buttocks" => "\"1,2,3\"",
         "output.figures" => "\"all\"",
+        "reference.source" => "\"tank report 123, page 4\"",
+        "reference.note" => "\"keel draughts in the report\"",
+        "reference.table" => "\"T,DISPVOL\\n3.0,1234.5\"",
         _ => "0.0",
     }
 }
