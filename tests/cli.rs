@@ -63,6 +63,7 @@ fn generate_writes_its_files_and_one_screen() {
         "lines.png",
         "manifest.json",
         "offsets.csv",
+        "report.md",
         "sectional-area.png",
         "sections.svg",
         "summary.json",
