@@ -37,6 +37,7 @@ impl Resolved {
             fore_shoulder,
             entrance: law,
             run: law,
+            softness: 0.0,
         }
     }
 
@@ -221,6 +222,27 @@ impl Resolved {
         Ok(form)
     }
 
+    /// Gives the ends the soft section, and solves again for what that leaves to do; where the fullness has no room for it,
+    /// the form stays as it is.
+    fn soften(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
+        let mut soft = form;
+        soft.soften(self.midship.value);
+        if soft.softness <= 0.0 {
+            return Ok(form);
+        }
+        for _ in 0..6 {
+            let nodes = soft.height_nodes();
+            let (volume, moment) = soft.softening(&nodes);
+            let left = goal.volume - volume;
+            let goal = Goal { volume: left, lcb: (goal.volume * goal.lcb - moment) / left, ..*goal };
+            match solve::at_entrance(&soft, &nodes, &goal, soft.entrance.waterline) {
+                Some(found) => soft = self.fit_transom(found, &goal)?,
+                None => return Ok(form),
+            }
+        }
+        Ok(soft)
+    }
+
     /// The flare above the waterline at 0.9 Lpp.
     fn fit_flare(&self, form: Form) -> Result<Form, Vec<Infeasible>> {
         let Some(wish) = self.flare else { return Ok(form) };
@@ -351,7 +373,7 @@ impl Resolved {
             return Err(self.infeasible(&form, &nodes, &self.goal(self.waterplane.value, self.lcb.value)));
         };
         let goal = self.goal(waterplane.value, lcb.value);
-        let form = self.fit_flare(self.fit_transom(form, &goal)?)?;
+        let form = self.fit_flare(self.soften(self.fit_transom(form, &goal)?, &goal)?)?;
 
         let (l, b, t) = (self.length, self.breadth, self.draught);
         let particulars =
