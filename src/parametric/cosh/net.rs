@@ -62,8 +62,13 @@ fn girth_knots(form: &Form, top: f64) -> Result<KnotVector, SplineError> {
     let section = &form.section;
     let (floor, bilge) = section.girths();
     let total = section.girth_at(top);
-    let mut lines: Vec<(f64, usize)> =
-        vec![(0.0, 4), (floor, 2), (floor + bilge, 2), (section.girth_at(form.draught), 1), (total, 4)];
+    let mut lines: Vec<(f64, usize)> = vec![(0.0, 4), (section.girth_at(form.draught), 1), (total, 4)];
+    if bilge < 1e-6 * total {
+        // A hard chine.
+        lines.push((floor, 3));
+    } else {
+        lines.extend([(floor, 2), (floor + bilge, 2)]);
+    }
     if form.stern.transom && form.stern.height < top {
         lines.push((section.girth_at(form.stern.height), 3));
     }
