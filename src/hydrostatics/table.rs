@@ -3,9 +3,11 @@
 use super::conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
 use super::quantity::Hydrostatics;
 use super::sections::{Sections, sections};
+use super::station::Stations;
 use super::volume::{Body, bodies};
 use super::waterplane::{Rule, Waterplane, bottom_area, waterplane};
 use crate::hull::{Hull, Immersion, UpperEnd};
+use crate::spline::MAX_DEGREE;
 
 /// Hydrostatics of a hull at a list of draughts.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +34,7 @@ impl CurvesOfForm {
         let midship = 0.5 * hull.particulars().length_between_perpendiculars;
         let rule = Rule::new(hull);
         let bottom = bottom_area(hull, &rule);
-        let bodies = bodies(hull, &immersions, midship);
-        let sections = sections(hull, &immersions);
+        let Parts { bodies, sections } = parts(hull, &immersions, midship);
         let mut rows = Vec::with_capacity(draughts.len());
         for (((&draught, immersion), body), section) in draughts.iter().zip(&immersions).zip(&bodies).zip(&sections) {
             let Some(immersion) = immersion else {
@@ -47,6 +48,30 @@ impl CurvesOfForm {
         }
         Self { conventions: *conventions, rows }
     }
+}
+
+/// What the passes over the surface and along stations give for each draught.
+struct Parts {
+    bodies: Vec<Body>,
+    sections: Vec<Sections>,
+}
+
+/// The passes, for the order in v.
+fn parts(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Parts {
+    match hull.surface().v().degree() {
+        1 => parts_of::<2>(hull, immersions, midship),
+        2 => parts_of::<3>(hull, immersions, midship),
+        3 => parts_of::<4>(hull, immersions, midship),
+        4 => parts_of::<5>(hull, immersions, midship),
+        5 => parts_of::<6>(hull, immersions, midship),
+        6 => parts_of::<7>(hull, immersions, midship),
+        _ => parts_of::<{ MAX_DEGREE + 1 }>(hull, immersions, midship),
+    }
+}
+
+fn parts_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Parts {
+    let stations = Stations::<N>::new(hull);
+    Parts { bodies: bodies(&stations, immersions, midship), sections: sections(&stations, immersions) }
 }
 
 /// The row of a draught below the hull, or of one that is no number.
