@@ -224,10 +224,9 @@ impl KnotLines {
         for u in knots.breakpoints() {
             let span = knots.find_span(u);
             let basis = knots.basis(span, u);
-            values.extend(
-                (0..columns)
-                    .map(|j| basis.iter().take(p + 1).enumerate().map(|(i, b)| b * surface.point(span - p + i, j)[0]).sum::<f64>()),
-            );
+            values.extend((0..columns).map(|j| {
+                basis.iter().take(p + 1).enumerate().map(|(i, b)| b * surface.point(span - p + i, j)[0]).sum::<f64>()
+            }));
         }
         let scale = surface.points().iter().map(|point| point[0].abs()).fold(0.0, f64::max);
         Self { values, columns, scale }

@@ -22,7 +22,7 @@ pub(super) fn volumes_to_midship<const N: usize>(
     let start = knots.knots()[span];
     let pieces = stations.pieces(midship, f64::INFINITY);
     let mut at = (f64::NAN, 0.0);
-    let expansion = stations.expansion(&pieces, true, |piece, node| {
+    let expansion = stations.expansion(&pieces, true, midship.abs() * stations.size, |piece, node| {
         let u = match piece.place {
             Place::Aft => knots.domain().0,
             Place::Fore => knots.domain().1,

@@ -130,7 +130,7 @@ impl<'a, const N: usize> Table<'a, N> {
         let mut pieces = self.stations.pieces(x, highest);
         pieces.retain(|piece| matches!(piece.place, Place::Inside(_)));
         let mut at = (f64::NAN, 0.0);
-        let expansion = self.stations.expansion(&pieces, false, |piece, node| {
+        let expansion = self.stations.expansion(&pieces, false, self.stations.size, |piece, node| {
             if at.0.to_bits() != piece.from.to_bits() {
                 at = (piece.from, piece.start);
             }

@@ -25,6 +25,9 @@ const EXPANDED: usize = 12;
 const SETTLED_SUM: f64 = 1e-7;
 const SETTLED_EXPANSION: f64 = 1e-13;
 
+/// Last coefficients that are rounding, relative to the largest half-breadth times the height of the hull.
+const NEGLIGIBLE: f64 = 1e-14;
+
 /// Halvings of a piece at most.
 const HALVINGS: usize = 12;
 
@@ -83,8 +86,10 @@ pub(super) struct Stations<'a, const N: usize> {
     /// Nodes on whole spans in v, for each of the counts.
     grids: Vec<(usize, Vec<Node<N>>)>,
     transforms: Vec<Transform>,
-    /// Largest |x| of the net.
+    /// Largest |x| of the net [m].
     scale: f64,
+    /// Largest |y| of the net times the height of the hull [m^2].
+    pub(super) size: f64,
 }
 
 /// From the values at Gauss nodes to the coefficients of Legendre polynomials.
@@ -148,7 +153,8 @@ impl<const K: usize> Expansion<K> {
             // The inverse of t^2 (3 - 2t).
             if piece.profile { 0.5 - ((1.0 - 2.0 * share).asin() / 3.0).sin() } else { share }
         };
-        let below = self.series.partition_point(|s| s.piece.to <= end || (s.piece.from < end && s.part.1 <= t_of(&s.piece)));
+        let below =
+            self.series.partition_point(|s| s.piece.to <= end || (s.piece.from < end && s.part.1 <= t_of(&s.piece)));
         let Some(series) = self.series.get(below) else { return self.total };
         let mut sum = series.below;
         if end <= series.piece.from {
@@ -194,8 +200,7 @@ impl<'a, const N: usize> Stations<'a, N> {
                 factor *= 0.5 * (to - from) / (k + 1) as f64;
             }
             for &span_v in &spans_v {
-                let mut cell =
-                    Cell { x: [[0.0; N]; MAX_DEGREE + 1], y: [[0.0; N]; MAX_DEGREE + 1], slanting: false };
+                let mut cell = Cell { x: [[0.0; N]; MAX_DEGREE + 1], y: [[0.0; N]; MAX_DEGREE + 1], slanting: false };
                 for i in 0..=p {
                     for j in 0..N {
                         let [x, y, _] = surface.point(span - p + i, span_v - q + j);
@@ -223,8 +228,9 @@ impl<'a, const N: usize> Stations<'a, N> {
             })
             .collect();
         let transforms = counts.iter().map(|&count| Transform::new(count)).collect();
-        let scale = surface.points().iter().map(|point| point[0].abs()).fold(0.0, f64::max);
-        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, grids, transforms, scale }
+        let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
+        let (scale, size) = (largest(0), largest(1) * (hull.top() - hull.bottom()));
+        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, grids, transforms, scale, size }
     }
 
     /// The pieces of the station at `x` below `end`.
@@ -369,10 +375,10 @@ impl<'a, const N: usize> Stations<'a, N> {
         largest
     }
 
-    /// Whether the last two coefficients of the first integrand are below `tolerance`.
-    fn settled<const K: usize>(transform: &Transform, values: &[[f64; K]], largest: f64, tolerance: f64) -> bool {
+    /// Whether the last two coefficients of the first integrand are at most `tolerance`.
+    fn settled<const K: usize>(transform: &Transform, values: &[[f64; K]], tolerance: f64) -> bool {
         let size = |j: usize| transform.coefficient(j, values).iter().take(1).fold(0.0f64, |m, c| m.max(c.abs()));
-        size(transform.count - 1).max(size(transform.count - 2)) <= tolerance * largest
+        size(transform.count - 1).max(size(transform.count - 2)) <= tolerance
     }
 
     fn transform(&self, count: usize) -> &Transform {
@@ -394,7 +400,8 @@ impl<'a, const N: usize> Stations<'a, N> {
                 let count = if piece.slanting { SUMMED } else { N - 1 };
                 let largest = self.sample(piece, part, count, &mut integrand, &mut values);
                 let open = piece.slanting && depth < HALVINGS;
-                if open && !Self::settled(self.transform(count), &values[..count], largest, SETTLED_SUM) {
+                let tolerance = (SETTLED_SUM * largest).max(NEGLIGIBLE * self.size);
+                if open && !Self::settled(self.transform(count), &values[..count], tolerance) {
                     let middle = 0.5 * (part.0 + part.1);
                     parts.extend([((middle, part.1), depth + 1), ((part.0, middle), depth + 1)]);
                     continue;
@@ -409,11 +416,13 @@ impl<'a, const N: usize> Stations<'a, N> {
         total
     }
 
-    /// The integrals of `integrand` times dv from the lowest line up to any height.
+    /// The integrals of `integrand` times dv from the lowest line up to any height, in which what is below 1e-14 of `size` is
+    /// neglected. `analytic`: the integrand is no polynomial where x does not depend on v either.
     pub(super) fn expansion<const K: usize>(
         &self,
         pieces: &[Piece],
         analytic: bool,
+        size: f64,
         mut integrand: impl FnMut(&Piece, &Node<N>) -> [f64; K],
     ) -> Expansion<K> {
         let mut series = Vec::with_capacity(pieces.len());
@@ -426,10 +435,9 @@ impl<'a, const N: usize> Stations<'a, N> {
                 let open = analytic || piece.slanting;
                 let count = if open { EXPANDED } else { 2 * (N - 1) };
                 let largest = self.sample(piece, part, count, &mut integrand, &mut values);
+                let tolerance = (SETTLED_EXPANSION * largest).max(NEGLIGIBLE * size);
                 let transform = self.transform(count);
-                let settled = !open
-                    || depth >= HALVINGS
-                    || Self::settled(transform, &values[..count], largest, SETTLED_EXPANSION);
+                let settled = !open || depth >= HALVINGS || Self::settled(transform, &values[..count], tolerance);
                 if !settled {
                     let middle = 0.5 * (part.0 + part.1);
                     parts.extend([((middle, part.1), depth + 1), ((part.0, middle), depth + 1)]);

@@ -163,7 +163,7 @@ fn largest(line: &BsplineCurve<3>, from: f64, to: f64, known: f64) -> f64 {
     for k in 0..SAMPLES {
         let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
         let (mut low, mut high) = (at(k), at(k + 1));
-        if slope(low) <= 0.0 || slope(high) >= 0.0 {
+        if slope(low) < 0.0 || slope(high) > 0.0 {
             continue;
         }
         // The value is settled to rounding when the place is to its square root.
