@@ -26,9 +26,9 @@ const SETTLED: f64 = 1e-11;
 /// Areas of the immersed sections along the hull at one draught.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionalAreaCurve {
-    /// Draught above the base line [m].
+    /// Draught above the base line \[m\].
     pub draught: f64,
-    /// Positions forward of AP [m], rising.
+    /// Positions forward of AP \[m\], rising.
     pub stations: Vec<f64>,
     /// Areas, both sides [m^2].
     pub areas: Vec<f64>,
@@ -54,7 +54,7 @@ struct Cell<'a> {
     span_v: usize,
     /// Whether x depends on v within the cell.
     slanting: bool,
-    /// Height of the section, which the weights of the row sum up to (twice, for both sides) [m].
+    /// Height of the section, which the weights of the row sum up to (twice, for both sides) \[m\].
     height: f64,
     /// Whether the cell is next to the stern or the stem profile and x depends on v.
     at_profile: bool,

@@ -1,6 +1,6 @@
 //! Draughts of a table when none are asked for.
 
-/// Draughts [m] from 0.2 T to the depth D at a round step (1, 2, 2.5 or 5 times a power of ten), the widest that gives at
+/// Draughts \[m\] from 0.2 T to the depth D at a round step (1, 2, 2.5 or 5 times a power of ten), the widest that gives at
 /// least 20 rows; T and D always belong to the list, which never has more than 50 rows. Rising.
 ///
 /// Steps next to each other differ by a factor of at most 2, so that the widest step with 20 multiples in the range has

@@ -38,9 +38,9 @@ pub(super) struct Sections {
     pub(super) midship: f64,
     /// Largest section area [m^2].
     pub(super) largest: f64,
-    /// Its place [m].
+    /// Its place \[m\].
     pub(super) place: Option<f64>,
-    /// Ends of the parallel middle body [m].
+    /// Ends of the parallel middle body \[m\].
     pub(super) parallel: Option<[f64; 2]>,
 }
 
@@ -100,7 +100,7 @@ struct Table<'a, const N: usize> {
     stations: &'a Stations<'a, N>,
     /// Places of the shared stations, rising.
     places: Vec<f64>,
-    /// L_PP [m].
+    /// L_PP \[m\].
     length: f64,
 }
 

@@ -86,7 +86,7 @@ pub(super) struct Stations<'a, const N: usize> {
     /// Nodes on whole spans in v, for each of the counts.
     grids: Vec<(usize, Vec<Node<N>>)>,
     transforms: Vec<Transform>,
-    /// Largest |x| of the net [m].
+    /// Largest |x| of the net \[m\].
     scale: f64,
     /// Largest |y| of the net times the height of the hull [m^2].
     pub(super) size: f64,
