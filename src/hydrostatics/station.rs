@@ -62,8 +62,8 @@ pub(super) struct Piece {
 
 /// x and y of a cell of the knots, as polynomials in the local parameter of u with coefficients that are splines in v.
 struct Cell<const N: usize> {
-    x: [[f64; N]; MAX_DEGREE + 1],
-    y: [[f64; N]; MAX_DEGREE + 1],
+    x: [[f64; MAX_DEGREE + 1]; N],
+    y: [[f64; MAX_DEGREE + 1]; N],
     slanting: bool,
 }
 
@@ -86,6 +86,8 @@ pub(super) struct Stations<'a, const N: usize> {
     /// Nodes on whole spans in v, for each of the counts.
     grids: Vec<(usize, Vec<Node<N>>)>,
     transforms: Vec<Transform>,
+    /// Least and greatest x of the control points of the profiles with a breadth.
+    flats: Vec<(f64, f64)>,
     /// Largest |x| of the net \[m\].
     scale: f64,
     /// Largest |y| of the net times the height of the hull [m^2].
@@ -122,6 +124,52 @@ impl Transform {
         }
         sum
     }
+}
+
+/// Local parameter, y and dy/dx of the station at `x` on the line of a node, for a degree in u below P.
+fn solve<const N: usize, const P: usize>(cell: &Cell<N>, x: f64, node: &Node<N>, start: f64) -> [f64; 3] {
+    let line = |columns: &[[f64; MAX_DEGREE + 1]; N]| {
+        let mut sum = [0.0; P];
+        for (column, b) in columns.iter().zip(&node.value) {
+            for (target, c) in sum.iter_mut().zip(column) {
+                *target += b * c;
+            }
+        }
+        sum
+    };
+    let horner = |c: &[f64; P], s: f64| {
+        let (mut value, mut slope) = (c[P - 1], 0.0);
+        for &c in c[..P - 1].iter().rev() {
+            slope = slope * s + value;
+            value = value * s + c;
+        }
+        (value, slope)
+    };
+    // Where x does not depend on v, any column will do.
+    let mut lengths = if cell.slanting { line(&cell.x) } else { std::array::from_fn(|k| cell.x[0][k]) };
+    lengths[0] -= x;
+    let (mut low, mut high) = (-1.0, 1.0);
+    let mut s = start.clamp(low, high);
+    for _ in 0..80 {
+        let (value, slope) = horner(&lengths, s);
+        if value > 0.0 {
+            high = s;
+        } else {
+            low = s;
+        }
+        let newton = s - value / slope;
+        let good = newton >= low && newton <= high;
+        let next = if good { newton } else { 0.5 * (low + high) };
+        let step = (next - s).abs();
+        s = next;
+        // Newton's method squares the error.
+        if (good && step <= 1e-9) || step <= 4.0 * f64::EPSILON {
+            break;
+        }
+    }
+    let along = horner(&lengths, s).1;
+    let (y, rise) = horner(&line(&cell.y), s);
+    [s, y, if along > 1e-300 { rise / along } else { 0.0 }]
 }
 
 /// Integrals over a part of a piece, up to any height within it.
@@ -200,14 +248,14 @@ impl<'a, const N: usize> Stations<'a, N> {
                 factor *= 0.5 * (to - from) / (k + 1) as f64;
             }
             for &span_v in &spans_v {
-                let mut cell = Cell { x: [[0.0; N]; MAX_DEGREE + 1], y: [[0.0; N]; MAX_DEGREE + 1], slanting: false };
+                let mut cell = Cell { x: [[0.0; MAX_DEGREE + 1]; N], y: [[0.0; MAX_DEGREE + 1]; N], slanting: false };
                 for i in 0..=p {
                     for j in 0..N {
                         let [x, y, _] = surface.point(span - p + i, span_v - q + j);
                         cell.slanting |= x.to_bits() != surface.point(span - p + i, span_v)[0].to_bits();
                         for (k, row) in powers.iter().enumerate().take(p + 1) {
-                            cell.x[k][j] += row[i] * x;
-                            cell.y[k][j] += row[i] * y;
+                            cell.x[j][k] += row[i] * x;
+                            cell.y[j][k] += row[i] * y;
                         }
                     }
                 }
@@ -228,9 +276,19 @@ impl<'a, const N: usize> Stations<'a, N> {
             })
             .collect();
         let transforms = counts.iter().map(|&count| Transform::new(count)).collect();
+        let [rows, columns] = surface.shape();
+        let flats = [0, rows - 1]
+            .into_iter()
+            .map(|row| &surface.points()[row * columns..(row + 1) * columns])
+            .filter(|points| points.iter().any(|point| point[1] > 0.0))
+            .map(|points| {
+                let x = points.iter().map(|point| point[0]);
+                (x.clone().fold(f64::INFINITY, f64::min), x.fold(f64::NEG_INFINITY, f64::max))
+            })
+            .collect();
         let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
         let (scale, size) = (largest(0), largest(1) * (hull.top() - hull.bottom()));
-        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, grids, transforms, scale, size }
+        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, grids, transforms, flats, scale, size }
     }
 
     /// The pieces of the station at `x` below `end`.
@@ -296,47 +354,13 @@ impl<'a, const N: usize> Stations<'a, N> {
     pub(super) fn point(&self, x: f64, piece: &Piece, node: &Node<N>, start: &mut f64) -> Point {
         let Place::Inside(k) = piece.place else { return Point { u: 0.0, y: 0.0, slope: 0.0 } };
         let cell = &self.cells[k * self.spans_v.len() + piece.across];
-        let p = self.hull.surface().u().degree();
-        let dot = |c: &[f64; N]| c.iter().zip(&node.value).map(|(c, b)| c * b).sum::<f64>();
-        let mut poly = [0.0; MAX_DEGREE + 1];
-        for (target, c) in poly.iter_mut().zip(&cell.x).take(p + 1) {
-            *target = dot(c);
-        }
-        poly[0] -= x;
-        let horner = |c: &[f64; MAX_DEGREE + 1], s: f64| {
-            let (mut value, mut slope) = (c[p], 0.0);
-            for &c in c[..p].iter().rev() {
-                slope = slope * s + value;
-                value = value * s + c;
-            }
-            (value, slope)
+        let [s, y, slope] = match self.hull.surface().u().degree() {
+            1 | 2 => solve::<N, 3>(cell, x, node, *start),
+            3 => solve::<N, 4>(cell, x, node, *start),
+            4 | 5 => solve::<N, 6>(cell, x, node, *start),
+            _ => solve::<N, { MAX_DEGREE + 1 }>(cell, x, node, *start),
         };
-        let (mut low, mut high) = (-1.0, 1.0);
-        let mut s = start.clamp(low, high);
-        for _ in 0..80 {
-            let (value, slope) = horner(&poly, s);
-            if value > 0.0 {
-                high = s;
-            } else {
-                low = s;
-            }
-            let newton = s - value / slope;
-            let good = newton >= low && newton <= high;
-            let next = if good { newton } else { 0.5 * (low + high) };
-            let step = (next - s).abs();
-            s = next;
-            // Newton's method squares the error.
-            if (good && step <= 1e-9) || step <= 4.0 * f64::EPSILON {
-                break;
-            }
-        }
         *start = s;
-        let along = horner(&poly, s).1;
-        for (target, c) in poly.iter_mut().zip(&cell.y).take(p + 1) {
-            *target = dot(c);
-        }
-        let (y, rise) = horner(&poly, s);
-        let slope = if along > 1e-300 { rise / along } else { 0.0 };
         let (from, to) = self.spans_u[k];
         Point { u: 0.5 * ((1.0 - s) * from + (1.0 + s) * to), y, slope }
     }
@@ -462,6 +486,9 @@ impl<'a, const N: usize> Stations<'a, N> {
         let (knots, columns) = (surface.v(), surface.shape()[1]);
         let last = self.spans_u.len();
         let mut ends = Vec::new();
+        if !self.flats.iter().any(|(low, high)| (low..=high).contains(&&x)) {
+            return ends;
+        }
         for crossing in self.lines.crossings(self.hull, x, end) {
             let (row, sign) = match crossing.line {
                 0 => (0, 1.0),
