@@ -507,3 +507,79 @@ impl<'a, const N: usize> Stations<'a, N> {
         ends
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::{Functional, PrincipalParticulars};
+    use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+
+    /// A hull with a raked transom, a bulging stem and lines that slant everywhere.
+    fn hull() -> Hull {
+        let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 5).unwrap());
+        let mut points = Vec::new();
+        for &s in &u.greville() {
+            for &t in &v.greville() {
+                let (stern, stem) = (3.0 - 6.0 * t, 95.0 + 4.0 * (7.0 * t).sin() + 4.0 * t);
+                let y = 8.0 * (1.0 - s * s) * (0.15 + s).min(1.0) * (0.3 + 0.7 * t);
+                points.push([stern + (stem - stern) * s * (1.4 - 0.4 * s), y, 9.0 * t * (0.4 + 0.6 * t)]);
+            }
+        }
+        let line = KnotVector::uniform(1, 1).unwrap();
+        let deck = BsplineCurve::new(line, vec![[-5.0, 9.0], [110.0, 9.0]]).unwrap();
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: 5.0, depth: 9.0 };
+        Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+    }
+
+    /// Area and slope of the station at `x` up to `end`, from the expansion and from Gauss sums.
+    fn both(stations: &Stations<4>, x: f64, end: f64) -> [[f64; 2]; 2] {
+        let integrand = |start: &mut f64, piece: &Piece, node: &Node<4>| {
+            let point = stations.point(x, piece, node, start);
+            [2.0 * node.rise * point.y, 2.0 * node.rise * point.slope]
+        };
+        let (mut first, mut second) = (0.0, 0.0);
+        let pieces = stations.pieces(x, f64::INFINITY);
+        let expansion =
+            stations.expansion(&pieces, false, stations.size, |piece, node| integrand(&mut first, piece, node));
+        let below = stations.pieces(x, end);
+        let sum = stations.integral(&below, |piece, node| integrand(&mut second, piece, node));
+        [expansion.up_to(end), sum]
+    }
+
+    #[test]
+    fn expansions_sums_and_rows_agree_at_any_height() {
+        let hull = hull();
+        let stations = Stations::<4>::new(&hull);
+        for x in [-1.5, 2.9, 20.0, 50.0, 77.7, 94.0, 97.5] {
+            for draught in [0.3, 1.0, 2.2, 5.0, 8.9] {
+                let end = hull.height_parameter(draught).unwrap();
+                let [expanded, summed] = both(&stations, x, end);
+                let area = Functional::SectionArea { x }.value(&hull, draught);
+                assert!((summed[0] - area).abs() <= 1e-12 * area, "{x} {draught}: {summed:?} {area}");
+                assert!((expanded[0] - area).abs() <= 1e-12 * (area + 1.0), "{x} {draught}: {expanded:?} {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_differences_of_areas() {
+        let hull = hull();
+        let stations = Stations::<4>::new(&hull);
+        for x in [-1.5, 1.1, 20.0, 50.0, 77.7, 94.0, 97.5] {
+            for draught in [1.0, 5.0, 8.9] {
+                let end = hull.height_parameter(draught).unwrap();
+                let ends: f64 = stations.ends(x, end).iter().map(|end| end[1]).sum();
+                let step = 1e-4;
+                let area = |x: f64| Functional::SectionArea { x }.value(&hull, draught);
+                let difference = (area(x + step) - area(x - step)) / (2.0 * step);
+                for [_, slope] in both(&stations, x, end) {
+                    assert!(
+                        (slope + ends - difference).abs() <= 1e-5 * (1.0 + difference.abs()),
+                        "{x} {draught}: {slope} {ends} {difference}"
+                    );
+                }
+            }
+        }
+    }
+}
