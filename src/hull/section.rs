@@ -18,26 +18,26 @@ use field::Field;
 /// A plane that cuts the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cut {
-    /// Transverse plane at `x` [m].
+    /// Transverse plane at `x` \[m\].
     Station {
-        /// Position forward of AP [m].
+        /// Position forward of AP \[m\].
         x: f64,
     },
-    /// Horizontal plane at `z` [m].
+    /// Horizontal plane at `z` \[m\].
     Waterline {
-        /// Height above the base line [m].
+        /// Height above the base line \[m\].
         z: f64,
     },
-    /// Longitudinal vertical plane at `y` [m].
+    /// Longitudinal vertical plane at `y` \[m\].
     Buttock {
-        /// Distance from the centreplane [m].
+        /// Distance from the centreplane \[m\].
         y: f64,
     },
-    /// Plane through the line y = 0, z = `height`, going down outboard by `angle` below the horizontal [rad].
+    /// Plane through the line y = 0, z = `height`, going down outboard by `angle` below the horizontal \[rad\].
     Diagonal {
-        /// Height on the centreplane [m].
+        /// Height on the centreplane \[m\].
         height: f64,
-        /// Angle below the horizontal [rad], between 0 and pi/2.
+        /// Angle below the horizontal \[rad\], between 0 and pi/2.
         angle: f64,
     },
     /// The plane normal . (x, y, z) = offset.
@@ -67,7 +67,7 @@ pub enum Face {
 pub struct Branch {
     /// Face it lies on.
     pub face: Face,
-    /// The curve (x, y, z) [m], port side.
+    /// The curve (x, y, z) \[m\], port side.
     pub curve: BsplineCurve<3>,
     /// Whether it closes on itself.
     pub closed: bool,
@@ -83,7 +83,7 @@ pub struct Section {
 }
 
 impl Branch {
-    /// Points on the curve, so dense that the chords between them stay within `deviation` [m] of it; the first and the last
+    /// Points on the curve, so dense that the chords between them stay within `deviation` \[m\] of it; the first and the last
     /// are its ends, and no span of the curve is skipped. Arcs are halved until their control points lie within the
     /// deviation of the chord (the curve stays in their convex hull), at most 20 times.
     #[must_use]
@@ -140,7 +140,7 @@ impl Cut {
 
 impl Hull {
     /// The curves in which a plane cuts one side of the body, closing lines on the flats included; deviation from the
-    /// surface and from the plane at most `tolerance` [m], which is taken as 1e-11 m at least. No branch when the plane
+    /// surface and from the plane at most `tolerance` \[m\], which is taken as 1e-11 m at least. No branch when the plane
     /// misses the hull or is no plane.
     ///
     /// * A waterline is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
