@@ -87,7 +87,7 @@ impl<const D: usize> BsplineSurface<D> {
     }
 
     /// Point, first and second derivatives at (u, v). The first call for a bicubic surface allocates 16 points for each
-    /// pair of spans and costs about as much as two later calls a pair; no other call allocates. For a few points of a
+    /// pair of spans and makes their polynomials; no other call allocates. For a few points of a
     /// surface that is then thrown away [`Self::derivatives`] is the cheaper way.
     #[must_use]
     #[inline]
