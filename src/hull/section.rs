@@ -132,9 +132,25 @@ impl Cut {
             Self::Diagonal { height, angle } => ([0.0, angle.sin(), angle.cos()], height * angle.cos()),
             Self::Plane { normal, offset } => (normal, offset),
         };
+        // Scaled by the largest component first, so that squares neither overflow nor vanish.
+        let largest = normal.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        if !(largest > 0.0 && largest.is_finite() && offset.is_finite()) {
+            return None;
+        }
+        let normal = normal.map(|c| c / largest);
         let length = normal.iter().map(|c| c * c).sum::<f64>().sqrt();
-        let usable = length > 0.0 && length.is_finite() && offset.is_finite();
-        usable.then(|| (normal.map(|c| c / length), offset / length))
+        Some((normal.map(|c| c / length), offset / largest / length))
+    }
+
+    /// A plane along two axes as the station, waterline or buttock that it is; other cuts as they are.
+    fn canonical(self) -> Self {
+        let Self::Plane { .. } = self else { return self };
+        match self.plane() {
+            Some(([x, 0.0, 0.0], offset)) => Self::Station { x: offset / x },
+            Some(([0.0, y, 0.0], offset)) => Self::Buttock { y: offset / y },
+            Some(([0.0, 0.0, z], offset)) => Self::Waterline { z: offset / z },
+            _ => self,
+        }
     }
 }
 
@@ -153,7 +169,8 @@ impl Hull {
     pub fn section(&self, cut: Cut, tolerance: f64) -> Section {
         let tolerance = tolerance.max(1e-11);
         let mut branches = Vec::new();
-        let Some((normal, offset)) = cut.plane() else { return Section { cut, branches } };
+        let (asked, cut) = (cut, cut.canonical());
+        let Some((normal, offset)) = cut.plane() else { return Section { cut: asked, branches } };
         let station = matches!(cut, Cut::Station { .. });
         let mut add = |face: Face, curve: BsplineCurve<3>, closed: bool| {
             for (curve, closed) in below_deck(self, curve, closed, tolerance) {
@@ -208,7 +225,7 @@ impl Hull {
             let by_place = key(a).iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|o| o.is_ne());
             order.then(by_place.unwrap_or(std::cmp::Ordering::Equal))
         });
-        Section { cut, branches }
+        Section { cut: asked, branches }
     }
 }
 
