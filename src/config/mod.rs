@@ -12,6 +12,7 @@ mod reference;
 mod schema;
 mod template;
 mod value;
+mod wishes;
 
 pub use design::{Design, Output, StationZero, read};
 pub use diagnostic::{Diagnostic, Severity};
