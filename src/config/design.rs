@@ -1,12 +1,12 @@
 //! What a design file means: a family with its parameters, conventions, and what is to be written.
 
 use super::diagnostic::{Diagnostic, Severity, position};
-use super::document::{Document, Raw};
-use super::keys::{FAMILIES, FIGURES, Kind};
+use super::document::{Document, Raw, nearest};
+use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
 use super::wishes::wishes;
-use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, Shell};
-use crate::parametric::{Family, analytic, ucl_cosh};
+use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell};
+use crate::parametric::{Family, Infeasible, analytic, ucl_cosh};
 
 /// Where stations are counted from in drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +65,7 @@ pub struct Design {
     pub reference: Option<Reference>,
     file: String,
     places: Vec<Place>,
+    tables: Vec<Place>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -86,13 +87,28 @@ impl Design {
             reference: None,
             file: file.to_owned(),
             places: Vec::new(),
+            tables: Vec::new(),
         }
     }
 
-    /// The message of a family about some of its keys, with the place of the first of them that the file has.
+    /// The message of a family about some of its keys, with the place of the first of them that the file has; of the preset,
+    /// or of the table, when it has none of them. An error names the keys that the file does not have.
     #[must_use]
     pub fn diagnose(&self, severity: Severity, code: &'static str, keys: &[&str], message: &str) -> Diagnostic {
-        let place = keys.iter().find_map(|key| self.place(key));
+        let preset = self.places.iter().find(|p| p.path == "project.preset");
+        let place = keys.iter().find_map(|key| self.place(key)).or(preset).or_else(|| {
+            let tables = keys.iter().filter_map(|key| KEYS.iter().find(|k| k.name == *key)).map(|k| k.table);
+            // The table of the key, or the one that holds it.
+            let holds = |t: &&Place, table: &str| table == t.path || table.starts_with(&format!("{}.", t.path));
+            tables.filter_map(|table| self.tables.iter().rev().find(|t| holds(t, table))).next()
+        });
+        let absent: Vec<&str> = keys.iter().filter(|key| self.place(key).is_none()).copied().collect();
+        let help = if severity == Severity::Warning || self.places.is_empty() || absent.is_empty() {
+            String::new()
+        } else {
+            let origin = if preset.is_some() { "from the preset" } else { "a default" };
+            format!("Not in the file: {} ({origin}).", absent.join(", "))
+        };
         Diagnostic {
             severity,
             code,
@@ -101,15 +117,36 @@ impl Design {
             column: place.map(|p| p.column),
             key: place.map_or_else(|| keys.first().map_or_else(String::new, |k| (*k).to_owned()), |p| p.path.clone()),
             message: message.to_owned(),
-            help: String::new(),
+            help,
         }
     }
 
-    /// The place of a key, named by its path or by its last word.
+    /// Every reason why the family refuses, with its place in the file. A reason that is about defaults alone follows from
+    /// what the file says, and is left out beside reasons about that.
+    #[must_use]
+    pub fn diagnose_all(&self, reasons: &[Infeasible]) -> Vec<Diagnostic> {
+        let written = |reason: &&Infeasible| reason.keys.iter().any(|key| self.place(key).is_some());
+        let any = reasons.iter().any(|reason| written(&reason));
+        reasons
+            .iter()
+            .filter(|reason| !any || written(reason))
+            .map(|r| self.diagnose(Severity::Error, r.code, &r.keys, &r.message))
+            .collect()
+    }
+
+    /// The place of a key, named by its path or by its last word, or of the other key that says the same thing.
     fn place(&self, key: &str) -> Option<&Place> {
-        let last = key.rsplit('.').next().unwrap_or(key);
-        self.places.iter().find(|p| p.path.eq_ignore_ascii_case(key)).or_else(|| {
-            self.places.iter().find(|p| p.path.rsplit('.').next().is_some_and(|name| name.eq_ignore_ascii_case(last)))
+        let named = |key: &str| {
+            let word = last_word(key);
+            self.places
+                .iter()
+                .find(|p| p.path.eq_ignore_ascii_case(key))
+                .or_else(|| self.places.iter().find(|p| last_word(&p.path).eq_ignore_ascii_case(word)))
+        };
+        named(key).or_else(|| match last_word(key) {
+            "Cb" => named("displacement"),
+            "transom_height" => named("transom_immersion"),
+            _ => None,
         })
     }
 }
@@ -120,13 +157,46 @@ impl Design {
 /// Every problem of the file at once.
 pub fn read(file: &str, text: &str) -> Result<Design, Vec<Diagnostic>> {
     let mut document = Document::read(file, text);
-    let design = interpret(&mut document);
-    if document.problems.is_empty() {
-        return Ok(design);
+    if !document.problems.iter().any(|p| p.code == "E120") {
+        let design = interpret(&mut document);
+        if document.problems.is_empty() {
+            return Ok(design);
+        }
+        let refusals = refusals(&design, &document.problems);
+        document.problems.extend(refusals);
     }
     document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
     document.problems.dedup();
     Err(document.problems)
+}
+
+/// Why the family refuses what could be read of a file with other problems; nothing where those problems may be the cause.
+fn refusals(design: &Design, problems: &[Diagnostic]) -> Vec<Diagnostic> {
+    // Without its required numbers a family cannot say anything.
+    let required = match &design.family {
+        Family::Cosh(wishes) => vec![wishes.length],
+        Family::UclCosh(p) => vec![p.length, p.breadth, p.depth, p.draught],
+        Family::Wigley(d) | Family::Box(d) | Family::Ellipsoid(d) => vec![d.length, d.breadth, d.draught],
+    };
+    let family_unknown = problems.iter().any(|p| p.key == "project.family");
+    if family_unknown || !required.iter().all(|value| value.is_finite()) {
+        return Vec::new();
+    }
+    let words: Vec<&str> = problems.iter().map(|p| last_word(&p.key)).filter(|word| !word.is_empty()).collect();
+    let caused = |key: &&'static str| {
+        let given = design.place(key).is_some();
+        words.iter().any(|word| {
+            word.eq_ignore_ascii_case(key)
+                || (!given && (*word == "preset" || nearest(word, std::iter::once(*key)).is_some()))
+        })
+    };
+    let mut reasons = design.family.generate(&design.name).err().unwrap_or_default();
+    reasons.retain(|reason| !reason.keys.iter().any(caused));
+    design.diagnose_all(&reasons)
+}
+
+fn last_word(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
 }
 
 fn stem(file: &str) -> &str {
@@ -154,14 +224,12 @@ fn interpret(document: &mut Document<'_>) -> Design {
     };
     let output = output(document);
     let reference = reference(document);
-    let places = document
-        .entries
-        .iter()
-        .map(|entry| {
-            let (line, column) = position(document.text, entry.key_span.start);
-            Place { path: entry.key.path(), line, column }
-        })
-        .collect();
+    let place = |path: String, byte: usize| {
+        let (line, column) = position(document.text, byte);
+        Place { path, line, column }
+    };
+    let places = document.entries.iter().map(|entry| place(entry.key.path(), entry.key_span.start)).collect();
+    let tables = document.tables.iter().map(|(path, byte)| place(path.clone(), *byte)).collect();
     let file = document.file.to_owned();
     Design {
         name: name.unwrap_or_else(|| stem(&file).to_owned()),
@@ -171,6 +239,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
         reference,
         file,
         places,
+        tables,
     }
 }
 
@@ -227,6 +296,10 @@ fn conventions(document: &mut Document<'_>) -> Conventions {
     }
     if document.word("conventions.section_for_Cp") == Some("midship") {
         conventions.prismatic_section = PrismaticSection::Midship;
+    }
+    if let Some(word) = document.word("conventions.lcb_reference") {
+        conventions.lcb_reference =
+            LcbReference::ALL.into_iter().find(|r| r.as_str() == word).unwrap_or(conventions.lcb_reference);
     }
     conventions
 }
@@ -399,13 +472,14 @@ mod tests {
         let design = read(
             "x.toml",
             "dimensions.Lpp = 80\n[water]\nshell = { thickness = \"10 mm\" }\nkeel_thickness = \"15 mm\"\n[weight]\nKG = 6\n\
-             [conventions]\ncoefficient_length = \"lwl\"\nsection_for_Cp = \"midship\"\nstation_zero = \"FP\"\nstations = 10\n\
+             [conventions]\ncoefficient_length = \"lwl\"\nsection_for_Cp = \"midship\"\nlcb_reference = \"fp\"\nstation_zero = \"FP\"\nstations = 10\n\
              [output]\ndraughts = { from = 1, to = 3, step = 1 }\nwaterlines = [1, \"2000 mm\"]\nfigures = [\"lines\"]",
         )
         .unwrap();
         assert_eq!(design.conventions.shell, Shell::Thickness(0.01));
         assert_eq!(design.conventions.coefficient_length, CoefficientLength::Waterline);
         assert_eq!(design.conventions.prismatic_section, PrismaticSection::Midship);
+        assert_eq!(design.conventions.lcb_reference, LcbReference::ForwardPerpendicular);
         assert_eq!(design.conventions.centre_of_gravity_height, Some(6.0));
         assert_eq!(design.output.draughts.as_deref(), Some(&[1.0, 2.0, 3.0][..]));
         assert_eq!(design.output.waterlines.as_deref(), Some(&[1.0, 2.0][..]));
@@ -417,8 +491,18 @@ mod tests {
     fn a_family_message_finds_the_line_of_its_key() {
         let design = read("hull.toml", "[dimensions]\nLpp = 80\n[form]\n  Cb = 0.85\n").unwrap();
         let shown = design.diagnose(Severity::Error, "E102", &["Cm", "Cb"], "Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1.");
-        assert_eq!(shown.to_string(), "E102 hull.toml:4:3 Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1.");
-        assert_eq!(design.diagnose(Severity::Error, "E1", &["T"], "no").to_string(), "E1 hull.toml no");
+        assert_eq!(
+            shown.to_string(),
+            "E102 hull.toml:4:3 Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1. Not in the file: Cm (a default)."
+        );
+        let shown = |severity, key| design.diagnose(severity, "E1", &[key], "no").to_string();
+        assert_eq!(shown(Severity::Error, "B"), "E1 hull.toml:1:2 no. Not in the file: B (a default).");
+        assert_eq!(shown(Severity::Warning, "B"), "E1 hull.toml:1:2 no");
+        assert_eq!(shown(Severity::Error, "KG"), "E1 hull.toml no. Not in the file: KG (a default).");
+        assert_eq!(shown(Severity::Error, "rake"), "E1 hull.toml:3:2 no. Not in the file: rake (a default).");
+        let design = read("hull.toml", "project.preset = \"tug\"\ndimensions.Lpp = 80").unwrap();
+        let shown = design.diagnose(Severity::Error, "E1", &["transom_height"], "no").to_string();
+        assert_eq!(shown, "E1 hull.toml:1:9 no. Not in the file: transom_height (from the preset).");
     }
 
     #[test]

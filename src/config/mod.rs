@@ -16,7 +16,7 @@ mod wishes;
 
 pub use design::{Design, Output, StationZero, read};
 pub use diagnostic::{Diagnostic, Severity};
-pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind};
+pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use reference::{Reference, ReferenceRow};
 pub use schema::design_schema;
 pub use template::{TEMPLATES, template};

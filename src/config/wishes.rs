@@ -1,6 +1,7 @@
 //! The wishes of a design for the hull of the family `cosh`, in metres and radians.
 
 use super::document::{Document, Raw};
+use super::keys::preset_of;
 use super::value::{Scalar, expected};
 use crate::parametric::ShipType;
 use crate::parametric::cosh::{MidshipWish, Wishes};
@@ -16,7 +17,7 @@ pub(super) fn wishes(document: &mut Document<'_>, density: f64, complain: bool) 
         (document.number("dimensions.B"), document.number("dimensions.T"), document.number("dimensions.D"));
     let (block, volume) = size(document, [Some(length), breadth, draught], density);
     let mut wishes = Wishes {
-        ship_type: preset.and_then(|word| ShipType::ALL.into_iter().find(|t| t.as_str() == word)),
+        ship_type: preset.and_then(|word| ShipType::ALL.into_iter().find(|t| t.as_str() == preset_of(word))),
         length,
         breadth,
         draught,
@@ -287,6 +288,14 @@ mod tests {
         close(wishes.cut_up, 10.0);
         assert_eq!(wishes.midship_coefficient, Some(MidshipWish::Kerlen));
         assert_eq!(wishes.waterplane_coefficient, None);
+    }
+
+    #[test]
+    fn presets_have_other_names() {
+        let of = |word: &str| cosh(&format!("project.preset = \"{word}\"\ndimensions.Lpp = 80")).ship_type;
+        assert_eq!(of("Tanker"), Some(ShipType::BulkCarrier));
+        assert_eq!((of("trawler"), of("coaster")), (Some(ShipType::Fishing), Some(ShipType::GeneralCargo)));
+        assert_eq!((of("ferry"), of("cruise")), (Some(ShipType::RoRo), of("ro-ro")));
     }
 
     #[test]
