@@ -95,6 +95,48 @@ fn nothing_is_overwritten_without_force() {
 }
 
 #[test]
+fn force_removes_what_the_earlier_run_wrote() {
+    let path = folder("stale");
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["generate".to_owned(), config("wigley.toml"), "-q".into(), "-o".into()];
+        arguments.push(path.display().to_string());
+        arguments.extend(more.iter().map(|word| (*word).to_owned()));
+        let output = program(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", stderr(&output));
+    };
+    run(&["--figures", "sections,sectional-area,hydrostatics"]);
+    fs::write(path.join("hydrostatics.png"), "drawn over by hand").unwrap();
+    fs::write(path.join("notes.txt"), "mine").unwrap();
+    run(&["--figures", "sections", "--force"]);
+    let there = |name: &str| path.join(name).exists();
+    assert!(there("sections.svg") && there("notes.txt") && there("hull.json"));
+    assert!(there("hydrostatics.png"), "a file that was changed since is not ours to remove");
+    assert!(!there("sectional-area.png"));
+    run(&["--no-figures", "--force"]);
+    assert!(!there("sections.svg") && there("notes.txt"));
+}
+
+#[test]
+fn tables_carry_the_decimals_that_are_meant() {
+    let path = folder("decimals");
+    for name in ["fishing-vessel.toml", "bulk-carrier.toml", "tug.toml"] {
+        let target = path.join(name);
+        let output = program(&["generate", &config(name), "-o", target.to_str().unwrap(), "--no-figures", "-q"]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let text = fs::read_to_string(target.join("offsets.csv")).unwrap();
+        let header = text.lines().next().unwrap();
+        assert!(header.split(',').skip(1).all(|z| z.len() <= 8), "{name}: {header}");
+        for line in text.lines().skip(1) {
+            let x = line.split(',').next().unwrap();
+            assert!(x.len() <= 8 || x.starts_with('-') || line == text.lines().nth_back(2).unwrap(), "{name}: {line}");
+        }
+        for line in text.lines().filter(|line| line.starts_with("ste")) {
+            assert!(!line.contains("0.0000000") && !line.contains("e-"), "{name}: {line}");
+        }
+    }
+}
+
+#[test]
 fn json_is_one_object_and_the_same_bytes_twice() {
     let path = folder("json");
     let run = |name: &str| {
