@@ -158,6 +158,7 @@ fn check(name: &str, hull: &Hull, draughts: &[f64], closed: impl Fn(f64) -> Clos
         shell: Shell::Thickness(0.01),
         keel_thickness: 0.02,
         centre_of_gravity_height: Some(0.3),
+        ..plain
     };
     let factor = Conventions { shell: Shell::Factor(1.006), ..plain };
     let bodies: Vec<Closed> = draughts.iter().map(|&draught| closed(draught)).collect();

@@ -95,6 +95,48 @@ fn nothing_is_overwritten_without_force() {
 }
 
 #[test]
+fn force_removes_what_the_earlier_run_wrote() {
+    let path = folder("stale");
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["generate".to_owned(), config("wigley.toml"), "-q".into(), "-o".into()];
+        arguments.push(path.display().to_string());
+        arguments.extend(more.iter().map(|word| (*word).to_owned()));
+        let output = program(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(output.status.success(), "{}", stderr(&output));
+    };
+    run(&["--figures", "sections,sectional-area,hydrostatics"]);
+    fs::write(path.join("hydrostatics.png"), "drawn over by hand").unwrap();
+    fs::write(path.join("notes.txt"), "mine").unwrap();
+    run(&["--figures", "sections", "--force"]);
+    let there = |name: &str| path.join(name).exists();
+    assert!(there("sections.svg") && there("notes.txt") && there("hull.json"));
+    assert!(there("hydrostatics.png"), "a file that was changed since is not ours to remove");
+    assert!(!there("sectional-area.png"));
+    run(&["--no-figures", "--force"]);
+    assert!(!there("sections.svg") && there("notes.txt"));
+}
+
+#[test]
+fn tables_carry_the_decimals_that_are_meant() {
+    let path = folder("decimals");
+    for name in ["fishing-vessel.toml", "bulk-carrier.toml", "tug.toml"] {
+        let target = path.join(name);
+        let output = program(&["generate", &config(name), "-o", target.to_str().unwrap(), "--no-figures", "-q"]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let text = fs::read_to_string(target.join("offsets.csv")).unwrap();
+        let header = text.lines().next().unwrap();
+        assert!(header.split(',').skip(1).all(|z| z.len() <= 8), "{name}: {header}");
+        for line in text.lines().skip(1) {
+            let x = line.split(',').next().unwrap();
+            assert!(x.len() <= 8 || x.starts_with('-') || line == text.lines().nth_back(2).unwrap(), "{name}: {line}");
+        }
+        for line in text.lines().filter(|line| line.starts_with("ste")) {
+            assert!(!line.contains("0.0000000") && !line.contains("e-"), "{name}: {line}");
+        }
+    }
+}
+
+#[test]
 fn json_is_one_object_and_the_same_bytes_twice() {
     let path = folder("json");
     let run = |name: &str| {
@@ -145,6 +187,36 @@ fn hydro_from_file_folder_and_design() {
 }
 
 #[test]
+fn conventions_of_the_hull_can_be_overridden() {
+    let path = wigley("conventions");
+    let rows = |more: &[&str]| {
+        let mut arguments = vec!["hydro", path.to_str().unwrap(), "--draughts", "3", "--json"];
+        arguments.extend(more);
+        let output = program(&arguments);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let table: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        (table["conventions"].clone(), table["rows"][0].clone())
+    };
+    let (_, plain) = rows(&[]);
+    let (said, row) =
+        rows(&["--density", "1000 kg/m3", "--kg", "2", "--coefficient-length", "Lwl", "--section-for-cp", "midship"]);
+    let of = |row: &Value, key: &str| row[key].as_f64().unwrap();
+    assert!((of(&row, "DISPM") - of(&row, "DISPVOL")).abs() < 1e-9);
+    assert!((of(&row, "GMT") - of(&row, "KMT") + 2.0).abs() < 1e-12 && plain["GMT"].is_null());
+    assert_eq!((&said["coefficient_length"], &said["section_for_Cp"]), (&Value::from("Lwl"), &Value::from("midship")));
+    let page = |reference: &str| {
+        let arguments = ["hydro", path.to_str().unwrap(), "--draughts", "3", "--lcb-reference", reference];
+        stdout(&program(&arguments))
+    };
+    let printed = |page: &str| page.lines().find(|l| l.trim_start().starts_with("3.000")).unwrap().to_owned();
+    let lcb = |reference: &str| printed(&page(reference)).split_whitespace().nth(3).unwrap().to_owned();
+    assert_eq!(["AP", "midship", "fp", "percent"].map(lcb), ["50.000", "0.000", "50.000", "0.000"]);
+    assert!(page("FP").contains("LCB from FP, + aft") && page("percent").contains(" % "), "{}", page("percent"));
+    let water = program(&["hydro", path.to_str().unwrap(), "--draughts", "3", "--density", "1025"]);
+    assert_eq!(water.status.code(), Some(2));
+}
+
+#[test]
 fn offsets_in_three_notations() {
     let path = wigley("offsets");
     let of = |notation: &str| {
@@ -182,20 +254,25 @@ fn sections_of_every_plane() {
     for plane in [["--station", "50"], ["--waterline", "3"], ["--buttock", "2"], ["--plane", "1,0.5,0,50"]] {
         let csv = stdout(&program(&["section", hull, plane[0], plane[1]]));
         let mut lines = csv.lines();
-        assert_eq!(lines.next(), Some("branch,x,y,z"));
-        assert!(lines.next().is_some_and(|line| line.starts_with("1,")), "{plane:?}: {csv}");
+        assert_eq!(lines.next(), Some("branch,x,y,z,face"));
+        assert!(lines.next().is_some_and(|line| line.starts_with("1,") && line.ends_with(",side")), "{plane:?}: {csv}");
         let json: Value =
             serde_json::from_str(&stdout(&program(&["section", hull, plane[0], plane[1], "--json"]))).unwrap();
         assert!(json["branches"][0]["points"].as_array().unwrap().len() >= 2);
     }
     let beside = program(&["section", hull, "--station", "500"]);
-    assert_eq!((stdout(&beside).as_str(), beside.status.code()), ("branch,x,y,z\n", Some(0)));
+    assert_eq!((stdout(&beside).as_str(), beside.status.code()), ("branch,x,y,z,face\n", Some(0)));
+    assert!(stderr(&beside).contains("the plane does not cut the hull"));
 }
 
 #[test]
 fn templates_and_schema() {
     let list = stdout(&program(&["new"]));
     assert_eq!(list.lines().count(), 12);
+    for aliases in ["(also: tanker)", "(also: trawler)", "(also: ferry, cruise)", "(also: coaster)"] {
+        assert!(list.contains(aliases), "{list}");
+    }
+    assert_eq!(stdout(&program(&["new", "ferry"])), stdout(&program(&["new", "ro-ro"])));
     let path = folder("new").join("ship.toml");
     let file = path.to_str().unwrap();
     assert!(program(&["new", "frigate", "-o", file]).status.success());

@@ -61,6 +61,46 @@ fn keys() {
     says("schema = 2\n", "E128 hull.toml:1:10 schema 2 is not known to this program");
 }
 
+/// Every line begins with the expected one, in this order.
+#[track_caller]
+fn says_all(text: &str, expected: &[&str]) {
+    let found = messages(text);
+    let fits = found.len() == expected.len() && found.iter().zip(expected).all(|(f, e)| f.starts_with(e));
+    assert!(fits, "expected: {expected:#?}\nfound: {found:#?}");
+}
+
+#[test]
+fn what_the_family_refuses_stands_beside_the_other_problems() {
+    says_all(
+        "[dimensions]\nLpp = 80\nB = 13\nT = 8.2\nD = 7.9\n[form]\nCb = 0.85\nCm = 0.8\nCwp = 0.7\n[forn]\nx = 1\n",
+        &[
+            "E105 hull.toml:4:1 T 8.200 m is not less than depth D",
+            "E102 hull.toml:7:1 Cb 0.8500 with Cm 0.8000",
+            "E103 hull.toml:9:1 Cb 0.8500 needs Cwp above 0.8500; you set 0.7000.",
+            "E121 hull.toml:10:2 forn is not a key of a design. Did you mean form?",
+        ],
+    );
+    let boxed = "project.family = \"box\"\ndimensions = { Lpp = 80, B = 10, T = 8, D = 7 }\n";
+    says_all(
+        &format!("{boxed}output.figures = 3\n"),
+        &["E105 hull.toml:2:", "E122 hull.toml:3:18 output.figures is 3"],
+    );
+    // A number that could not be read, or went to a misspelled key, is not held against the design.
+    says_all("[dimensions]\nLpp = 80\nT = 8.2\nD = \"7,9\"\n", &["E123 hull.toml:4:5 dimensions.D: '7,9'"]);
+    says_all(&with("form.Cb = 0.85\nform.CM = \"0.8x\""), &["E123 hull.toml:3:11 form.Cm: 'x' is not a unit"]);
+    says_all("[dimensions]\nLpp = = 80\n", &["E120 hull.toml:2:7 not TOML:"]);
+    says_all(
+        &with("[zzzzzz]\n"),
+        &[
+            "E121 hull.toml:2:2 zzzzzz is not a key of a design. Known here: schema, [project], [dimensions], [form], [water], [weight], [conventions], [output], [reference].",
+        ],
+    );
+    says_all(
+        &with("form.bow.zzzzzzz = 1"),
+        &["E121 hull.toml:2:10 form.bow.zzzzzzz is not a key of a design. Known here: rake,"],
+    );
+}
+
 #[test]
 fn types() {
     says(&with("project.name = 3"), "E122 hull.toml:2:16 project.name is 3, expected a text in quotes");

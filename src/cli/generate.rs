@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::stream;
 use crate::plot::Figure;
-use crate::report::{Failure, generate_outputs, read_design, summary_page, write_all};
+use crate::report::{Failure, generate_outputs, read_design, summary_page, write_run};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -16,7 +16,7 @@ pub(super) struct Arguments {
     /// Folder for the files; with several designs, a folder in it for each [default: out/<name of the design file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Overwrite files that are there already
+    /// Overwrite files that are there already, and remove what an earlier run wrote and this one does not
     #[arg(long)]
     force: bool,
     /// Print summary.json on stdout instead of the page
@@ -65,7 +65,7 @@ fn generate(arguments: &Arguments, path: &Path) -> Result<(), Failure> {
     };
     let folder = folder(arguments, path);
     let outputs = generate_outputs(&design, (path, &bytes), &figures)?;
-    write_all(&folder, &outputs.files, arguments.force)?;
+    write_run(&folder, &outputs.files, arguments.force)?;
     if !arguments.quiet {
         for remark in &outputs.remarks {
             stream::message(&remark.to_string());

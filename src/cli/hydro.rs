@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
-use super::{Lengths, lengths, stream};
+use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
-use crate::hydrostatics::CurvesOfForm;
+use crate::hydrostatics::{CoefficientLength, Conventions, CurvesOfForm, LcbReference, PrismaticSection};
 use crate::report::{Failure, hydrostatics_page, read_source};
+use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -22,6 +23,21 @@ pub(super) struct Arguments {
     /// Every quantity as JSON
     #[arg(long)]
     json: bool,
+    /// Density of the water: t/m3, or with a unit [default: of the hull]
+    #[arg(long, value_parser = density, value_name = "DENSITY")]
+    density: Option<f64>,
+    /// Length that coefficients are referred to [default: of the hull]
+    #[arg(long, value_enum, value_name = "LENGTH")]
+    coefficient_length: Option<CoefficientLengthWord>,
+    /// Section that Cp is referred to [default: of the hull]
+    #[arg(long, value_enum, value_name = "SECTION")]
+    section_for_cp: Option<SectionWord>,
+    /// Height of the centre of gravity above the base line, for GM and MTC [default: of the hull]
+    #[arg(long, value_parser = length, value_name = "KG", allow_hyphen_values = true)]
+    kg: Option<f64>,
+    /// Where the LCB of the table is measured from [default: of the hull]
+    #[arg(long, value_parser = lcb_reference, value_name = "AP|midship|FP|percent")]
+    lcb_reference: Option<LcbReference>,
     /// File to write instead of stdout
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -30,15 +46,68 @@ pub(super) struct Arguments {
     force: bool,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum CoefficientLengthWord {
+    #[value(name = "Lpp", alias = "lpp")]
+    Lpp,
+    #[value(name = "Lwl", alias = "lwl")]
+    Lwl,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SectionWord {
+    Maximum,
+    Midship,
+}
+
+fn density(text: &str) -> Result<f64, String> {
+    let measure = parse(text).map_err(|error| error.to_string())?;
+    if !matches!(measure.dimension, Dimension::None | Dimension::Density) {
+        return Err(format!("{text} is {}, expected a density", measure.dimension.as_str()));
+    }
+    if (0.9..=1.3).contains(&measure.value) {
+        return Ok(measure.value);
+    }
+    Err("expected 0.9 to 1.3 t/m3, or with its unit as 1025kg/m3".to_owned())
+}
+
+fn lcb_reference(word: &str) -> Result<LcbReference, String> {
+    let known = LcbReference::ALL.map(LcbReference::as_str).join(", ");
+    LcbReference::ALL
+        .into_iter()
+        .find(|reference| reference.as_str().eq_ignore_ascii_case(word))
+        .ok_or(format!("known are {known}"))
+}
+
+/// The conventions stored with the hull, and over them what the command line says.
+fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
+    Conventions {
+        density: arguments.density.unwrap_or(stored.density),
+        coefficient_length: match arguments.coefficient_length {
+            Some(CoefficientLengthWord::Lpp) => CoefficientLength::BetweenPerpendiculars,
+            Some(CoefficientLengthWord::Lwl) => CoefficientLength::Waterline,
+            None => stored.coefficient_length,
+        },
+        prismatic_section: match arguments.section_for_cp {
+            Some(SectionWord::Maximum) => PrismaticSection::Maximum,
+            Some(SectionWord::Midship) => PrismaticSection::Midship,
+            None => stored.prismatic_section,
+        },
+        lcb_reference: arguments.lcb_reference.unwrap_or(stored.lcb_reference),
+        centre_of_gravity_height: arguments.kg.or(stored.centre_of_gravity_height),
+        ..stored
+    }
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
-    let table = CurvesOfForm::new(&source.hull, &arguments.draughts.0, &source.conventions);
+    let table = CurvesOfForm::new(&source.hull, &arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {
         stream::json(&hydrostatics_json(&table))?
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {
-        hydrostatics_page(&table)
+        hydrostatics_page(&table, source.hull.particulars().length_between_perpendiculars)
     };
     stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
 }

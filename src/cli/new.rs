@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::stream;
-use crate::config::{TEMPLATES, template};
+use crate::config::{PRESET_ALIASES, TEMPLATES, template};
 use crate::report::Failure;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// What to begin with; without it the names are listed
-    #[arg(value_parser = clap::builder::PossibleValuesParser::new(TEMPLATES.iter().map(|t| t.name)))]
+    #[arg(value_parser = clap::builder::PossibleValuesParser::new(words()))]
     preset: Option<String>,
     /// File to write instead of stdout
     #[arg(short, long, value_name = "FILE")]
@@ -21,13 +21,26 @@ pub(super) struct Arguments {
     force: bool,
 }
 
+/// Every word that names a template.
+fn words() -> impl Iterator<Item = &'static str> {
+    TEMPLATES.iter().map(|t| t.name).chain(PRESET_ALIASES.iter().map(|(alias, _)| *alias))
+}
+
+/// The other words for a template, for the list.
+fn also(name: &str) -> String {
+    let words: Vec<&str> =
+        PRESET_ALIASES.iter().filter(|(_, preset)| *preset == name).map(|(alias, _)| *alias).collect();
+    if words.is_empty() { String::new() } else { format!(" (also: {})", words.join(", ")) }
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.preset {
         Some(name) => {
             stream::data_or_file(template(name).unwrap_or_default(), arguments.output.as_deref(), arguments.force)
         }
         None => {
-            let list: String = TEMPLATES.iter().map(|t| format!("{:<14} {}\n", t.name, t.title)).collect();
+            let list: String =
+                TEMPLATES.iter().map(|t| format!("{:<14} {}{}\n", t.name, t.title, also(t.name))).collect();
             stream::data_or_file(list, arguments.output.as_deref(), arguments.force)
         }
     }

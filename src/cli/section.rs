@@ -75,6 +75,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
     let cut = arguments.plane.cut().ok_or_else(|| Failure::Internal("no plane".to_owned()))?;
     let section = sections_of(&source.hull, cut);
+    if section.branches.is_empty() {
+        stream::message("the plane does not cut the hull; the table is empty");
+    }
     let text = if arguments.json {
         stream::json(&section_json(&section, arguments.deviation))?
     } else {

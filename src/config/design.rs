@@ -1,14 +1,12 @@
 //! What a design file means: a family with its parameters, conventions, and what is to be written.
 
 use super::diagnostic::{Diagnostic, Severity, position};
-use super::document::{Document, Raw};
-use super::keys::{FAMILIES, FIGURES, Kind};
+use super::document::{Document, Raw, nearest};
+use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
-use super::value::Scalar;
-use crate::hydrostatics::{CoefficientLength, Conventions, PrismaticSection, Shell};
-use crate::parametric::cosh::{MidshipWish, Wishes};
-use crate::parametric::{Family, ShipType, analytic, ucl_cosh};
-use crate::units::{Dimension, Measure};
+use super::wishes::wishes;
+use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell};
+use crate::parametric::{Family, Infeasible, analytic, ucl_cosh};
 
 /// Where stations are counted from in drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,6 +65,7 @@ pub struct Design {
     pub reference: Option<Reference>,
     file: String,
     places: Vec<Place>,
+    tables: Vec<Place>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -88,13 +87,28 @@ impl Design {
             reference: None,
             file: file.to_owned(),
             places: Vec::new(),
+            tables: Vec::new(),
         }
     }
 
-    /// The message of a family about some of its keys, with the place of the first of them that the file has.
+    /// The message of a family about some of its keys, with the place of the first of them that the file has; of the preset,
+    /// or of the table, when it has none of them. An error names the keys that the file does not have.
     #[must_use]
     pub fn diagnose(&self, severity: Severity, code: &'static str, keys: &[&str], message: &str) -> Diagnostic {
-        let place = keys.iter().find_map(|key| self.place(key));
+        let preset = self.places.iter().find(|p| p.path == "project.preset");
+        let place = keys.iter().find_map(|key| self.place(key)).or(preset).or_else(|| {
+            let tables = keys.iter().filter_map(|key| KEYS.iter().find(|k| k.name == *key)).map(|k| k.table);
+            // The table of the key, or the one that holds it.
+            let holds = |t: &&Place, table: &str| table == t.path || table.starts_with(&format!("{}.", t.path));
+            tables.filter_map(|table| self.tables.iter().rev().find(|t| holds(t, table))).next()
+        });
+        let absent: Vec<&str> = keys.iter().filter(|key| self.place(key).is_none()).copied().collect();
+        let help = if severity == Severity::Warning || self.places.is_empty() || absent.is_empty() {
+            String::new()
+        } else {
+            let origin = if preset.is_some() { "from the preset" } else { "a default" };
+            format!("Not in the file: {} ({origin}).", absent.join(", "))
+        };
         Diagnostic {
             severity,
             code,
@@ -103,15 +117,36 @@ impl Design {
             column: place.map(|p| p.column),
             key: place.map_or_else(|| keys.first().map_or_else(String::new, |k| (*k).to_owned()), |p| p.path.clone()),
             message: message.to_owned(),
-            help: String::new(),
+            help,
         }
     }
 
-    /// The place of a key, named by its path or by its last word.
+    /// Every reason why the family refuses, with its place in the file. A reason that is about defaults alone follows from
+    /// what the file says, and is left out beside reasons about that.
+    #[must_use]
+    pub fn diagnose_all(&self, reasons: &[Infeasible]) -> Vec<Diagnostic> {
+        let written = |reason: &&Infeasible| reason.keys.iter().any(|key| self.place(key).is_some());
+        let any = reasons.iter().any(|reason| written(&reason));
+        reasons
+            .iter()
+            .filter(|reason| !any || written(reason))
+            .map(|r| self.diagnose(Severity::Error, r.code, &r.keys, &r.message))
+            .collect()
+    }
+
+    /// The place of a key, named by its path or by its last word, or of the other key that says the same thing.
     fn place(&self, key: &str) -> Option<&Place> {
-        let last = key.rsplit('.').next().unwrap_or(key);
-        self.places.iter().find(|p| p.path.eq_ignore_ascii_case(key)).or_else(|| {
-            self.places.iter().find(|p| p.path.rsplit('.').next().is_some_and(|name| name.eq_ignore_ascii_case(last)))
+        let named = |key: &str| {
+            let word = last_word(key);
+            self.places
+                .iter()
+                .find(|p| p.path.eq_ignore_ascii_case(key))
+                .or_else(|| self.places.iter().find(|p| last_word(&p.path).eq_ignore_ascii_case(word)))
+        };
+        named(key).or_else(|| match last_word(key) {
+            "Cb" => named("displacement"),
+            "transom_height" => named("transom_immersion"),
+            _ => None,
         })
     }
 }
@@ -122,13 +157,46 @@ impl Design {
 /// Every problem of the file at once.
 pub fn read(file: &str, text: &str) -> Result<Design, Vec<Diagnostic>> {
     let mut document = Document::read(file, text);
-    let design = interpret(&mut document);
-    if document.problems.is_empty() {
-        return Ok(design);
+    if !document.problems.iter().any(|p| p.code == "E120") {
+        let design = interpret(&mut document);
+        if document.problems.is_empty() {
+            return Ok(design);
+        }
+        let refusals = refusals(&design, &document.problems);
+        document.problems.extend(refusals);
     }
     document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
     document.problems.dedup();
     Err(document.problems)
+}
+
+/// Why the family refuses what could be read of a file with other problems; nothing where those problems may be the cause.
+fn refusals(design: &Design, problems: &[Diagnostic]) -> Vec<Diagnostic> {
+    // Without its required numbers a family cannot say anything.
+    let required = match &design.family {
+        Family::Cosh(wishes) => vec![wishes.length],
+        Family::UclCosh(p) => vec![p.length, p.breadth, p.depth, p.draught],
+        Family::Wigley(d) | Family::Box(d) | Family::Ellipsoid(d) => vec![d.length, d.breadth, d.draught],
+    };
+    let family_unknown = problems.iter().any(|p| p.key == "project.family");
+    if family_unknown || !required.iter().all(|value| value.is_finite()) {
+        return Vec::new();
+    }
+    let words: Vec<&str> = problems.iter().map(|p| last_word(&p.key)).filter(|word| !word.is_empty()).collect();
+    let caused = |key: &&'static str| {
+        let given = design.place(key).is_some();
+        words.iter().any(|word| {
+            word.eq_ignore_ascii_case(key)
+                || (!given && (*word == "preset" || nearest(word, std::iter::once(*key)).is_some()))
+        })
+    };
+    let mut reasons = design.family.generate(&design.name).err().unwrap_or_default();
+    reasons.retain(|reason| !reason.keys.iter().any(caused));
+    design.diagnose_all(&reasons)
+}
+
+fn last_word(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
 }
 
 fn stem(file: &str) -> &str {
@@ -156,14 +224,12 @@ fn interpret(document: &mut Document<'_>) -> Design {
     };
     let output = output(document);
     let reference = reference(document);
-    let places = document
-        .entries
-        .iter()
-        .map(|entry| {
-            let (line, column) = position(document.text, entry.key_span.start);
-            Place { path: entry.key.path(), line, column }
-        })
-        .collect();
+    let place = |path: String, byte: usize| {
+        let (line, column) = position(document.text, byte);
+        Place { path, line, column }
+    };
+    let places = document.entries.iter().map(|entry| place(entry.key.path(), entry.key_span.start)).collect();
+    let tables = document.tables.iter().map(|(path, byte)| place(path.clone(), *byte)).collect();
     let file = document.file.to_owned();
     Design {
         name: name.unwrap_or_else(|| stem(&file).to_owned()),
@@ -173,6 +239,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
         reference,
         file,
         places,
+        tables,
     }
 }
 
@@ -191,7 +258,7 @@ fn refuse_other_families(document: &mut Document<'_>, family: &str) {
 }
 
 /// Notes the required keys that are absent.
-fn require(document: &mut Document<'_>, paths: &[&str], why: &str) {
+pub(super) fn require(document: &mut Document<'_>, paths: &[&str], why: &str) {
     let missing: Vec<&str> = paths.iter().filter(|path| document.entry(path).is_none()).copied().collect();
     if !missing.is_empty() {
         document.whole_file("E125", format!("{} missing: {why}", missing.join(", ")));
@@ -229,6 +296,10 @@ fn conventions(document: &mut Document<'_>) -> Conventions {
     }
     if document.word("conventions.section_for_Cp") == Some("midship") {
         conventions.prismatic_section = PrismaticSection::Midship;
+    }
+    if let Some(word) = document.word("conventions.lcb_reference") {
+        conventions.lcb_reference =
+            LcbReference::ALL.into_iter().find(|r| r.as_str() == word).unwrap_or(conventions.lcb_reference);
     }
     conventions
 }
@@ -338,258 +409,6 @@ fn dimensions(document: &mut Document<'_>) -> analytic::Dimensions {
     analytic::Dimensions { length, breadth, draught, depth }
 }
 
-fn wishes(document: &mut Document<'_>, density: f64, complain: bool) -> Wishes {
-    if complain {
-        require(document, &["dimensions.Lpp"], "the length is the least that a design says");
-    }
-    let preset = document.word("project.preset");
-    let length = document.number("dimensions.Lpp").unwrap_or(f64::NAN);
-    let (breadth, draught, depth) =
-        (document.number("dimensions.B"), document.number("dimensions.T"), document.number("dimensions.D"));
-    let (block, volume) = size(document, [Some(length), breadth, draught], density);
-    let mut wishes = Wishes {
-        ship_type: preset.and_then(|word| ShipType::ALL.into_iter().find(|t| t.as_str() == word)),
-        length,
-        breadth,
-        draught,
-        depth,
-        block_coefficient: block,
-        displacement_volume: volume,
-        ..Wishes::default()
-    };
-    wishes.midship_coefficient = document.number_or_word("form.Cm").map(|cm| match cm {
-        Scalar::Word("kerlen") => MidshipWish::Kerlen,
-        Scalar::Word("hsva") => MidshipWish::Hsva,
-        Scalar::Word(_) => MidshipWish::Benford,
-        Scalar::Measure(number) => MidshipWish::Value(number.value),
-    });
-    wishes.lcb = centre_of_buoyancy(document, length);
-    wishes.waterplane_coefficient = match document.number_or_word("form.Cwp") {
-        Some(Scalar::Measure(number)) => Some(number.value),
-        _ => None,
-    };
-    wishes.parallel_body = document.interval("form.parallel_body").map(|ends| ends.map(|fraction| fraction * length));
-    wishes.entrance_length = document.number("form.entrance_length");
-    wishes.run_length = document.number("form.run_length");
-    lengths_add_up(document, &wishes);
-    wishes.bilge_radius = document.number("form.bilge_radius");
-    wishes.deadrise = document.number("form.deadrise");
-    wishes.keel_breadth = document.number("form.keel_breadth");
-    wishes.section_character = document.number("form.section_character");
-    wishes.stem_rake = document.number("form.bow.rake");
-    wishes.forefoot = document.number("form.bow.forefoot");
-    wishes.maximum_half_entrance = document.number("form.bow.entrance_half_angle_max");
-    wishes.flare = document.number("form.bow.flare");
-    wishes.transom_breadth = scaled(document, "form.stern.transom_beam", breadth, "B").map(|beam| match breadth {
-        Some(b) => beam / b,
-        None => beam,
-    });
-    wishes.transom_height = transom(document, draught, depth);
-    wishes.stern_overhang = document.number("form.stern.overhang");
-    wishes.cut_up = scaled(document, "form.stern.cut_up", Some(length), "Lpp");
-    wishes.sheer_fore = document.number("form.deck.sheer_fore");
-    wishes.sheer_aft = document.number("form.deck.sheer_aft");
-    wishes
-}
-
-/// Cb and displaced volume \[m^3\]; when both are given with L, B and T they must agree to 0.1 %.
-fn size(document: &mut Document<'_>, dimensions: [Option<f64>; 3], density: f64) -> (Option<f64>, Option<f64>) {
-    let block = document.number("form.Cb");
-    let displacement = document.dimensioned("form.displacement");
-    let volume = displacement.map(|m| if m.dimension == Dimension::Volume { m.value } else { m.value / density });
-    let (Some(cb), Some(v), [Some(l), Some(b), Some(t)]) = (block, volume, dimensions) else { return (block, volume) };
-    let box_volume = l * b * t;
-    let difference = v / (cb * box_volume) - 1.0;
-    if difference.abs() > 1e-3 {
-        let span = document.entry("form.displacement").map_or(0..0, |e| e.key_span.clone());
-        let message = format!(
-            "displacement {:.1} t and Lpp B T Cb rho = {:.1} t disagree by {:.1} %",
-            v * density,
-            cb * box_volume * density,
-            100.0 * difference.abs()
-        );
-        let help = format!(
-            "Give one of them; this displacement is Cb {:.4}, or T {:.3} m with Cb {cb}.",
-            v / box_volume,
-            v / (l * b * cb)
-        );
-        document.problem("E110", "form.displacement", &span, message, help);
-    }
-    (block, None)
-}
-
-/// LCB from AP \[m\].
-fn centre_of_buoyancy(document: &mut Document<'_>, length: f64) -> Option<f64> {
-    let path = "form.LCB";
-    let (raw, span, kind) = document.raw(path)?;
-    if matches!(raw, Raw::Number(_)) {
-        document.problem(
-            "E123",
-            path,
-            &span,
-            format!("{path} is {}, and its unit is not said", raw.describe()),
-            "Write \"+0.8 %\" (of Lpp from midship, + forward) or \"41.0 m AP\".".into(),
-        );
-        return None;
-    }
-    let Raw::Text(text) = &raw else {
-        document.unexpected(path, &raw, &span, kind);
-        return None;
-    };
-    let text = text.trim();
-    if text.eq_ignore_ascii_case("auto") {
-        return None;
-    }
-    let (number, datum) = match text.rsplit_once(char::is_whitespace) {
-        Some((number, word)) if ["ap", "fp", "midship"].contains(&word.to_ascii_lowercase().as_str()) => {
-            (number, word.to_ascii_lowercase())
-        }
-        _ => (text, String::new()),
-    };
-    match (crate::units::parse(number), datum.as_str()) {
-        (Ok(Measure { value, dimension: Dimension::Percent }), "" | "midship") => Some((0.5 + value) * length),
-        (Ok(Measure { value, dimension: Dimension::Percent }), "ap") => Some(value * length),
-        (Ok(Measure { value, dimension: Dimension::Length }), "" | "ap") => Some(value),
-        (Ok(Measure { value, dimension: Dimension::None }), "ap") => Some(value),
-        (Ok(Measure { value, dimension: Dimension::Length }), "fp") => Some(length - value),
-        (Ok(Measure { value, dimension: Dimension::Length }), "midship") => Some(0.5 * length + value),
-        (Ok(_), _) => {
-            document.unexpected(path, &raw, &span, kind);
-            None
-        }
-        (Err(error), _) => {
-            document.problem(
-                "E123",
-                path,
-                &span,
-                format!("{path}: {error}"),
-                format!("Expected {}.", super::value::expected(kind)),
-            );
-            None
-        }
-    }
-}
-
-/// Entrance, parallel body and run must make up Lpp.
-fn lengths_add_up(document: &mut Document<'_>, wishes: &Wishes) {
-    let length = wishes.length;
-    let mut sum = Vec::new();
-    let parallel = wishes.parallel_body.map(|[from, to]| to - from);
-    if let Some(run) = wishes.run_length {
-        sum.push(("run", run));
-    }
-    if let Some(parallel) = parallel {
-        sum.push(("parallel body", parallel));
-    }
-    if let Some(entrance) = wishes.entrance_length {
-        sum.push(("entrance", entrance));
-    }
-    let total: f64 = sum.iter().map(|(_, part)| part).sum();
-    let words: Vec<String> = sum.iter().map(|(name, part)| format!("{name} {part:.3} m")).collect();
-    let words = words.join(" + ");
-    let slack = 1e-3 * length;
-    let place = |document: &Document<'_>| {
-        ["form.entrance_length", "form.run_length", "form.parallel_body"]
-            .iter()
-            .find_map(|p| document.entry(p))
-            .map_or(0..0, |e| e.key_span.clone())
-    };
-    if sum.len() == 3 && (total - length).abs() > slack {
-        let span = place(document);
-        document.problem(
-            "E111",
-            "form.entrance_length",
-            &span,
-            format!("{words} = {total:.3} m, and Lpp is {length:.3} m"),
-            "Leave one of the three out.".into(),
-        );
-    } else if sum.len() == 2 && total > length + slack {
-        let span = place(document);
-        document.problem(
-            "E111",
-            "form.entrance_length",
-            &span,
-            format!("{words} = {total:.3} m is more than Lpp {length:.3} m"),
-            format!("They may have {length:.3} m together."),
-        );
-    } else if let (Some([from, to]), true) = (wishes.parallel_body, sum.len() == 2) {
-        for (path, given, meant) in [
-            ("form.run_length", wishes.run_length, from),
-            ("form.entrance_length", wishes.entrance_length, length - to),
-        ] {
-            if let (Some(given), Some(span)) = (given, document.entry(path).map(|e| e.key_span.clone()))
-                && (given - meant).abs() > slack
-            {
-                document.problem(
-                    "E111",
-                    path,
-                    &span,
-                    format!("{path} is {given:.3} m, and parallel_body leaves {meant:.3} m"),
-                    "Give one of them.".into(),
-                );
-            }
-        }
-    }
-}
-
-/// A fraction of a dimension, or a length with its unit \[m\].
-fn scaled(document: &mut Document<'_>, path: &str, whole: Option<f64>, name: &str) -> Option<f64> {
-    let measure = document.dimensioned(path)?;
-    match (measure.dimension, whole) {
-        (Dimension::Length, Some(_)) => Some(measure.value),
-        (Dimension::Length, None) if path == "form.stern.transom_beam" => {
-            absent(document, path, name, "write a fraction");
-            None
-        }
-        (Dimension::Length, None) => Some(measure.value),
-        (_, Some(whole)) => Some(measure.value * whole),
-        // The breadth of the transom stays a fraction.
-        (_, None) if path == "form.stern.transom_beam" => Some(measure.value),
-        (_, None) => {
-            absent(document, path, name, "write a length with its unit");
-            None
-        }
-    }
-}
-
-fn absent(document: &mut Document<'_>, path: &str, name: &str, else_do: &str) {
-    let span = document.entry(path).map_or(0..0, |e| e.key_span.clone());
-    document.problem(
-        "E125",
-        path,
-        &span,
-        format!("{path} is measured by {name}, which the design does not say"),
-        format!("Give {name}, or {else_do}."),
-    );
-}
-
-/// Height of the lowest point of the transom \[m\], from either of its two keys.
-fn transom(document: &mut Document<'_>, draught: Option<f64>, depth: Option<f64>) -> Option<f64> {
-    let height = scaled(document, "form.stern.transom_height", depth, "D");
-    let immersion = scaled(document, "form.stern.transom_immersion", draught, "T");
-    if let (Some(first), Some(second)) =
-        (document.entry("form.stern.transom_height"), document.entry("form.stern.transom_immersion"))
-    {
-        let span = first.key_span.start.max(second.key_span.start)..first.key_span.end;
-        document.problem(
-            "E126",
-            "form.stern.transom_immersion",
-            &span,
-            "transom_height and transom_immersion say the same thing twice".into(),
-            "Give one of them.".into(),
-        );
-        return height;
-    }
-    match (immersion, draught) {
-        (Some(immersion), Some(draught)) => Some(draught - immersion),
-        (Some(_), None) => {
-            absent(document, "form.stern.transom_immersion", "T", "use transom_height");
-            None
-        }
-        (None, _) => height,
-    }
-}
-
 fn output(document: &mut Document<'_>) -> Output {
     let defaults = Output::default();
     Output {
@@ -639,39 +458,8 @@ fn figures(document: &mut Document<'_>) -> Option<Vec<&'static str>> {
 mod tests {
     use super::*;
 
-    fn cosh(text: &str) -> Wishes {
-        match read("a/coaster.toml", text).unwrap_or_else(|e| panic!("{e:#?}")).family {
-            Family::Cosh(wishes) => *wishes,
-            other => panic!("{other:?}"),
-        }
-    }
-
     fn messages(text: &str) -> Vec<String> {
         read("x.toml", text).unwrap_err().iter().map(ToString::to_string).collect()
-    }
-
-    fn close(a: Option<f64>, b: f64) {
-        assert!(a.is_some_and(|a| (a - b).abs() < 1e-9), "{a:?} {b}");
-    }
-
-    #[test]
-    fn units_and_fractions_become_metres_and_radians() {
-        let wishes = cosh(
-            "[DIMENSIONS]\nlpp = \"80 m\"\nb = 13.2\nT = \"5200 mm\"\nd = 7\n[form]\nCB = 0.72\nCm = \"Kerlen\"\nLCB = \"+0.8 %\"\n\
-             Cwp = \"auto\"\nparallel_body = [0.42, \"58 %\"]\n[form.bow]\nrake = 12\nflare = \"0.2 rad\"\n\
-             [form.stern]\ntransom_beam = \"6.6 m\"\ntransom_height = 0.5\ncut_up = 0.125",
-        );
-        close(Some(wishes.length), 80.0);
-        close(wishes.draught, 5.2);
-        close(wishes.lcb, 40.64);
-        close(wishes.parallel_body.map(|p| p[1]), 46.4);
-        close(wishes.stem_rake, 12f64.to_radians());
-        close(wishes.flare, 0.2);
-        close(wishes.transom_breadth, 0.5);
-        close(wishes.transom_height, 3.5);
-        close(wishes.cut_up, 10.0);
-        assert_eq!(wishes.midship_coefficient, Some(MidshipWish::Kerlen));
-        assert_eq!(wishes.waterplane_coefficient, None);
     }
 
     #[test]
@@ -680,51 +468,18 @@ mod tests {
     }
 
     #[test]
-    fn displacement_is_mass_or_volume() {
-        let with = |d: &str| cosh(&format!("dimensions.Lpp = 80\nform.displacement = {d}\nwater.density = 1.0"));
-        close(with("4000").displacement_volume, 4000.0);
-        close(with("\"4000 m3\"").displacement_volume, 4000.0);
-        close(cosh("dimensions.Lpp = 80\nform.displacement = \"1025 t\"").displacement_volume, 1000.0);
-    }
-
-    #[test]
-    fn centre_of_buoyancy_in_every_form() {
-        let with = |lcb: &str| cosh(&format!("dimensions.Lpp = 80\nform.LCB = \"{lcb}\"")).lcb;
-        for (text, x) in [
-            ("-1 %", 39.2),
-            ("41.0 m AP", 41.0),
-            ("41 AP", 41.0),
-            ("41 m", 41.0),
-            ("38 m FP", 42.0),
-            ("-1 m midship", 39.0),
-        ] {
-            close(with(text), x);
-        }
-        assert_eq!(with("auto"), None);
-    }
-
-    #[test]
-    fn immersion_is_a_fraction_of_the_draught() {
-        let with = |v: &str| {
-            cosh(&format!("dimensions = {{ Lpp = 80, T = 5, D = 8 }}\nform.stern.transom_immersion = {v}"))
-                .transom_height
-        };
-        close(with("0.1"), 4.5);
-        close(with("\"0.2 m\""), 4.8);
-    }
-
-    #[test]
     fn conventions_and_output() {
         let design = read(
             "x.toml",
             "dimensions.Lpp = 80\n[water]\nshell = { thickness = \"10 mm\" }\nkeel_thickness = \"15 mm\"\n[weight]\nKG = 6\n\
-             [conventions]\ncoefficient_length = \"lwl\"\nsection_for_Cp = \"midship\"\nstation_zero = \"FP\"\nstations = 10\n\
+             [conventions]\ncoefficient_length = \"lwl\"\nsection_for_Cp = \"midship\"\nlcb_reference = \"fp\"\nstation_zero = \"FP\"\nstations = 10\n\
              [output]\ndraughts = { from = 1, to = 3, step = 1 }\nwaterlines = [1, \"2000 mm\"]\nfigures = [\"lines\"]",
         )
         .unwrap();
         assert_eq!(design.conventions.shell, Shell::Thickness(0.01));
         assert_eq!(design.conventions.coefficient_length, CoefficientLength::Waterline);
         assert_eq!(design.conventions.prismatic_section, PrismaticSection::Midship);
+        assert_eq!(design.conventions.lcb_reference, LcbReference::ForwardPerpendicular);
         assert_eq!(design.conventions.centre_of_gravity_height, Some(6.0));
         assert_eq!(design.output.draughts.as_deref(), Some(&[1.0, 2.0, 3.0][..]));
         assert_eq!(design.output.waterlines.as_deref(), Some(&[1.0, 2.0][..]));
@@ -736,8 +491,18 @@ mod tests {
     fn a_family_message_finds_the_line_of_its_key() {
         let design = read("hull.toml", "[dimensions]\nLpp = 80\n[form]\n  Cb = 0.85\n").unwrap();
         let shown = design.diagnose(Severity::Error, "E102", &["Cm", "Cb"], "Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1.");
-        assert_eq!(shown.to_string(), "E102 hull.toml:4:3 Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1.");
-        assert_eq!(design.diagnose(Severity::Error, "E1", &["T"], "no").to_string(), "E1 hull.toml no");
+        assert_eq!(
+            shown.to_string(),
+            "E102 hull.toml:4:3 Cb 0.85 with Cm 0.80 gives Cp 1.06 > 1. Not in the file: Cm (a default)."
+        );
+        let shown = |severity, key| design.diagnose(severity, "E1", &[key], "no").to_string();
+        assert_eq!(shown(Severity::Error, "B"), "E1 hull.toml:1:2 no. Not in the file: B (a default).");
+        assert_eq!(shown(Severity::Warning, "B"), "E1 hull.toml:1:2 no");
+        assert_eq!(shown(Severity::Error, "KG"), "E1 hull.toml no. Not in the file: KG (a default).");
+        assert_eq!(shown(Severity::Error, "rake"), "E1 hull.toml:3:2 no. Not in the file: rake (a default).");
+        let design = read("hull.toml", "project.preset = \"tug\"\ndimensions.Lpp = 80").unwrap();
+        let shown = design.diagnose(Severity::Error, "E1", &["transom_height"], "no").to_string();
+        assert_eq!(shown, "E1 hull.toml:1:9 no. Not in the file: transom_height (from the preset).");
     }
 
     #[test]

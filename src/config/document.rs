@@ -55,6 +55,8 @@ pub(super) struct Document<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
     pub(super) entries: Vec<Entry>,
+    /// Tables that the file opens, by their path in lower case, with the byte where their name stands.
+    pub(super) tables: Vec<(String, usize)>,
     pub(super) problems: Vec<Diagnostic>,
 }
 
@@ -96,7 +98,7 @@ pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>)
 impl<'a> Document<'a> {
     /// Reads a text; whatever is wrong with it stands in `problems`.
     pub(super) fn read(file: &'a str, text: &'a str) -> Self {
-        let mut document = Self { file, text, entries: Vec::new(), problems: Vec::new() };
+        let mut document = Self { file, text, entries: Vec::new(), tables: Vec::new(), problems: Vec::new() };
         if text.len() > LARGEST {
             document
                 .whole_file("E120", format!("the file has {} bytes; a design file has at most {LARGEST}", text.len()));
@@ -106,7 +108,14 @@ impl<'a> Document<'a> {
         for error in &errors {
             let span = error.span().unwrap_or(text.len()..text.len());
             let help = document.syntax_help(&span);
-            document.problem("E120", "", &span, format!("not TOML: {}", error.message()), help);
+            // A second message about a line is an echo of the first.
+            if document.problems.iter().all(|p| p.line != Some(position(text, span.start).0)) {
+                document.problem("E120", "", &span, format!("not TOML: {}", error.message()), help);
+            }
+        }
+        if !errors.is_empty() {
+            // What was recovered is a guess; messages about it would hide the cause.
+            return document;
         }
         document.walk("", table.get_ref());
         document.entries.sort_by_key(|entry| entry.key_span.start);
@@ -141,7 +150,10 @@ impl<'a> Document<'a> {
             let is_table = KEYS.iter().any(|k| under(k.table, &lower));
             let known = KEYS.iter().find(|k| k.path().to_lowercase() == lower);
             match (value.get_ref(), known) {
-                (DeValue::Table(inner), None) if is_table => self.walk(&lower, inner),
+                (DeValue::Table(inner), None) if is_table => {
+                    self.tables.push((lower.clone(), name.span().start));
+                    self.walk(&lower, inner);
+                }
                 (other, None) if is_table => {
                     let found = raw(other).describe();
                     self.problem(
@@ -199,7 +211,16 @@ impl<'a> Document<'a> {
             let table = KEYS.iter().find(|k| k.name == near).map_or("", |k| k.table);
             format!("Did you mean {near} of [{table}]?")
         } else {
-            let names: Vec<&str> = here.collect();
+            let mut names: Vec<String> = here.map(str::to_owned).collect();
+            for key in KEYS.iter().filter(|k| !k.table.is_empty()) {
+                let inside = match path {
+                    "" => Some(key.table),
+                    _ => key.table.strip_prefix(path).and_then(|rest| rest.strip_prefix('.')),
+                };
+                let child = inside.and_then(|rest| rest.split('.').next());
+                let shown = child.map(|c| if path.is_empty() { format!("[{c}]") } else { format!("[{path}.{c}]") });
+                names.extend(shown.filter(|shown| !names.contains(shown)));
+            }
             if names.is_empty() {
                 "`loftsman schema` lists all keys.".into()
             } else {

@@ -62,9 +62,36 @@ impl Key {
 
 /// Words for `project.family`; the first is the default.
 pub const FAMILIES: [&str; 5] = ["cosh", "ucl-cosh", "wigley", "box", "ellipsoid"];
-/// Words for `project.preset`, in the order of [`crate::parametric::ShipType::ALL`].
-pub(super) const PRESETS: [&str; 8] =
-    ["bulk-carrier", "container", "general-cargo", "ro-ro", "tug", "fishing", "frigate", "yacht"];
+/// Other words for presets: what the type of ship is called elsewhere, and the preset that it means.
+pub const PRESET_ALIASES: [(&str, &str); 5] = [
+    ("tanker", "bulk-carrier"),
+    ("trawler", "fishing"),
+    ("ferry", "ro-ro"),
+    ("coaster", "general-cargo"),
+    ("cruise", "ro-ro"),
+];
+/// Every word that `project.preset` takes.
+pub(super) const PRESET_WORDS: [&str; 13] = [
+    "bulk-carrier",
+    "container",
+    "general-cargo",
+    "ro-ro",
+    "tug",
+    "fishing",
+    "frigate",
+    "yacht",
+    "tanker",
+    "trawler",
+    "ferry",
+    "coaster",
+    "cruise",
+];
+
+/// The preset that a word means: an alias gives its preset, any other word itself.
+pub(super) fn preset_of(word: &str) -> &str {
+    PRESET_ALIASES.iter().find(|(alias, _)| alias.eq_ignore_ascii_case(word)).map_or(word, |(_, preset)| preset)
+}
+
 /// Words for `output.figures`.
 pub const FIGURES: [&str; 5] = ["lines", "sections", "sectional-area", "hydrostatics", "diagram-sheet"];
 
@@ -91,7 +118,13 @@ pub const KEYS: &[Key] = &[
         &[],
         "Name of the ship; it stands in every output. Default: the name of the file.",
     ),
-    key("project", "preset", Kind::Word(&PRESETS), COSH, "Type of ship that fills what is left out."),
+    key(
+        "project",
+        "preset",
+        Kind::Word(&PRESET_WORDS),
+        COSH,
+        "Type of ship that fills what is left out. Tanker is bulk-carrier, trawler fishing, ferry and cruise ro-ro, coaster general-cargo.",
+    ),
     key("project", "family", Kind::Word(&FAMILIES), &[], "Family of the hull. Default \"cosh\"."),
     key("dimensions", "Lpp", Kind::Length, &[], "Length between perpendiculars [m]; ucl-cosh: length over all."),
     key("dimensions", "B", Kind::Length, &[], "Breadth, moulded [m]. Default for cosh: from the preset."),
@@ -275,6 +308,13 @@ pub const KEYS: &[Key] = &[
     ),
     key(
         "conventions",
+        "lcb_reference",
+        Kind::Word(&["AP", "midship", "FP", "percent"]),
+        &[],
+        "Where the LCB on pages is measured from: metres from AP (+ forward), midship (+ forward) or FP (+ aft), or % of Lpp from midship (+ forward). Default \"AP\".",
+    ),
+    key(
+        "conventions",
         "station_zero",
         Kind::Word(&["AP", "FP"]),
         &[],
@@ -334,7 +374,12 @@ mod tests {
 
     #[test]
     fn presets_are_those_of_the_families() {
-        assert_eq!(ShipType::ALL.map(ShipType::as_str), PRESETS);
+        let names = ShipType::ALL.map(ShipType::as_str);
+        assert_eq!(names, PRESET_WORDS[..names.len()]);
+        assert_eq!(PRESET_ALIASES.map(|(alias, _)| alias), PRESET_WORDS[names.len()..]);
+        for (alias, preset) in PRESET_ALIASES {
+            assert!(names.contains(&preset) && preset_of(alias) == preset && preset_of(preset) == preset);
+        }
     }
 
     #[test]

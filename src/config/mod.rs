@@ -12,10 +12,11 @@ mod reference;
 mod schema;
 mod template;
 mod value;
+mod wishes;
 
 pub use design::{Design, Output, StationZero, read};
 pub use diagnostic::{Diagnostic, Severity};
-pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind};
+pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use reference::{Reference, ReferenceRow};
 pub use schema::design_schema;
 pub use template::{TEMPLATES, template};

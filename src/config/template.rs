@@ -1,6 +1,6 @@
 //! Commented design files to begin with.
 
-use super::keys::{KEYS, Key};
+use super::keys::{KEYS, Key, preset_of};
 
 /// One design to begin with: its word, what it shows, and its values by path; a value that starts with `#` is shown as a
 /// comment.
@@ -191,6 +191,7 @@ fn sample(path: &str) -> &'static str {
         "weight.KG" => "\"7.5 m\"",
         "conventions.coefficient_length" => "\"Lpp\"",
         "conventions.section_for_Cp" => "\"maximum\"",
+        "conventions.lcb_reference" => "\"AP\"",
         "conventions.station_zero" => "\"AP\"",
         "conventions.stations" => "20",
         "output.draughts" => "{ from = 1.0, to = 6.5, step = 0.25 }",
@@ -213,9 +214,10 @@ fn family(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The commented design file of the template `name`; none when there is no such template.
+/// The commented design file of the template `name`, or of the preset that it is another word for; none when there is no such template.
 #[must_use]
 pub fn template(name: &str) -> Option<String> {
+    let name = preset_of(name);
     let template = TEMPLATES.iter().find(|t| t.name.eq_ignore_ascii_case(name))?;
     let (family, preset) = family(template.name);
     let mut text = format!(
@@ -289,6 +291,7 @@ mod tests {
         for ship in crate::parametric::ShipType::ALL {
             assert!(template(ship.as_str()).is_some(), "{}", ship.as_str());
         }
+        assert_eq!(template("tanker"), template("bulk-carrier"));
         assert!(template("submarine").is_none());
     }
 }

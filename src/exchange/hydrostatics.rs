@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::number::{cell, json_number, line};
 use crate::hydrostatics::{
-    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, PrismaticSection, QUANTITIES, Shell,
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
 };
 
 /// Conventions as they stand in JSON files.
@@ -16,6 +16,7 @@ pub(super) struct ConventionsRecord {
     coefficient_length: Option<LengthWord>,
     #[serde(rename = "section_for_Cp")]
     section_for_cp: Option<SectionWord>,
+    lcb_reference: Option<LcbWord>,
     shell: Option<ShellRecord>,
     keel_thickness: Option<f64>,
     #[serde(rename = "KG")]
@@ -36,6 +37,18 @@ enum SectionWord {
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+enum LcbWord {
+    #[serde(rename = "AP")]
+    AftPerpendicular,
+    #[serde(rename = "midship")]
+    Midship,
+    #[serde(rename = "FP")]
+    ForwardPerpendicular,
+    #[serde(rename = "percent")]
+    Percent,
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum ShellRecord {
     Factor(f64),
@@ -53,6 +66,12 @@ impl From<&Conventions> for ConventionsRecord {
             section_for_cp: Some(match c.prismatic_section {
                 PrismaticSection::Maximum => SectionWord::Maximum,
                 PrismaticSection::Midship => SectionWord::Midship,
+            }),
+            lcb_reference: Some(match c.lcb_reference {
+                LcbReference::AftPerpendicular => LcbWord::AftPerpendicular,
+                LcbReference::Midship => LcbWord::Midship,
+                LcbReference::ForwardPerpendicular => LcbWord::ForwardPerpendicular,
+                LcbReference::Percent => LcbWord::Percent,
             }),
             shell: match c.shell {
                 Shell::None => None,
@@ -78,6 +97,12 @@ impl From<ConventionsRecord> for Conventions {
                 Some(SectionWord::Midship) => PrismaticSection::Midship,
                 _ => PrismaticSection::Maximum,
             },
+            lcb_reference: match record.lcb_reference {
+                None | Some(LcbWord::AftPerpendicular) => LcbReference::AftPerpendicular,
+                Some(LcbWord::Midship) => LcbReference::Midship,
+                Some(LcbWord::ForwardPerpendicular) => LcbReference::ForwardPerpendicular,
+                Some(LcbWord::Percent) => LcbReference::Percent,
+            },
             shell: match record.shell {
                 None => Shell::None,
                 Some(ShellRecord::Factor(factor)) => Shell::Factor(factor),
@@ -89,7 +114,7 @@ impl From<ConventionsRecord> for Conventions {
     }
 }
 
-/// The conventions as a JSON object: density \[t/m^3\], coefficient_length, section_for_Cp, shell, keel_thickness \[m\], KG \[m\],
+/// The conventions as a JSON object: density \[t/m^3\], coefficient_length, section_for_Cp, lcb_reference, shell, keel_thickness \[m\], KG \[m\],
 /// and the reference points in words.
 #[must_use]
 pub fn conventions_json(conventions: &Conventions) -> Value {
@@ -147,8 +172,10 @@ mod tests {
 
     #[test]
     fn conventions_survive_their_record() {
-        for shell in [Shell::None, Shell::Factor(1.006), Shell::Thickness(0.01)] {
+        let shells = [Shell::None, Shell::Factor(1.006), Shell::Thickness(0.01), Shell::None];
+        for (shell, lcb_reference) in shells.into_iter().zip(LcbReference::ALL) {
             let conventions = Conventions {
+                lcb_reference,
                 density: 1.0,
                 coefficient_length: CoefficientLength::Waterline,
                 prismatic_section: PrismaticSection::Midship,
@@ -159,6 +186,7 @@ mod tests {
             let text = serde_json::to_string(&ConventionsRecord::from(&conventions)).unwrap();
             let back: ConventionsRecord = serde_json::from_str(&text).unwrap();
             assert_eq!(Conventions::from(back), conventions);
+            assert!(text.contains(&format!("\"lcb_reference\":\"{}\"", lcb_reference.as_str())), "{text}");
         }
         let empty: ConventionsRecord = serde_json::from_str("{}").unwrap();
         assert_eq!(Conventions::from(empty), Conventions::default());

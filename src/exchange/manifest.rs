@@ -1,10 +1,10 @@
 //! `manifest.json`: what was read and written, by their SHA-256; no times, so that the same input gives the same bytes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// One file and its hash.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ManifestEntry {
     /// Name of the file, without its folder.
     pub file: String,
@@ -35,6 +35,20 @@ pub struct Manifest {
     pub outputs: Vec<ManifestEntry>,
 }
 
+/// The files that a manifest says were written; none when the text is no manifest of this program.
+#[must_use]
+pub fn read_manifest_outputs(text: &str) -> Vec<ManifestEntry> {
+    #[derive(Deserialize)]
+    struct Written {
+        program: String,
+        outputs: Vec<ManifestEntry>,
+    }
+    match serde_json::from_str(text) {
+        Ok(Written { program, outputs }) if program == env!("CARGO_PKG_NAME") => outputs,
+        _ => Vec::new(),
+    }
+}
+
 /// SHA-256 in hexadecimal.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
@@ -44,6 +58,17 @@ pub fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn outputs_are_read_back_from_manifests_only() {
+        let outputs = vec![ManifestEntry::new("a.png", b"a")];
+        let mut manifest =
+            Manifest { program: "loftsman", version: "1", input: ManifestEntry::new("a.toml", b""), outputs };
+        let text = |manifest: &Manifest| serde_json::to_string(manifest).unwrap();
+        assert_eq!(read_manifest_outputs(&text(&manifest)), manifest.outputs);
+        manifest.program = "other";
+        assert!(read_manifest_outputs(&text(&manifest)).is_empty() && read_manifest_outputs("{").is_empty());
+    }
 
     #[test]
     fn the_hash_of_abc() {

@@ -13,7 +13,7 @@ mod summary;
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
-pub use manifest::{Manifest, ManifestEntry, sha256};
+pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use offsets::{heights_csv, offsets_csv};
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};

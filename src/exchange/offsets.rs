@@ -27,7 +27,7 @@ pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> St
     if endings {
         for (name, end) in [("stern", 0), ("stem", 1)] {
             let mut row = vec![name.to_owned()];
-            row.extend(table.endings.iter().map(|ends| write(notation, ends.map(|ends| ends[end]))));
+            row.extend(table.endings.iter().map(|ends| write(notation, ends[end])));
             text.push_str(&line(&row));
         }
     }
@@ -75,7 +75,7 @@ mod tests {
                 station(0.0, vec![None, Some(1.25)], vec![Some(0.9)]),
                 station(5.0, vec![Some(1.5), Some(2.0)], vec![None]),
             ],
-            endings: vec![Some([0.2, 9.0]), None],
+            endings: vec![[Some(0.2), Some(9.0)], [None, Some(9.5)]],
         }
     }
 
@@ -83,7 +83,7 @@ mod tests {
     fn a_matrix_with_endings() {
         assert_eq!(
             offsets_csv(&table(), Notation::Metres, true),
-            "x\\z [m],0.5,1\n0,,1.25\n5,1.5,2\nstern,0.2,\nstem,9,\n"
+            "x\\z [m],0.5,1\n0,,1.25\n5,1.5,2\nstern,0.2,\nstem,9,9.5\n"
         );
         assert_eq!(
             offsets_csv(&table(), Notation::FeetInchesEighths, false),

@@ -14,14 +14,15 @@ fn face(face: Face) -> &'static str {
     }
 }
 
-/// `branch,x,y,z` \[m\], branches counted from 1; chords stay within `deviation` \[m\] of the curves.
+/// `branch,x,y,z,face` \[m\], branches counted from 1; chords stay within `deviation` \[m\] of the curves.
 #[must_use]
 pub fn section_csv(section: &Section, deviation: f64) -> String {
-    let mut text = String::from("branch,x,y,z\n");
+    let mut text = String::from("branch,x,y,z,face\n");
     for (index, branch) in section.branches.iter().enumerate() {
         for point in branch.polyline(deviation) {
             let mut fields = vec![format!("{}", index + 1)];
             fields.extend(point.map(|c| cell(Some(c))));
+            fields.push(face(branch.face).to_owned());
             text.push_str(&line(&fields));
         }
     }

@@ -44,8 +44,8 @@ pub struct OffsetTable {
     pub buttocks: Vec<f64>,
     /// The stations with their offsets.
     pub stations: Vec<StationOffsets>,
-    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none outside the surface.
-    pub endings: Vec<Option<[f64; 2]>>,
+    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none outside the surface and above the deck there.
+    pub endings: Vec<[Option<f64>; 2]>,
 }
 
 impl OffsetTable {
@@ -56,7 +56,7 @@ impl OffsetTable {
             waterlines: waterlines.to_vec(),
             buttocks: buttocks.to_vec(),
             stations: stations.iter().map(|station| lift(hull, station, waterlines, buttocks)).collect(),
-            endings: waterlines.iter().map(|&z| hull.endings(z)).collect(),
+            endings: waterlines.iter().map(|&z| ends(hull, z)).collect(),
         }
     }
 
@@ -65,6 +65,14 @@ impl OffsetTable {
     pub fn with_defaults(hull: &Hull) -> Self {
         Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull))
     }
+}
+
+/// Ends of the waterline at `z` below the deck at side; an end within 1e-12 of L_PP of AP is at AP.
+fn ends(hull: &Hull, z: f64) -> [Option<f64>; 2] {
+    let slack = 1e-12 * (hull.top() - hull.bottom());
+    let dust = 1e-12 * hull.particulars().length_between_perpendiculars;
+    let Some(ends) = hull.endings(z) else { return [None; 2] };
+    ends.map(|x| (z <= hull.deck_height(x) + slack).then_some(if x.abs() < dust { 0.0 } else { x }))
 }
 
 fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f64]) -> StationOffsets {
@@ -276,8 +284,9 @@ mod tests {
         assert_eq!(last.station.name, "fore end");
         assert!((last.station.x - 103.0).abs() < 1e-12);
         for (&z, ends) in table.waterlines.iter().zip(&table.endings) {
-            let [aft, forward] = ends.unwrap();
-            assert!(aft.abs() < 1e-12 && (forward - 100.0 - 0.3 * z).abs() < 1e-10);
+            // The deck at side is 9 m high at AP and 10 m at the stem.
+            assert_eq!(ends[0], (z <= 9.0).then_some(0.0), "{z}");
+            assert!((ends[1].unwrap() - 100.0 - 0.3 * z).abs() < 1e-10);
         }
     }
 

@@ -18,6 +18,63 @@ pub enum PrismaticSection {
     Midship,
 }
 
+/// Where the printed LCB is measured from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LcbReference {
+    /// From the aft perpendicular, + forward \[m\].
+    AftPerpendicular,
+    /// From L_PP / 2, + forward \[m\].
+    Midship,
+    /// From the forward perpendicular, + aft \[m\].
+    ForwardPerpendicular,
+    /// From L_PP / 2, + forward [% of L_PP].
+    Percent,
+}
+
+impl LcbReference {
+    /// Every reference.
+    pub const ALL: [Self; 4] = [Self::AftPerpendicular, Self::Midship, Self::ForwardPerpendicular, Self::Percent];
+
+    /// The word in files and on the command line.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::AftPerpendicular => "AP",
+            Self::Midship => "midship",
+            Self::ForwardPerpendicular => "FP",
+            Self::Percent => "percent",
+        }
+    }
+
+    /// Unit of the printed LCB.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        if self == Self::Percent { "%" } else { "m" }
+    }
+
+    /// The printed LCB of a centre `x` \[m\] forward of AP; `length` is L_PP \[m\].
+    #[must_use]
+    pub fn lcb(self, x: f64, length: f64) -> f64 {
+        match self {
+            Self::AftPerpendicular => x,
+            Self::Midship => x - 0.5 * length,
+            Self::ForwardPerpendicular => length - x,
+            Self::Percent => 100.0 * (x / length - 0.5),
+        }
+    }
+
+    /// The reference in words, with its sign.
+    #[must_use]
+    pub fn statement(self) -> &'static str {
+        match self {
+            Self::AftPerpendicular => "LCB from AP, + forward",
+            Self::Midship => "LCB from midship, + forward",
+            Self::ForwardPerpendicular => "LCB from FP, + aft",
+            Self::Percent => "LCB in % of Lpp from midship, + forward",
+        }
+    }
+}
+
 /// From moulded to extreme displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shell {
@@ -38,6 +95,8 @@ pub struct Conventions {
     pub coefficient_length: CoefficientLength,
     /// Section for C_P.
     pub prismatic_section: PrismaticSection,
+    /// Where the LCB on pages is measured from; XCB and XCBPC of files do not follow it.
+    pub lcb_reference: LcbReference,
     /// Shell plating.
     pub shell: Shell,
     /// Thickness of the keel below the base line \[m\]: extreme draught = moulded draught + this.
@@ -52,6 +111,7 @@ impl Default for Conventions {
             density: 1.025,
             coefficient_length: CoefficientLength::BetweenPerpendiculars,
             prismatic_section: PrismaticSection::Maximum,
+            lcb_reference: LcbReference::AftPerpendicular,
             shell: Shell::None,
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
@@ -99,7 +159,8 @@ impl Conventions {
                 },
             ),
             say("midship", "at Lpp/2"),
-            say("longitudinal centres", "LCB and LCF from AP, + forward; LCB also in % of Lpp from midship, + forward"),
+            say("longitudinal centres", "XCB and LCF from AP, + forward; XCBPC in % of Lpp from midship, + forward"),
+            say("printed centre of buoyancy", self.lcb_reference.statement()),
             say(
                 "shell",
                 &match self.shell {
@@ -139,6 +200,15 @@ mod tests {
     }
 
     #[test]
+    fn one_centre_from_every_reference() {
+        let printed = LcbReference::ALL.map(|reference| reference.lcb(51.0, 100.0));
+        for (found, expected) in printed.into_iter().zip([51.0, 1.0, 49.0, 1.0]) {
+            assert!((found - expected).abs() < 1e-12, "{printed:?}");
+        }
+        assert_eq!(LcbReference::ALL.map(LcbReference::unit), ["m", "m", "m", "%"]);
+    }
+
+    #[test]
     fn every_switch_is_stated() {
         let text = |conventions: &Conventions| format!("{:?}", conventions.statements());
         let base = Conventions::default();
@@ -146,6 +216,9 @@ mod tests {
             Conventions { density: 1.0, ..base },
             Conventions { coefficient_length: CoefficientLength::Waterline, ..base },
             Conventions { prismatic_section: PrismaticSection::Midship, ..base },
+            Conventions { lcb_reference: LcbReference::Midship, ..base },
+            Conventions { lcb_reference: LcbReference::ForwardPerpendicular, ..base },
+            Conventions { lcb_reference: LcbReference::Percent, ..base },
             Conventions { shell: Shell::Factor(1.006), ..base },
             Conventions { shell: Shell::Thickness(0.012), ..base },
             Conventions { keel_thickness: 0.02, ..base },

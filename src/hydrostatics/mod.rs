@@ -10,7 +10,7 @@ mod table;
 mod volume;
 mod waterplane;
 
-pub use conventions::{CoefficientLength, Conventions, PrismaticSection, Shell, Statement};
+pub use conventions::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell, Statement};
 pub use draughts::default_draughts;
 pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
 pub use table::CurvesOfForm;

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use crate::exchange::{read_manifest_outputs, sha256};
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,6 +21,30 @@ impl OutputFile {
     pub fn text(name: &str, contents: String) -> Self {
         Self { name: name.to_owned(), contents: contents.into_bytes() }
     }
+}
+
+/// Writes the files of one run with [`write_all`]. With `force`, files that the manifest of an earlier run in the folder
+/// lists and this run does not write are removed, when they are still what that run wrote.
+///
+/// # Errors
+/// [`Failure::Exists`], [`Failure::FileSystem`].
+pub fn write_run(folder: &Path, files: &[OutputFile], force: bool) -> Result<(), Failure> {
+    let earlier =
+        if force { fs::read_to_string(folder.join("manifest.json")).unwrap_or_default() } else { String::new() };
+    write_all(folder, files, force)?;
+    for entry in read_manifest_outputs(&earlier) {
+        // Names of files in this folder, and nothing else.
+        let plain = Path::new(&entry.file).file_name().is_some_and(|name| name == entry.file.as_str());
+        if !plain || files.iter().any(|file| file.name == entry.file) {
+            continue;
+        }
+        let path = folder.join(&entry.file);
+        let regular = path.symlink_metadata().is_ok_and(|data| data.is_file() && data.len() == entry.bytes as u64);
+        if regular && fs::read(&path).is_ok_and(|bytes| sha256(&bytes) == entry.sha256) {
+            fs::remove_file(&path).map_err(|error| Failure::FileSystem { act: "remove", path, error })?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes `files` into `folder`, which is made when it is not there. Without `force` nothing is written when one of the files

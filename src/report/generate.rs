@@ -15,7 +15,7 @@ use crate::hull::{Hull, OffsetStation, OffsetTable, default_buttocks, default_st
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics, default_draughts};
 use crate::parametric::Family;
 use crate::plot::{Figure, FigureInputs};
-use crate::units::Notation;
+use crate::units::{Notation, decimal};
 
 /// What the main job gives.
 #[derive(Debug, Clone)]
@@ -52,13 +52,13 @@ fn stations(design: &Design, hull: &Hull) -> Vec<OffsetStation> {
     }
     let spaces = f64::from(design.output.station_spaces);
     if design.output.station_spaces == 20 {
-        return default_stations(hull);
+        return default_stations(hull).into_iter().map(|s| OffsetStation { x: decimal(s.x), ..s }).collect();
     }
     let length = hull.particulars().length_between_perpendiculars;
     let mut numbers: Vec<f64> = (0..=design.output.station_spaces).map(f64::from).collect();
     numbers.extend([0.5, 1.5, spaces - 1.5, spaces - 0.5]);
     numbers.sort_by(f64::total_cmp);
-    numbers.into_iter().map(|number| named(length * number / spaces, format!("{number}"))).collect()
+    numbers.into_iter().map(|number| named(decimal(length * number / spaces), format!("{number}"))).collect()
 }
 
 /// Generates the hull of a design, its tables and its figures. `input` is the file name and the bytes of the design, for the
@@ -75,8 +75,13 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         design.output.draughts.clone().unwrap_or_else(|| default_draughts(particulars.draught, particulars.depth));
     let table = CurvesOfForm::new(&hull, &draughts, &design.conventions);
     let design_row = CurvesOfForm::new(&hull, &[particulars.draught], &design.conventions).rows.swap_remove(0);
-    let waterlines = design.output.waterlines.clone().unwrap_or_else(|| default_waterlines(&hull));
-    let buttocks = design.output.buttocks.clone().unwrap_or_else(|| default_buttocks(&hull));
+    let waterlines = design
+        .output
+        .waterlines
+        .clone()
+        .unwrap_or_else(|| default_waterlines(&hull).into_iter().map(decimal).collect());
+    let buttocks =
+        design.output.buttocks.clone().unwrap_or_else(|| default_buttocks(&hull).into_iter().map(decimal).collect());
     let offsets = OffsetTable::from_hull(&hull, &stations(design, &hull), &waterlines, &buttocks);
 
     let remarks: Vec<Diagnostic> =

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::generate::Outputs;
-use super::page::{conventions_line, unit, value};
+use super::page::{conventions_line, fixed, lcb, unit, value};
 use crate::config::Reference;
 use crate::hydrostatics::{CurvesOfForm, QUANTITIES};
 
@@ -36,20 +36,27 @@ fn write_page(
     if !summary.targets.is_empty() {
         writeln!(page, "| | requested | achieved | error | origin |\n|---|---|---|---|---|")?;
         for t in &summary.targets {
-            writeln!(page, "| {} | {:.6} | {:.6} | {:.0e} | {} |", t.key, t.requested, t.achieved, t.error, t.origin)?;
+            let (requested, achieved) = (fixed(t.requested, 6), fixed(t.achieved, 6));
+            writeln!(page, "| {} | {requested} | {achieved} | {:.0e} | {} |", t.key, t.error + 0.0, t.origin)?;
         }
         writeln!(page)?;
     }
     for remark in &summary.remarks {
         writeln!(page, "* {}", cell(remark))?;
     }
+    if !summary.remarks.is_empty() {
+        writeln!(page)?;
+    }
     for file in &outputs.files {
         if file.name.ends_with(".png") || file.name.ends_with(".svg") {
             writeln!(page, "![{}]({})\n", file.name, file.name)?;
         }
     }
-    writeln!(page, "## At the design draught\n\n{}", conventions_line(&outputs.table.conventions))?;
+    writeln!(page, "## At the design draught\n\n{}\n", conventions_line(&outputs.table.conventions))?;
     writeln!(page, "| | | value | unit |\n|---|---|---|---|")?;
+    let conventions = &outputs.table.conventions;
+    let (centre, unit_of_centre) = (lcb(&outputs.design_row, conventions, p.lpp), conventions.lcb_reference.unit());
+    writeln!(page, "| LCB | {} | {centre} | {unit_of_centre} |", conventions.lcb_reference.statement())?;
     for quantity in QUANTITIES {
         let shown = value(&outputs.design_row, quantity.key);
         if !shown.is_empty() {
@@ -58,7 +65,7 @@ fn write_page(
     }
     writeln!(page, "\n## Design\n\n| | | value | unit | origin | from |\n|---|---|---|---|---|---|")?;
     for v in &summary.values {
-        let number = v.value.map(|value| format!("{value:.4}")).unwrap_or_default();
+        let number = v.value.map(|value| fixed(value, 4)).unwrap_or_default();
         writeln!(
             page,
             "| {} | {} | {number} | {} | {} | {} |",
@@ -86,7 +93,12 @@ fn write_page(
                         .iter()
                         .find(|quantity| quantity.key == *key)
                         .and_then(|quantity| (quantity.value)(row))
-                        .map(|ours| format!("{:+.2}", reference.difference_percent(*theirs, ours)));
+                        .map(|ours| fixed(reference.difference_percent(*theirs, ours), 2))
+                        .map(
+                            |shown| {
+                                if shown.starts_with(['-']) || shown == "0.00" { shown } else { format!("+{shown}") }
+                            },
+                        );
                     write!(page, " {theirs} | {} | {} |", value(row, key), difference.unwrap_or_default())?;
                 }
                 writeln!(page)?;

@@ -9,7 +9,7 @@ mod self_test;
 mod source;
 
 pub use failure::Failure;
-pub use files::{OutputFile, write_all};
+pub use files::{OutputFile, write_all, write_run};
 pub use generate::{Outputs, generate_outputs};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};

@@ -3,7 +3,7 @@
 use super::generate::Outputs;
 use super::self_test::SelfCheck;
 use crate::hydrostatics::{
-    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, PrismaticSection, QUANTITIES, Shell,
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
 };
 
 const WIDTH: usize = 80;
@@ -13,10 +13,22 @@ pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
     QUANTITIES
         .iter()
         .find(|quantity| quantity.key == key)
-        .and_then(|quantity| {
-            (quantity.value)(row).filter(|v| v.is_finite()).map(|v| format!("{:.*}", quantity.decimals, v + 0.0))
-        })
+        .and_then(|quantity| (quantity.value)(row).filter(|v| v.is_finite()).map(|v| fixed(v, quantity.decimals)))
         .unwrap_or_default()
+}
+
+/// A number with so many decimals; what rounds to zero has no sign.
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
+        _ => text,
+    }
+}
+
+/// The longitudinal centre of buoyancy as the conventions have it printed; empty when it is not defined.
+pub(super) fn lcb(row: &Hydrostatics, conventions: &Conventions, length: f64) -> String {
+    row.lcb.filter(|x| x.is_finite()).map(|x| fixed(conventions.lcb_reference.lcb(x, length), 3)).unwrap_or_default()
 }
 
 pub(super) fn unit(key: &str) -> &'static str {
@@ -62,7 +74,8 @@ pub(super) fn conventions_line(c: &Conventions) -> String {
         Some(height) => format!("MTC from GML with KG {height} m"),
         None => "MTC from BML".to_owned(),
     };
-    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP.", c.density)
+    let lcb = c.lcb_reference.statement();
+    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}.", c.density)
 }
 
 /// The summary of the main job: at most 24 lines of 80 columns.
@@ -83,16 +96,24 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
         }
         page.push('\n');
     }
+    // The other way to say where the centre of buoyancy is.
+    let second = if conventions.lcb_reference == LcbReference::Percent { "XCB" } else { "XCBPC" };
     let keys = [
-        ["DISPVOL", "DISPM", "XCB"],
-        ["XCBPC", "KB", "AWL"],
+        ["DISPVOL", "DISPM", "LCB"],
+        [second, "KB", "AWL"],
         ["XWL", "LWL", "BWL"],
         ["BMT", "KMT", "KML"],
         ["TPC", "MTC", "S"],
         ["CP", "CWP", "CVP"],
     ];
     for keys in keys {
-        let cells = keys.map(|key| format!("{key:<8}{:>11} {:<7}", value(&outputs.design_row, key), unit(key)));
+        let cells = keys.map(|key| {
+            let (shown, unit) = match key {
+                "LCB" => (lcb(&outputs.design_row, conventions, p.lpp), conventions.lcb_reference.unit()),
+                _ => (value(&outputs.design_row, key), unit(key)),
+            };
+            format!("{key:<8}{shown:>11} {unit:<7}")
+        });
         page.push_str(cells.join("").trim_end());
         page.push('\n');
     }
@@ -103,24 +124,26 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
     page
 }
 
-/// A hydrostatic table in blocks of 80 columns.
+/// A hydrostatic table in blocks of 80 columns; `length` is Lpp \[m\].
 #[must_use]
-pub fn hydrostatics_page(table: &CurvesOfForm) -> String {
+pub fn hydrostatics_page(table: &CurvesOfForm, length: f64) -> String {
+    let conventions = &table.conventions;
     let blocks: [&[&str]; 3] = [
-        &["T", "DISPVOL", "DISPM", "XCB", "KB", "AWL", "XWL", "TPC"],
+        &["T", "DISPVOL", "DISPM", "LCB", "KB", "AWL", "XWL", "TPC"],
         &["T", "MTC", "BMT", "BML", "KMT", "KML", "LWL", "BWL"],
         &["T", "CB", "CM", "CX", "CP", "CWP", "CVP", "S"],
     ];
-    let mut page = wrapped(&conventions_line(&table.conventions), 2);
+    let mut page = wrapped(&conventions_line(conventions), 2);
     for block in blocks {
         page.push('\n');
         let row = |cell: &dyn Fn(&str) -> String| {
             block.iter().map(|key| format!("{:>10}", cell(key))).collect::<String>() + "\n"
         };
         page.push_str(&row(&|key| key.to_owned()));
-        page.push_str(&row(&|key| unit(key).to_owned()));
+        let unit_of = |key: &str| if key == "LCB" { conventions.lcb_reference.unit() } else { unit(key) };
+        page.push_str(&row(&|key| unit_of(key).to_owned()));
         for line in &table.rows {
-            page.push_str(&row(&|key| value(line, key)));
+            page.push_str(&row(&|key| if key == "LCB" { lcb(line, conventions, length) } else { value(line, key) }));
         }
     }
     for line in &table.rows {
@@ -160,11 +183,17 @@ mod tests {
     }
 
     #[test]
+    fn what_rounds_to_zero_has_no_sign() {
+        assert_eq!((fixed(-0.004, 2), fixed(-0.0, 0)), ("0.00".to_owned(), "0".to_owned()));
+        assert_eq!((fixed(-0.006, 2), fixed(-10.0, 1)), ("-0.01".to_owned(), "-10.0".to_owned()));
+    }
+
+    #[test]
     fn the_conventions_are_said() {
         let line = conventions_line(&Conventions { centre_of_gravity_height: Some(7.5), ..Conventions::default() });
         assert_eq!(
             line,
-            "Coefficients on Lpp, CP on the largest section; 1.025 t/m3; MTC from GML with KG 7.5 m; x from AP."
+            "Coefficients on Lpp, CP on the largest section; 1.025 t/m3; MTC from GML with KG 7.5 m; x from AP; LCB from AP, + forward."
         );
     }
 }

@@ -89,11 +89,7 @@ pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
 /// # Errors
 /// [`Failure::Infeasible`] with every reason.
 pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
-    design.family.generate(&design.name).map_err(|reasons| {
-        Failure::Infeasible(
-            reasons.iter().map(|r| design.diagnose(Severity::Error, r.code, &r.keys, &r.message)).collect(),
-        )
-    })
+    design.family.generate(&design.name).map_err(|reasons| Failure::Infeasible(design.diagnose_all(&reasons)))
 }
 
 /// The hull of a `hull.json`, of a folder that holds one, or of a design file.

@@ -48,8 +48,10 @@ pub enum ListError {
     TooLong,
 }
 
-/// The multiple of 1e-9 that a sum of decimal fractions means, when it is one to rounding.
-fn decimal(value: f64) -> f64 {
+/// The multiple of 1e-9 that a sum or product of decimal fractions means, when it is one to 1e-13 of itself; otherwise the
+/// value.
+#[must_use]
+pub fn decimal(value: f64) -> f64 {
     let rounded = (value * 1e9).round() / 1e9;
     if (rounded - value).abs() <= 1e-13 * value.abs().max(1.0) { rounded } else { value }
 }
@@ -136,6 +138,14 @@ mod tests {
         assert_eq!(parse_list("6150 mm, 1 m").unwrap(), [6.15, 1.0]);
         assert_eq!(parse_list("9:1:-4").unwrap(), [9.0, 5.0, 1.0]);
         assert_eq!(parse_list("3:3:1").unwrap(), [3.0]);
+    }
+
+    #[test]
+    fn steps_are_the_decimals_that_are_meant() {
+        let shown = |x: f64| format!("{}", decimal(x));
+        assert_eq!((shown(21.04 * 12.0 / 20.0), shown(1.1 * 1.5)), ("12.624".to_owned(), "1.65".to_owned()));
+        let third = 1.0 / 3.0;
+        assert_eq!(decimal(third).to_bits(), third.to_bits());
     }
 
     #[test]

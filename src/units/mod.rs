@@ -5,6 +5,6 @@ mod list;
 mod notation;
 mod quantity;
 
-pub use list::{ListError, MAX_ITEMS, parse_list};
+pub use list::{ListError, MAX_ITEMS, decimal, parse_list};
 pub use notation::{Notation, feet_inches_eighths};
 pub use quantity::{Dimension, Measure, UnitError, parse, parse_length};
