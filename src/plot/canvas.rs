@@ -2,6 +2,9 @@
 //!
 //! Coordinates: x to the right, y down, from the upper left corner of the sheet [mm]; three decimals (1 micrometre on
 //! paper). The same calls give the same bytes.
+//!
+//! Letters are drawn after the lines of their group, and all white edges before all letters, as elements of their own:
+//! no edge can cover a letter, and no renderer has to know `paint-order`. Subscripts have their own x.
 
 use super::font;
 use std::fmt::Write;
@@ -115,12 +118,18 @@ pub(super) struct Canvas {
     width: f64,
     height: f64,
     body: String,
+    /// White edges of the texts of the group in hand.
+    halos: String,
+    /// Texts of the group in hand.
+    letters: String,
     clips: usize,
     texts: Vec<PlacedText>,
 }
 
 /// Size of a subscript, as a part of the size of its text.
 const SUBSCRIPT: f64 = 0.72;
+/// How much lower a subscript stands, as a part of the size of its text.
+const SUBSCRIPT_DROP: f64 = 0.18;
 
 /// `text` in pieces of full size and subscripts: `_` lowers the letters and digits that follow it.
 fn pieces(text: &str) -> Vec<(bool, &str)> {
@@ -149,10 +158,66 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
+/// Appends a text element painted with the attributes `paint`.
+fn write_element(out: &mut String, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle, paint: &str) {
+    let drop = 0.5 * font::CAP_HEIGHT * style.size;
+    let (x, y) = if style.upward { (at[0] + drop, at[1]) } else { (at[0], at[1] + drop) };
+    let single = pieces.len() < 2;
+    let anchor = match style.anchor {
+        Anchor::Middle if single => "middle",
+        Anchor::End if single => "end",
+        _ => "start",
+    };
+    let _ = write!(
+        out,
+        "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" {paint}",
+        number(x),
+        number(y),
+        number(style.size)
+    );
+    if style.upward {
+        let _ = write!(out, " transform=\"rotate(-90 {} {})\"", number(x), number(y));
+    }
+    out.push('>');
+    if single {
+        pieces.iter().for_each(|(_, piece)| out.push_str(&escape(piece)));
+    } else {
+        let sizes = pieces.iter().map(|(low, _)| style.size * if *low { SUBSCRIPT } else { 1.0 });
+        let widths: Vec<f64> =
+            pieces.iter().zip(sizes.clone()).map(|((_, piece), size)| font::width(piece) * size).collect();
+        let length: f64 = widths.iter().sum();
+        let mut place = match style.anchor {
+            Anchor::Start => x,
+            Anchor::Middle => x - 0.5 * length,
+            Anchor::End => x - length,
+        };
+        for (((low, piece), size), width) in pieces.iter().zip(sizes).zip(widths) {
+            let _ = write!(
+                out,
+                "<tspan x=\"{}\" y=\"{}\" font-size=\"{}\">{}</tspan>",
+                number(place),
+                number(y + if *low { SUBSCRIPT_DROP * style.size } else { 0.0 }),
+                number(size),
+                escape(piece)
+            );
+            place += width;
+        }
+    }
+    out.push_str("</text>\n");
+}
+
 impl Canvas {
     /// An empty white sheet [mm].
     pub(super) fn new(width: f64, height: f64) -> Self {
-        Self { width, height, body: String::new(), clips: 0, texts: Vec::new() }
+        Self {
+            width,
+            height,
+            body: String::new(),
+            halos: String::new(),
+            letters: String::new(),
+            clips: 0,
+            texts: Vec::new(),
+        }
     }
 
     #[cfg(test)]
@@ -219,6 +284,7 @@ impl Canvas {
 
     /// What follows is drawn inside `window` only, until [`Canvas::end_group`].
     pub(super) fn begin_clip(&mut self, window: &Rectangle) {
+        self.flush_text();
         self.clips += 1;
         let _ = writeln!(
             self.body,
@@ -234,10 +300,13 @@ impl Canvas {
 
     /// A named group, for programs that read the SVG, until [`Canvas::end_group`].
     pub(super) fn begin_group(&mut self, id: &str) {
+        self.flush_text();
         let _ = writeln!(self.body, "<g id=\"{id}\">");
     }
 
+    /// Ends the group; its text comes last in it.
     pub(super) fn end_group(&mut self) {
+        self.flush_text();
         self.body.push_str("</g>\n");
     }
 
@@ -283,50 +352,25 @@ impl Canvas {
     }
 
     fn write_text(&mut self, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle) {
-        let anchor = match style.anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        };
-        let drop = 0.5 * font::CAP_HEIGHT * style.size;
-        let (x, y) = if style.upward { (at[0] + drop, at[1]) } else { (at[0], at[1] + drop) };
-        let _ = write!(
-            self.body,
-            "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"",
-            number(x),
-            number(y),
-            number(style.size),
-            style.colour
-        );
-        if style.upward {
-            let _ = write!(self.body, " transform=\"rotate(-90 {} {})\"", number(x), number(y));
-        }
         if style.halo {
-            let _ = write!(
-                self.body,
-                " stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+            let edge = format!(
+                "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" aria-hidden=\"true\"",
                 number(0.35 * style.size)
             );
+            write_element(&mut self.halos, at, pieces, style, &edge);
         }
-        self.body.push('>');
-        let mut lowered = false;
-        for (low, piece) in pieces {
-            let shift = 0.18 * style.size * f64::from(i8::from(*low) - i8::from(lowered));
-            lowered = *low;
-            if shift.abs() > 0.0 {
-                let size = style.size * if *low { SUBSCRIPT } else { 1.0 };
-                let piece = escape(piece);
-                let _ =
-                    write!(self.body, "<tspan dy=\"{}\" font-size=\"{}\">{piece}</tspan>", number(shift), number(size));
-            } else {
-                self.body.push_str(&escape(piece));
-            }
-        }
-        self.body.push_str("</text>\n");
+        write_element(&mut self.letters, at, pieces, style, &format!("fill=\"{}\"", style.colour));
+    }
+
+    /// Sets the text that waits: all white edges, then all letters.
+    fn flush_text(&mut self) {
+        self.body.push_str(&std::mem::take(&mut self.halos));
+        self.body.push_str(&std::mem::take(&mut self.letters));
     }
 
     /// The finished document.
-    pub(super) fn finish(self, title: &str) -> String {
+    pub(super) fn finish(mut self, title: &str) -> String {
+        self.flush_text();
         let (w, h) = (number(self.width), number(self.height));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
@@ -365,6 +409,41 @@ mod tests {
         assert!((place.left - (100.0 - half)).abs() < 1e-9 && (place.right - (100.0 + half)).abs() < 1e-9);
         let upward = Canvas::text_place([100.0, 50.0], "00", &style.upward());
         assert!((upward.height() - place.width()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn white_edges_come_before_all_letters_and_after_the_lines() {
+        let mut canvas = Canvas::new(50.0, 10.0);
+        let style = TextStyle::new(2.0, Anchor::Middle).halo();
+        canvas.text([10.0, 5.0], "I_T", &style);
+        canvas.text([20.0, 5.0], "KB", &style);
+        canvas.line([0.0, 5.0], [50.0, 5.0], &Pen::new(0.1, "#000000"));
+        let document = canvas.finish("t");
+        assert!(!document.contains("paint-order"));
+        let lines: Vec<&str> =
+            document.lines().filter(|l| l.starts_with("<text") || l.starts_with("<polyline")).collect();
+        let kind = |line: &&str| {
+            if line.starts_with("<polyline") {
+                'l'
+            } else if line.contains("fill=\"none\"") {
+                'h'
+            } else {
+                't'
+            }
+        };
+        assert_eq!(lines.iter().map(kind).collect::<String>(), "lhhtt");
+        let letters = |line: &str| line[line.find('>').unwrap()..].to_owned();
+        assert_eq!(letters(lines[1]), letters(lines[3]));
+    }
+
+    #[test]
+    fn subscripts_stand_where_the_piece_before_them_ends() {
+        let mut canvas = Canvas::new(50.0, 10.0);
+        canvas.text([10.0, 5.0], "m_0m", &TextStyle::new(2.048, Anchor::Start));
+        // "m" is 1995 units of 2048 wide; the subscript takes the letter with it.
+        let document = canvas.finish("t");
+        assert!(document.contains("<tspan x=\"10\" y"), "{document}");
+        assert!(document.contains("<tspan x=\"11.995\" y"), "{document}");
     }
 
     #[test]

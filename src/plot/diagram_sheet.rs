@@ -3,8 +3,10 @@
 //! A frame of 240 mm x 175 mm with the draught upwards and three axes: AP at 0, midship (L_PP / 2) at 120 mm, FP at 240 mm.
 //! Areas, volumes, inertias and heights are measured forward from AP, centres and the moment to trim from midship, form
 //! coefficients aft from FP (1 mm = 0.025). The scale of a curve is its largest value over its target length, rounded up
-//! to 1, 2, 2.5, 4, 5 or 10 times a power of ten; KM_L and KM_T, which grow without bound as the draught goes to zero, are
-//! scaled by their values at the lowest draught; LCB and LCF by their largest distance from midship.
+//! to 1, 2, 2.5, 4, 5 or 10 times a power of ten; LCB and LCF are scaled by their largest distance from midship. KM_L and
+//! KM_T grow without bound as the draught goes to zero: they are scaled by their value at the lowest draught of 0.2 T or
+//! more, and to a smaller scale where they would otherwise leave the frame above it (KM_T may rise with the draught). Further
+//! down they may run out of the frame.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::draw_level;
@@ -19,6 +21,8 @@ const WIDTH: f64 = 240.0;
 const HEIGHT: f64 = 175.0;
 /// Form coefficients: this much a millimetre.
 const COEFFICIENT_SCALE: f64 = 0.025;
+/// Below this part of the design draught KM_L and KM_T may leave the frame.
+const SHALLOW: f64 = 0.2;
 /// Upper left corner of the frame on the sheet [mm].
 const CORNER: [f64; 2] = [24.0, 30.0];
 
@@ -40,7 +44,8 @@ enum Axis {
 enum ScaledBy {
     /// The largest value.
     Largest,
-    /// The value at the lowest draught.
+    /// The value at the lowest draught that is no less than [`SHALLOW`] of the design draught; above it the curve stays in
+    /// the frame.
     LowestDraught,
 }
 
@@ -97,14 +102,20 @@ impl Curve {
         Some(if self.axis == Axis::MidshipOfPosition { value - midship } else { value })
     }
 
-    /// The value that fixes the scale; `rows` rise in draught.
-    fn scaling_value(&self, rows: &[Hydrostatics], midship: f64) -> f64 {
-        let mut values = rows.iter().filter_map(|row| self.drawn(row, midship)).map(f64::abs);
+    /// The value that fixes the scale; `rows` rise in draught, `draught` is the design draught [m].
+    fn scaling_value(&self, rows: &[Hydrostatics], midship: f64, draught: f64) -> f64 {
         // Centres that stay at midship are not blown up: their scale is for a hundredth of L_PP / 2 at least.
         let least = if self.axis == Axis::MidshipOfPosition { 0.01 * midship } else { 0.0 };
+        let value = |row: &Hydrostatics| self.drawn(row, midship).map(f64::abs);
+        let largest = |rows: &[Hydrostatics]| rows.iter().filter_map(value).fold(least, f64::max);
         match self.scaled_by {
-            ScaledBy::LowestDraught => values.next().unwrap_or(0.0),
-            ScaledBy::Largest => values.fold(least, f64::max),
+            ScaledBy::Largest => largest(rows),
+            ScaledBy::LowestDraught => {
+                let low = SHALLOW * draught * (1.0 - 1e-9);
+                let deep = rows.iter().position(|row| row.draught >= low).map_or(rows, |first| &rows[first..]);
+                let fitting = self.target.unwrap_or(WIDTH) / WIDTH * largest(deep);
+                deep.iter().find_map(value).unwrap_or(0.0).max(fitting)
+            }
         }
     }
 
@@ -119,12 +130,18 @@ impl Curve {
 }
 
 /// The scale of every curve, its unit a millimetre, in the order of the legend.
-fn scales(rows: &[Hydrostatics], midship: f64) -> [f64; CURVES.len()] {
+fn scales(rows: &[Hydrostatics], midship: f64, draught: f64) -> [f64; CURVES.len()] {
     let scale_of = |curve: &Curve| {
-        curve.target.map_or(COEFFICIENT_SCALE, |mm| sheet_scale(curve.scaling_value(rows, midship), mm))
+        curve.target.map_or(COEFFICIENT_SCALE, |mm| sheet_scale(curve.scaling_value(rows, midship, draught), mm))
     };
     let mass = CURVES.iter().find(|curve| curve.symbol == "Δ").map_or(1.0, scale_of);
     std::array::from_fn(|k| if CURVES[k].symbol == "∇" { mass } else { scale_of(&CURVES[k]) })
+}
+
+/// Where a curve runs: distance from the aft axis [mm] and draught [m] of every row.
+fn track(curve: &Curve, scale: f64, rows: &[Hydrostatics], midship: f64) -> Vec<[f64; 2]> {
+    let at = |row: &Hydrostatics| Some([curve.place(curve.drawn(row, midship)?, scale), row.draught]);
+    rows.iter().filter_map(at).collect()
 }
 
 /// Draws the sheet.
@@ -149,16 +166,11 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let mut placer = LabelPlacer::default();
     draw_rulers(&mut canvas, &frame, draught_scale);
 
-    let scales = scales(&rows, midship);
+    let scales = scales(&rows, midship, draught);
     canvas.begin_clip(&frame);
     for (curve, scale) in CURVES.iter().zip(scales) {
-        let points: Vec<[f64; 2]> = rows
-            .iter()
-            .filter_map(|row| {
-                let value = curve.drawn(row, midship)?;
-                Some([frame.left + curve.place(value, scale), height(row.draught)])
-            })
-            .collect();
+        let points: Vec<[f64; 2]> =
+            track(curve, scale, &rows, midship).into_iter().map(|[x, z]| [frame.left + x, height(z)]).collect();
         canvas.polyline(&points, &Pen::new(0.4, curve.colour).dashed(curve.dash));
         placer.add_curve(&points);
     }
@@ -213,13 +225,21 @@ fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {
     }
 }
 
+/// Decimetres between the draughts that are named: whole metres where there is room for the figures, every one, second,
+/// fifth, tenth, ...; on a sheet of less than three metres, half metres or decimetres.
+fn named_every(draught_scale: f64) -> i64 {
+    let decimetre = 0.1 / draught_scale;
+    let fine = if HEIGHT * draught_scale < 3.0 { [1, 5].as_slice() } else { &[] };
+    let steps = fine.iter().copied().chain([10, 20, 50, 100, 200, 500]);
+    steps.into_iter().find(|&n| n as f64 * decimetre >= if n < 10 { 8.0 } else { 4.0 }).unwrap_or(1000)
+}
+
 fn draw_rulers(canvas: &mut Canvas, frame: &Rectangle, draught_scale: f64) {
     let pen = Pen::new(0.18, "#000000");
     let decimetre = 0.1 / draught_scale;
     let steps = (HEIGHT / decimetre + 1e-9).floor() as i64;
     let metre_room = 10.0 * decimetre;
-    // Metres are named where there is room for the figures: every one, second, fifth, tenth, ...
-    let every = [1, 2, 5, 10, 20, 50].into_iter().find(|&n| n as f64 * metre_room >= 4.0).unwrap_or(100);
+    let every = named_every(draught_scale);
     let style = TextStyle::new(2.8, Anchor::End);
     for k in 0..=steps {
         let length = if k % 10 == 0 {
@@ -242,8 +262,8 @@ fn draw_rulers(canvas: &mut Canvas, frame: &Rectangle, draught_scale: f64) {
         let y = frame.bottom - k as f64 * decimetre;
         canvas.line([frame.left, y], [frame.left - length, y], &pen);
         canvas.line([frame.right, y], [frame.right + length, y], &pen);
-        if k % (10 * every) == 0 {
-            let name = format!("{}", k / 10);
+        if k % every == 0 {
+            let name = if every < 10 { format!("{:.1}", 0.1 * k as f64) } else { format!("{}", k / 10) };
             canvas.text([frame.left - 7.5, y], &name, &style);
             canvas.text([frame.right + 7.5, y], &name, &TextStyle { anchor: Anchor::Start, ..style });
         }
@@ -321,7 +341,7 @@ mod tests {
             ("MTM", 103.415),
         ] {
             let curve = curve(symbol).1;
-            let found = curve.scaling_value(&rows, 0.0) / curve.target.unwrap();
+            let found = curve.scaling_value(&rows, 0.0, 4.4) / curve.target.unwrap();
             assert!((found - raw).abs() < 1e-5 * raw, "{symbol}: {found}");
         }
     }
@@ -329,7 +349,7 @@ mod tests {
     #[test]
     fn scales_of_the_frigate() {
         let midship = 51.25;
-        let found = scales(&[row(&FIRST), row(&LAST)], midship);
+        let found = scales(&[row(&FIRST), row(&LAST)], midship, 4.4);
         for (symbol, scale) in [
             ("KM_L", 4.0),
             ("A_WL", 20.0),
@@ -347,6 +367,36 @@ mod tests {
         ] {
             let k = curve(symbol).0;
             assert!((found[k] - scale).abs() < 1e-12 * scale, "{symbol}: {}", found[k]);
+        }
+    }
+
+    #[test]
+    fn a_metacentre_that_rises_with_the_draught_stays_in_the_frame() {
+        // KM_T of a parabolic hull, its least value at the lowest draught; KM_L falls.
+        let rows: Vec<Hydrostatics> = (1..=50)
+            .map(|k| {
+                let draught = 0.2 * f64::from(k);
+                Hydrostatics {
+                    draught,
+                    km_transverse: Some(0.3 * draught + 1.0 / draught + 1.0),
+                    km_longitudinal: Some(900.0 / draught),
+                    ..Hydrostatics::default()
+                }
+            })
+            .collect();
+        let found = scales(&rows, 50.0, 6.0);
+        for symbol in ["KM_T", "KM_L"] {
+            let (k, curve) = curve(symbol);
+            let points = track(curve, found[k], &rows, 50.0);
+            assert!(points.iter().filter(|p| p[1] >= 0.25 * 6.0).all(|p| (0.0..=WIDTH).contains(&p[0])), "{symbol}");
+            assert!(points.iter().any(|p| p[0] > WIDTH), "{symbol}: nothing left the frame");
+        }
+    }
+
+    #[test]
+    fn draughts_of_shallow_hulls_are_named_in_tenths() {
+        for (scale, every) in [(0.01, 1), (0.015, 5), (0.02, 10), (0.06, 10), (0.2, 10), (0.4, 20)] {
+            assert_eq!(named_every(scale), every, "{scale}");
         }
     }
 
