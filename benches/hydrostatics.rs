@@ -1,11 +1,14 @@
 //! Tables of hydrostatics of a bicubic net of 24 x 14 control points: 40 draughts, and 80 for the growth of the cost.
 //!
 //! `wigley`: Wigley-like half-breadths between a raked stem and a raked stern, x(u, v) non-linear in u and dependent on v in
-//! the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length.
+//! the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length. `frigate`: a generated ship
+//! of 31 x 19 control points, whose lines slant at the ends.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use loftsman::hull::{Hull, PrincipalParticulars};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
+use loftsman::parametric::ShipType;
+use loftsman::parametric::cosh::{self, Wishes};
 use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::hint::black_box;
 
@@ -29,10 +32,15 @@ fn hull(slanting: bool) -> Hull {
 }
 
 fn tables(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("hydrostatics 24x14");
-    for (name, hull) in [("wigley", hull(false)), ("slanting", hull(true))] {
+    let wishes = Wishes { ship_type: Some(ShipType::Frigate), length: 100.0, ..Wishes::default() };
+    let frigate = cosh::generate("frigate", &wishes).unwrap().hull;
+    let depth = frigate.particulars().depth;
+    let mut group = criterion.benchmark_group("hydrostatics");
+    for (name, hull, top) in
+        [("wigley", hull(false), 10.0), ("slanting", hull(true), 10.0), ("frigate", frigate, depth)]
+    {
         for count in [40, 80] {
-            let draughts: Vec<f64> = (1..=count).map(|k| 10.0 * f64::from(k) / f64::from(count + 1)).collect();
+            let draughts: Vec<f64> = (1..=count).map(|k| top * f64::from(k) / f64::from(count + 1)).collect();
             group.bench_with_input(BenchmarkId::new(name, count), &draughts, |bench, draughts| {
                 bench.iter(|| CurvesOfForm::new(black_box(&hull), draughts, &Conventions::default()));
             });

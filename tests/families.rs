@@ -342,12 +342,24 @@ fn impossible_wishes_are_refused_with_numbers() {
         "E109",
         "length of run disagree",
     );
-    code(&Wishes { cut_up: Some(30.0), parallel_body: Some([20.0, 50.0]), ..base.clone() }, "E109", "keel rises from");
+    code(
+        &Wishes { cut_up: Some(30.0), parallel_body: Some([20.0, 50.0]), ..base.clone() },
+        "E109",
+        "must reach beyond the parallel body",
+    );
     code(&Wishes { forefoot: Some(0.1), stem_rake: Some(0.5), ..base.clone() }, "E109", "at least");
     code(&Wishes { displacement_volume: Some(4200.0), ..base.clone() }, "E110", "disagree by");
     code(&Wishes { transom_breadth: Some(0.97), ..base.clone() }, "E112", "out of reach");
     code(&Wishes { flare: Some(1.2), ..base.clone() }, "E113", "out of reach");
     code(&Wishes { maximum_half_entrance: Some(0.06), ..base.clone() }, "E114", "no entrance below");
+    // An end that would be nearly a step.
+    code(&Wishes { block_coefficient: Some(0.555), ..wishes(ShipType::Yacht, 10.0) }, "E115", "the surface bulges by");
+    code(&Wishes { bilge_radius: Some(5.2), ..base.clone() }, "E106", "");
+    // Nothing panics on numbers that are no coefficients.
+    for block in [-0.72, 0.0, 1e300, f64::NAN, f64::INFINITY] {
+        let wish = Some(MidshipWish::Kerlen);
+        code(&Wishes { block_coefficient: Some(block), midship_coefficient: wish, ..base.clone() }, "E101", "Cb");
+    }
     // All at once.
     let problems =
         refusal(&Wishes { draught: Some(7.5), waterplane_coefficient: Some(0.5), sheer_fore: Some(-1.0), ..base });

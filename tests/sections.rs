@@ -484,3 +484,17 @@ fn degenerate_nets_give_connected_branches_in_bounded_work() {
         panic!("{error}");
     }
 }
+
+#[test]
+fn a_plane_is_the_same_however_it_is_written() {
+    let hull = ship();
+    for (named, normal, offset) in [
+        (Cut::Station { x: 20.0 }, [1.0, 0.0, 0.0], 20.0),
+        (Cut::Station { x: 20.0 }, [-1e200, 0.0, 0.0], -20e200),
+        (Cut::Buttock { y: 0.0 }, [0.0, 1e-200, 0.0], 0.0),
+        (Cut::Waterline { z: 0.0 }, [0.0, 0.0, 3.0], 0.0),
+    ] {
+        let (one, other) = (hull.section(named, 1e-6), hull.section(Cut::Plane { normal, offset }, 1e-6));
+        assert!(!one.branches.is_empty() && one.branches == other.branches, "{named:?}");
+    }
+}

@@ -26,9 +26,9 @@ const SETTLED: f64 = 1e-11;
 /// Areas of the immersed sections along the hull at one draught.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionalAreaCurve {
-    /// Draught above the base line [m].
+    /// Draught above the base line \[m\].
     pub draught: f64,
-    /// Positions forward of AP [m], rising.
+    /// Positions forward of AP \[m\], rising.
     pub stations: Vec<f64>,
     /// Areas, both sides [m^2].
     pub areas: Vec<f64>,
@@ -54,7 +54,7 @@ struct Cell<'a> {
     span_v: usize,
     /// Whether x depends on v within the cell.
     slanting: bool,
-    /// Height of the section, which the weights of the row sum up to (twice, for both sides) [m].
+    /// Height of the section, which the weights of the row sum up to (twice, for both sides) \[m\].
     height: f64,
     /// Whether the cell is next to the stern or the stem profile and x depends on v.
     at_profile: bool,
@@ -152,13 +152,13 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
     let end = immersion.section_end(station);
-    let crossings = crossings(hull, station, end);
+    let crossings = KnotLines::new(hull).crossings(hull, station, end);
     for span_v in surface.v().spans() {
         let (from, to) = (surface.v().knots()[span_v], surface.v().knots()[span_v + 1].min(end));
         if to <= from {
             break;
         }
-        let inside = crossings.iter().copied().filter(|&v| v > from && v < to);
+        let inside = crossings.iter().map(|crossing| crossing.v).filter(|&v| v > from && v < to);
         let mut a = from;
         for b in inside.chain([to]) {
             if b - a <= 4.0 * f64::EPSILON * (to - from) && b < to {
@@ -189,7 +189,7 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
 }
 
 /// Whether x depends on v within a cell of the knots.
-pub(crate) fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
+fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
     (span_u - p..=span_u).any(|i| {
@@ -198,42 +198,82 @@ pub(crate) fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
     })
 }
 
-/// Every v below `end` at which x(u_k, v) = `station` for a knot u_k, in increasing order; lines on which x is the station
-/// throughout a span have none there.
-pub(crate) fn crossings(hull: &Hull, station: f64, end: f64) -> Vec<f64> {
-    let surface = hull.surface();
-    let (p, q, columns) = (surface.u().degree(), surface.v().degree(), surface.shape()[1]);
-    let knots = surface.v();
-    let scale = surface.points().iter().map(|point| point[0].abs()).fold(station.abs(), f64::max);
-    let zero = 4.0 * f64::EPSILON * scale;
-    let mut line = vec![0.0; columns];
-    let mut found = Vec::new();
-    for u in surface.u().breakpoints() {
-        let span = surface.u().find_span(u);
-        let basis = surface.u().basis(span, u);
-        for (j, c) in line.iter_mut().enumerate() {
-            *c = (0..=p).map(|i| basis[i] * surface.point(span - p + i, j)[0]).sum::<f64>() - station;
+/// A point where a station crosses a knot line in u.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crossing {
+    /// Its parameter.
+    pub(crate) v: f64,
+    /// The number of the knot line; the first is the stern profile, the last the stem profile.
+    pub(crate) line: usize,
+}
+
+/// x on the knot lines in u, as splines in v.
+#[derive(Debug, Clone)]
+pub(crate) struct KnotLines {
+    /// Control values, line by line.
+    values: Vec<f64>,
+    columns: usize,
+    scale: f64,
+}
+
+impl KnotLines {
+    pub(crate) fn new(hull: &Hull) -> Self {
+        let surface = hull.surface();
+        let (knots, p, columns) = (surface.u(), surface.u().degree(), surface.shape()[1]);
+        let mut values = Vec::with_capacity(knots.spans().len() * columns + columns);
+        for u in knots.breakpoints() {
+            let span = knots.find_span(u);
+            let basis = knots.basis(span, u);
+            values.extend((0..columns).map(|j| {
+                basis.iter().take(p + 1).enumerate().map(|(i, b)| b * surface.point(span - p + i, j)[0]).sum::<f64>()
+            }));
         }
-        for span in knots.spans() {
-            let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
-            if to <= from {
-                break;
-            }
-            let local = &line[span - q..=span];
-            if local.iter().all(|&c| c > zero) || local.iter().all(|&c| c < -zero) {
+        let scale = surface.points().iter().map(|point| point[0].abs()).fold(0.0, f64::max);
+        Self { values, columns, scale }
+    }
+
+    /// x on a line where the basis functions in v from the function `first` on are `across`.
+    pub(crate) fn x(&self, line: usize, first: usize, across: &[f64]) -> f64 {
+        self.values[line * self.columns + first..].iter().zip(across).map(|(x, b)| x * b).sum()
+    }
+
+    /// Every v below `end` at which a knot line passes `station`, in increasing order; lines on which x is the station
+    /// throughout a span have none there.
+    pub(crate) fn crossings(&self, hull: &Hull, station: f64, end: f64) -> Vec<Crossing> {
+        let knots = hull.surface().v();
+        let q = knots.degree();
+        let zero = 4.0 * f64::EPSILON * self.scale.max(station.abs());
+        let mut found = Vec::new();
+        for (line, values) in self.values.chunks_exact(self.columns).enumerate() {
+            let (aft, fore) = (station - zero, station + zero);
+            if values.iter().all(|&x| x > fore) || values.iter().all(|&x| x < aft) {
                 continue;
             }
-            let mut polynomial = [0.0; MAX_DEGREE + 1];
-            for (k, value) in polynomial.iter_mut().enumerate().take(q + 1) {
-                *value = blossom(knots.knots(), local, span, q, |r| if r < k { to } else { from });
+            for span in knots.spans() {
+                let (from, to) = (knots.knots()[span], knots.knots()[span + 1].min(end));
+                if to <= from {
+                    break;
+                }
+                let mut local = [0.0; MAX_DEGREE + 1];
+                for (c, x) in local.iter_mut().zip(&values[span - q..=span]) {
+                    *c = x - station;
+                }
+                let local = &local[..=q];
+                if local.iter().all(|&c| c > zero) || local.iter().all(|&c| c < -zero) {
+                    continue;
+                }
+                let mut polynomial = [0.0; MAX_DEGREE + 1];
+                for (k, value) in polynomial.iter_mut().enumerate().take(q + 1) {
+                    *value = blossom(knots.knots(), local, span, q, |r| if r < k { to } else { from });
+                }
+                roots(&polynomial[..=q], 0.0, 1.0, zero, 0, &mut |t| {
+                    found.push(Crossing { v: from + t * (to - from), line });
+                });
             }
-            roots(&polynomial[..=q], 0.0, 1.0, zero, 0, &mut |t| {
-                found.push(from + t * (to - from));
-            });
         }
+        found.sort_by(|a, b| a.v.total_cmp(&b.v));
+        found
     }
-    found.sort_by(f64::total_cmp);
-    found
 }
 
 /// The polar form of a spline of degree q on span `span`, at the arguments `argument(0)`, ..., `argument(q - 1)`, from the

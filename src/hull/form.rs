@@ -23,7 +23,7 @@ pub enum HullError {
     Dimension {
         /// Name of the dimension.
         name: &'static str,
-        /// Its value [m].
+        /// Its value \[m\].
         value: f64,
     },
     /// The heights of the net are not one rising sequence, the same in every column.
@@ -129,31 +129,31 @@ impl Hull {
         &self.particulars
     }
 
-    /// The surface; its control points are (x, y, z) [m].
+    /// The surface; its control points are (x, y, z) \[m\].
     #[must_use]
     pub fn surface(&self) -> &BsplineSurface<3> {
         &self.surface
     }
 
-    /// z(v) [m].
+    /// z(v) \[m\].
     #[must_use]
     pub fn heights(&self) -> &BsplineCurve<1> {
         &self.heights
     }
 
-    /// The deck at side in the profile: control points (x, z) [m], x rising.
+    /// The deck at side in the profile: control points (x, z) \[m\], x rising.
     #[must_use]
     pub fn deck(&self) -> &BsplineCurve<2> {
         &self.deck
     }
 
-    /// Height of the lowest line of the surface [m].
+    /// Height of the lowest line of the surface \[m\].
     #[must_use]
     pub fn bottom(&self) -> f64 {
         self.heights.points()[0][0]
     }
 
-    /// Height of the highest line of the surface [m].
+    /// Height of the highest line of the surface \[m\].
     #[must_use]
     pub fn top(&self) -> f64 {
         self.heights.points()[self.heights.points().len() - 1][0]
@@ -180,7 +180,7 @@ impl Hull {
         })
     }
 
-    /// The half-breadth at (x, z) [m]; none where the surface does not reach.
+    /// The half-breadth at (x, z) \[m\]; none where the surface does not reach.
     #[must_use]
     pub fn half_breadth(&self, x: f64, z: f64) -> Option<f64> {
         let v = self.height_parameter(z)?;
@@ -188,7 +188,7 @@ impl Hull {
         Some(self.surface.eval(u, v)[1])
     }
 
-    /// Ends of the waterline at height `z`: x at the stern and at the stem profile [m]; none outside the surface.
+    /// Ends of the waterline at height `z`: x at the stern and at the stem profile \[m\]; none outside the surface.
     #[must_use]
     pub fn endings(&self, z: f64) -> Option<[f64; 2]> {
         let v = self.height_parameter(z)?;
@@ -196,7 +196,7 @@ impl Hull {
         Some([self.surface.eval(a, v)[0], self.surface.eval(b, v)[0]])
     }
 
-    /// Height of the deck at side at `x` [m]; beyond the ends of the deck, the height of its end.
+    /// Height of the deck at side at `x` \[m\]; beyond the ends of the deck, the height of its end.
     #[must_use]
     pub fn deck_height(&self, x: f64) -> f64 {
         let domain = self.deck.knots().domain();

@@ -32,7 +32,7 @@ pub enum Functional {
     VerticalMoment,
     /// Area of the section at `x`, both sides [m^2].
     SectionArea {
-        /// Position forward of AP [m].
+        /// Position forward of AP \[m\].
         x: f64,
     },
     /// Waterplane area, both sides [m^2].
@@ -42,7 +42,7 @@ pub enum Functional {
 }
 
 impl Functional {
-    /// The row r over the net with value = sum_ij r_ij y_ij, `u` slowest, for the body below `draught` [m].
+    /// The row r over the net with value = sum_ij r_ij y_ij, `u` slowest, for the body below `draught` \[m\].
     ///
     /// The row is zero below the lowest line of the hull and for a draught that is not a number. Above the deck it is that of
     /// the whole body closed at the deck, without a waterplane; at the lowest line the waterplane is the flat of bottom.
@@ -58,7 +58,7 @@ impl Functional {
         row
     }
 
-    /// The value for the hull as it is, below `draught` [m].
+    /// The value for the hull as it is, below `draught` \[m\].
     #[must_use]
     pub fn value(&self, hull: &Hull, draught: f64) -> f64 {
         let columns = hull.surface().shape()[1];

@@ -70,7 +70,7 @@ impl<'a> Immersion<'a> {
         Some(immersion)
     }
 
-    /// The draught, the top of the surface when it is above that [m].
+    /// The draught, the top of the surface when it is above that \[m\].
     pub(crate) fn draught(&self) -> f64 {
         self.draught
     }
@@ -90,7 +90,7 @@ impl<'a> Immersion<'a> {
         self.deck_immersed
     }
 
-    /// Height above the deck at side of the point (u, v) [m].
+    /// Height above the deck at side of the point (u, v) \[m\].
     fn above_deck(&self, u: f64, v: f64) -> f64 {
         let [x, _, z] = self.hull.surface().eval(u, v);
         z - self.hull.deck_height(x)

@@ -10,8 +10,8 @@ mod offsets;
 mod particulars;
 mod section;
 
+pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
-pub(crate) use area::{crossings, is_slanting};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

@@ -12,7 +12,7 @@ use crate::spline::BsplineCurve;
 pub struct OffsetStation {
     /// Number or name, as it is written over the column.
     pub name: String,
-    /// Position forward of AP [m].
+    /// Position forward of AP \[m\].
     pub x: f64,
 }
 
@@ -21,30 +21,30 @@ pub struct OffsetStation {
 pub struct StationOffsets {
     /// The station.
     pub station: OffsetStation,
-    /// Half-breadth at each waterline of the table [m]; none beyond the ends of the waterline and above the deck.
+    /// Half-breadth at each waterline of the table \[m\]; none beyond the ends of the waterline and above the deck.
     pub half_breadths: Vec<Option<f64>>,
-    /// Height at each buttock of the table [m]: the lowest point of the body there; none where the body is narrower.
+    /// Height at each buttock of the table \[m\]: the lowest point of the body there; none where the body is narrower.
     pub heights: Vec<Option<f64>>,
-    /// Height of the lowest point on the centreplane: keel line, stem or stern profile [m].
+    /// Height of the lowest point on the centreplane: keel line, stem or stern profile \[m\].
     pub keel_height: Option<f64>,
-    /// Half-breadth of the flat of bottom [m]; 0 where the keel is a line.
+    /// Half-breadth of the flat of bottom \[m\]; 0 where the keel is a line.
     pub flat_of_bottom: Option<f64>,
-    /// Height of the deck at side [m].
+    /// Height of the deck at side \[m\].
     pub deck_height: Option<f64>,
-    /// Half-breadth at the deck at side [m].
+    /// Half-breadth at the deck at side \[m\].
     pub deck_half_breadth: Option<f64>,
 }
 
 /// Offsets of a hull. Lengths from AP forward, heights above the base line, half-breadths from the centreplane, in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OffsetTable {
-    /// Heights of the waterlines [m].
+    /// Heights of the waterlines \[m\].
     pub waterlines: Vec<f64>,
-    /// Distances of the buttocks from the centreplane [m].
+    /// Distances of the buttocks from the centreplane \[m\].
     pub buttocks: Vec<f64>,
     /// The stations with their offsets.
     pub stations: Vec<StationOffsets>,
-    /// Ends of each waterline: x at the stern and at the stem profile [m]; none outside the surface and above the deck there.
+    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none outside the surface and above the deck there.
     pub endings: Vec<[Option<f64>; 2]>,
 }
 
@@ -192,7 +192,7 @@ fn slope(edge: &BsplineCurve<3>) -> Option<BsplineCurve<1>> {
     BsplineCurve::new(knots, points).ok()
 }
 
-/// Default waterlines [m]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design draught, up
+/// Default waterlines \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design draught, up
 /// to the highest point of the deck; half the step in the first space; the bottom and the design draught itself (other
 /// lines nearer to it than a fifth of the step are left out).
 #[must_use]
@@ -219,7 +219,7 @@ pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     lines
 }
 
-/// Default buttocks [m]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least four.
+/// Default buttocks \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least four.
 #[must_use]
 pub fn default_buttocks(hull: &Hull) -> Vec<f64> {
     let half = 0.5 * hull.particulars().breadth;

@@ -18,26 +18,26 @@ use field::Field;
 /// A plane that cuts the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cut {
-    /// Transverse plane at `x` [m].
+    /// Transverse plane at `x` \[m\].
     Station {
-        /// Position forward of AP [m].
+        /// Position forward of AP \[m\].
         x: f64,
     },
-    /// Horizontal plane at `z` [m].
+    /// Horizontal plane at `z` \[m\].
     Waterline {
-        /// Height above the base line [m].
+        /// Height above the base line \[m\].
         z: f64,
     },
-    /// Longitudinal vertical plane at `y` [m].
+    /// Longitudinal vertical plane at `y` \[m\].
     Buttock {
-        /// Distance from the centreplane [m].
+        /// Distance from the centreplane \[m\].
         y: f64,
     },
-    /// Plane through the line y = 0, z = `height`, going down outboard by `angle` below the horizontal [rad].
+    /// Plane through the line y = 0, z = `height`, going down outboard by `angle` below the horizontal \[rad\].
     Diagonal {
-        /// Height on the centreplane [m].
+        /// Height on the centreplane \[m\].
         height: f64,
-        /// Angle below the horizontal [rad], between 0 and pi/2.
+        /// Angle below the horizontal \[rad\], between 0 and pi/2.
         angle: f64,
     },
     /// The plane normal . (x, y, z) = offset.
@@ -67,7 +67,7 @@ pub enum Face {
 pub struct Branch {
     /// Face it lies on.
     pub face: Face,
-    /// The curve (x, y, z) [m], port side.
+    /// The curve (x, y, z) \[m\], port side.
     pub curve: BsplineCurve<3>,
     /// Whether it closes on itself.
     pub closed: bool,
@@ -83,7 +83,7 @@ pub struct Section {
 }
 
 impl Branch {
-    /// Points on the curve, so dense that the chords between them stay within `deviation` [m] of it; the first and the last
+    /// Points on the curve, so dense that the chords between them stay within `deviation` \[m\] of it; the first and the last
     /// are its ends, and no span of the curve is skipped. Arcs are halved until their control points lie within the
     /// deviation of the chord (the curve stays in their convex hull), at most 20 times.
     #[must_use]
@@ -132,15 +132,31 @@ impl Cut {
             Self::Diagonal { height, angle } => ([0.0, angle.sin(), angle.cos()], height * angle.cos()),
             Self::Plane { normal, offset } => (normal, offset),
         };
+        // Scaled by the largest component first, so that squares neither overflow nor vanish.
+        let largest = normal.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        if !(largest > 0.0 && largest.is_finite() && offset.is_finite()) {
+            return None;
+        }
+        let normal = normal.map(|c| c / largest);
         let length = normal.iter().map(|c| c * c).sum::<f64>().sqrt();
-        let usable = length > 0.0 && length.is_finite() && offset.is_finite();
-        usable.then(|| (normal.map(|c| c / length), offset / length))
+        Some((normal.map(|c| c / length), offset / largest / length))
+    }
+
+    /// A plane along two axes as the station, waterline or buttock that it is; other cuts as they are.
+    fn canonical(self) -> Self {
+        let Self::Plane { .. } = self else { return self };
+        match self.plane() {
+            Some(([x, 0.0, 0.0], offset)) => Self::Station { x: offset / x },
+            Some(([0.0, y, 0.0], offset)) => Self::Buttock { y: offset / y },
+            Some(([0.0, 0.0, z], offset)) => Self::Waterline { z: offset / z },
+            _ => self,
+        }
     }
 }
 
 impl Hull {
     /// The curves in which a plane cuts one side of the body, closing lines on the flats included; deviation from the
-    /// surface and from the plane at most `tolerance` [m], which is taken as 1e-11 m at least. No branch when the plane
+    /// surface and from the plane at most `tolerance` \[m\], which is taken as 1e-11 m at least. No branch when the plane
     /// misses the hull or is no plane.
     ///
     /// * A waterline is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
@@ -153,7 +169,8 @@ impl Hull {
     pub fn section(&self, cut: Cut, tolerance: f64) -> Section {
         let tolerance = tolerance.max(1e-11);
         let mut branches = Vec::new();
-        let Some((normal, offset)) = cut.plane() else { return Section { cut, branches } };
+        let (asked, cut) = (cut, cut.canonical());
+        let Some((normal, offset)) = cut.plane() else { return Section { cut: asked, branches } };
         let station = matches!(cut, Cut::Station { .. });
         let mut add = |face: Face, curve: BsplineCurve<3>, closed: bool| {
             for (curve, closed) in below_deck(self, curve, closed, tolerance) {
@@ -208,7 +225,7 @@ impl Hull {
             let by_place = key(a).iter().zip(key(b)).map(|(x, y)| x.total_cmp(&y)).find(|o| o.is_ne());
             order.then(by_place.unwrap_or(std::cmp::Ordering::Equal))
         });
-        Section { cut, branches }
+        Section { cut: asked, branches }
     }
 }
 

@@ -82,7 +82,7 @@ pub enum Shell {
     None,
     /// Extreme volume = moulded volume x factor.
     Factor(f64),
-    /// Extreme volume = moulded volume + mean thickness [m] x wetted surface.
+    /// Extreme volume = moulded volume + mean thickness \[m\] x wetted surface.
     Thickness(f64),
 }
 
@@ -99,9 +99,9 @@ pub struct Conventions {
     pub lcb_reference: LcbReference,
     /// Shell plating.
     pub shell: Shell,
-    /// Thickness of the keel below the base line [m]: extreme draught = moulded draught + this.
+    /// Thickness of the keel below the base line \[m\]: extreme draught = moulded draught + this.
     pub keel_thickness: f64,
-    /// Height of the centre of gravity above the base line [m], when known; GM and MTC use it.
+    /// Height of the centre of gravity above the base line \[m\], when known; GM and MTC use it.
     pub centre_of_gravity_height: Option<f64>,
 }
 

@@ -5,6 +5,7 @@ mod draughts;
 mod halves;
 mod quantity;
 mod sections;
+mod station;
 mod table;
 mod volume;
 mod waterplane;

@@ -9,9 +9,9 @@
 //! its spans. Draughts that immerse the deck at side are integrated one by one, u-line by u-line up to the deck.
 
 use super::halves::volumes_to_midship;
+use super::station::Stations;
 use crate::hull::{Hull, Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
-use crate::spline::MAX_DEGREE;
 
 /// Nodes a piece in u where the body ends at the deck.
 const DECK_NODES: usize = 16;
@@ -63,8 +63,6 @@ impl Body {
 /// A node in v with the N = q + 1 basis functions that do not vanish there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node<const N: usize> {
-    /// Parameter.
-    pub(super) v: f64,
     /// Index of the first of the basis functions.
     pub(super) first: usize,
     /// Their values.
@@ -86,20 +84,23 @@ pub(super) fn nodes<const N: usize>(hull: &Hull, span: usize, end: f64, count: u
     if to <= from {
         return;
     }
+    into.extend(gauss_legendre(count).on(from, to).map(|(v, weight)| node_at(hull, span, v, weight)));
+}
+
+/// The node at `v` in `span`.
+pub(super) fn node_at<const N: usize>(hull: &Hull, span: usize, v: f64, weight: f64) -> Node<N> {
     let first = span + 1 - N;
     let heights = &hull.heights().points()[first..=span];
-    for (v, weight) in gauss_legendre(count).on(from, to) {
-        let rows = knots.basis_derivatives::<2>(span, v);
-        let (mut value, mut slope) = ([0.0; N], [0.0; N]);
-        value.copy_from_slice(&rows[0][..N]);
-        slope.copy_from_slice(&rows[1][..N]);
-        let sum = |row: &[f64; N]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
-        into.push(Node { v, first, value, slope, weight, z: sum(&value), rise: sum(&slope) });
-    }
+    let rows = hull.surface().v().basis_derivatives::<2>(span, v);
+    let (mut value, mut slope) = ([0.0; N], [0.0; N]);
+    value.copy_from_slice(&rows[0][..N]);
+    slope.copy_from_slice(&rows[1][..N]);
+    let sum = |row: &[f64; N]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
+    Node { first, value, slope, weight, z: sum(&value), rise: sum(&slope) }
 }
 
 /// Number of nodes in v on every span: volume moments are of degree 4q - 1.
-pub(super) fn count_up(hull: &Hull) -> usize {
+fn count_up(hull: &Hull) -> usize {
     let knots = hull.surface().v();
     (2 * knots.degree()).max(NODES_UP.div_ceil(knots.spans().len()))
 }
@@ -152,19 +153,12 @@ fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]]) -> ([f64; 4], f64
 }
 
 /// The integrals below each immersion, volumes being parted at x = `midship`; zero where nothing is immersed.
-pub(super) fn bodies(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Vec<Body> {
-    match hull.surface().v().degree() {
-        1 => bodies_of::<2>(hull, immersions, midship),
-        2 => bodies_of::<3>(hull, immersions, midship),
-        3 => bodies_of::<4>(hull, immersions, midship),
-        4 => bodies_of::<5>(hull, immersions, midship),
-        5 => bodies_of::<6>(hull, immersions, midship),
-        6 => bodies_of::<7>(hull, immersions, midship),
-        _ => bodies_of::<{ MAX_DEGREE + 1 }>(hull, immersions, midship),
-    }
-}
-
-fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Vec<Body> {
+pub(super) fn bodies<const N: usize>(
+    stations: &Stations<N>,
+    immersions: &[Option<Immersion>],
+    midship: f64,
+) -> Vec<Body> {
+    let hull = stations.hull;
     let knots = hull.surface().v();
     let spans = knots.spans();
     let count = count_up(hull);
@@ -191,7 +185,7 @@ fn bodies_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], mids
     let parting = hull.length_parameter(midship, top).unwrap_or(hull.surface().u().domain().0);
     let parting = hull.surface().u().find_span(parting);
     let lines = pass(hull, &all, parting);
-    let to_midship = volumes_to_midship(hull, immersions, midship, parting);
+    let to_midship = volumes_to_midship(stations, immersions, midship, parting);
     let mut below = vec![Body { aft: Some(0.0), ..Body::default() }];
     let mut sum = below[0];
     for (k, (node, line)) in all.iter().zip(&lines).take(spans.len() * count).enumerate() {

@@ -65,13 +65,13 @@ pub(super) struct Waterplane {
     pub(super) second: f64,
     /// Transverse second moment [m^4].
     pub(super) transverse: f64,
-    /// Length [m].
+    /// Length \[m\].
     pub(super) length: f64,
-    /// Breadth [m].
+    /// Breadth \[m\].
     pub(super) breadth: f64,
-    /// Half angle of entrance [deg].
+    /// Half angle of entrance \[deg\].
     pub(super) entrance: Option<f64>,
-    /// Half angle of run [deg].
+    /// Half angle of run \[deg\].
     pub(super) run: Option<f64>,
 }
 
@@ -163,7 +163,7 @@ fn largest(line: &BsplineCurve<3>, from: f64, to: f64, known: f64) -> f64 {
     for k in 0..SAMPLES {
         let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
         let (mut low, mut high) = (at(k), at(k + 1));
-        if slope(low) <= 0.0 || slope(high) >= 0.0 {
+        if slope(low) < 0.0 || slope(high) > 0.0 {
             continue;
         }
         // The value is settled to rounding when the place is to its square root.
@@ -180,7 +180,7 @@ fn largest(line: &BsplineCurve<3>, from: f64, to: f64, known: f64) -> f64 {
     best
 }
 
-/// Angle between the waterline and the centreplane at its end [deg]; where the first derivative vanishes, from the second.
+/// Angle between the waterline and the centreplane at its end \[deg\]; where the first derivative vanishes, from the second.
 fn half_angle(line: &BsplineCurve<3>, (span, u): (usize, f64)) -> Option<f64> {
     let p = line.knots().degree();
     let rows = line.knots().basis_derivatives::<3>(span, u);

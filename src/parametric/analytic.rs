@@ -24,6 +24,11 @@ pub struct Dimensions {
     pub depth: f64,
 }
 
+/// Range of a dimension \[m\].
+pub(super) const LENGTHS: (f64, f64) = (0.01, 10_000.0);
+/// Largest ratio of two dimensions.
+pub(super) const LARGEST_RATIO: f64 = 2000.0;
+
 impl Dimensions {
     fn particulars(&self) -> PrincipalParticulars {
         PrincipalParticulars {
@@ -37,13 +42,23 @@ impl Dimensions {
     fn problems(&self, deepest: f64) -> Vec<Infeasible> {
         let mut problems = Vec::new();
         for (key, value) in [("Lpp", self.length), ("B", self.breadth), ("T", self.draught), ("D", self.depth)] {
-            if !(value.is_finite() && value > 0.0) {
+            if !(LENGTHS.0..=LENGTHS.1).contains(&value) {
                 problems.push(Infeasible {
                     code: "E101",
                     keys: vec![key],
-                    message: format!("{key} is {value} m; it must be a positive number"),
+                    message: format!("{key} is {value} m; it must be between {} and {} m", LENGTHS.0, LENGTHS.1),
                 });
             }
+        }
+        let smallest = self.length.min(self.breadth).min(self.draught);
+        if problems.is_empty() && self.length.max(self.breadth).max(self.depth) > LARGEST_RATIO * smallest {
+            problems.push(Infeasible {
+                code: "E101",
+                keys: vec!["Lpp", "B", "T", "D"],
+                message: format!(
+                    "the dimensions differ by more than a factor of {LARGEST_RATIO}; the smallest is {smallest} m"
+                ),
+            });
         }
         if problems.is_empty() && !(self.draught..=deepest * self.draught).contains(&self.depth) {
             let upper = if deepest.is_finite() {

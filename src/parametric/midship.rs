@@ -82,7 +82,7 @@ impl MidshipSection {
                     return Ok(section(beta, radius));
                 }
             }
-            return Err(MidshipProblem::Coefficient { lowest: range.0.min(range.1), highest: range.1.max(0.0) });
+            return Err(MidshipProblem::Coefficient { lowest: range.0, highest: range.1 });
         }
         let beta = match deadrise {
             Some(beta) => beta,

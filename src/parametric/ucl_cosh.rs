@@ -58,12 +58,12 @@ type Row = (&'static str, &'static str, f64, f64, f64);
 
 impl Parameters {
     fn rows(&self) -> [Row; 13] {
-        let infinite = f64::INFINITY;
+        let (least, most) = super::analytic::LENGTHS;
         [
-            ("Lpp", "length overall", self.length, f64::MIN_POSITIVE, infinite),
-            ("B", "breadth overall", self.breadth, f64::MIN_POSITIVE, infinite),
-            ("T", "draught", self.draught, f64::MIN_POSITIVE, infinite),
-            ("D", "depth", self.depth, f64::MIN_POSITIVE, infinite),
+            ("Lpp", "length overall", self.length, least, most),
+            ("B", "breadth overall", self.breadth, least, most),
+            ("T", "draught", self.draught, least, most),
+            ("D", "depth", self.depth, least, most),
             ("ms", "midship fullness", self.midship_fullness, 0.001, 10.0),
             ("bow", "bow profile", self.bow, 0.001, 10.0),
             ("transom", "transom fullness", self.transom_fullness, 0.001, 10.0),
@@ -82,7 +82,7 @@ impl Parameters {
             .into_iter()
             .filter(|&(_, _, value, low, high)| !(value.is_finite() && (low..=high).contains(&value)))
             .map(|(key, name, value, low, high)| {
-                let range = if high.is_finite() { format!("between {low} and {high}") } else { "positive".to_owned() };
+                let range = format!("between {low} and {high}");
                 Infeasible {
                     code: "E101",
                     keys: vec![key],
@@ -91,6 +91,17 @@ impl Parameters {
             })
             .collect();
         if problems.is_empty() {
+            let smallest = self.breadth.min(self.draught).min(self.length);
+            if self.length.max(self.breadth).max(self.depth) > super::analytic::LARGEST_RATIO * smallest {
+                problems.push(Infeasible {
+                    code: "E101",
+                    keys: vec!["Lpp", "B", "T", "D"],
+                    message: format!(
+                        "the dimensions differ by more than a factor of {}; the smallest is {smallest} m",
+                        super::analytic::LARGEST_RATIO
+                    ),
+                });
+            }
             if self.draught > self.depth {
                 problems.push(Infeasible {
                     code: "E105",

@@ -4,8 +4,9 @@
 //! Areas, volumes, inertias and heights are measured forward from AP, centres and the moment to trim from midship, form
 //! coefficients aft from FP (1 mm = 0.025). The scale of a curve is its largest value over its target length, rounded up
 //! to 1, 2, 2.5, 4, 5 or 10 times a power of ten; LCB and LCF are scaled by their largest distance from midship. KM_L and
-//! KM_T grow without bound as the draught goes to zero: they are scaled by their largest value from 0.2 T upwards, so that
-//! they stand inside the frame there whether they fall or rise with the draught, and run out of it further down.
+//! KM_T grow without bound as the draught goes to zero: they are scaled by their value at the lowest draught of 0.2 T or
+//! more, and to a smaller scale where they would otherwise leave the frame above it (KM_T may rise with the draught). Further
+//! down they may run out of the frame.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::draw_level;
@@ -43,8 +44,9 @@ enum Axis {
 enum ScaledBy {
     /// The largest value.
     Largest,
-    /// The largest value from [`SHALLOW`] of the design draught upwards.
-    LargestAboveShallow,
+    /// The value at the lowest draught that is no less than [`SHALLOW`] of the design draught; above it the curve stays in
+    /// the frame.
+    LowestDraught,
 }
 
 struct Curve {
@@ -71,11 +73,11 @@ const DASH_DOT: &[f64] = &[4.0, 1.0, 0.5, 1.0];
 #[rustfmt::skip]
 const CURVES: [Curve; 17] = {
     use Axis::{Aft, Fore, Midship, MidshipOfPosition};
-    use ScaledBy::{Largest, LargestAboveShallow};
+    use ScaledBy::{Largest, LowestDraught};
     [
-        Curve { symbol: "KM_L", unit: "m", axis: Aft, scaled_by: LargestAboveShallow, target: Some(120.0), name_at: 0.5, colour: "#0072b2", dash: FULL, value: |r| r.km_longitudinal },
+        Curve { symbol: "KM_L", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(120.0), name_at: 0.5, colour: "#0072b2", dash: FULL, value: |r| r.km_longitudinal },
         Curve { symbol: "A_WL", unit: "m²", axis: Aft, scaled_by: Largest, target: Some(100.0), name_at: 0.7, colour: "#d55e00", dash: FULL, value: |r| Some(r.waterplane_area) },
-        Curve { symbol: "KM_T", unit: "m", axis: Aft, scaled_by: LargestAboveShallow, target: Some(150.0), name_at: 0.4, colour: "#a8437f", dash: FULL, value: |r| r.km_transverse },
+        Curve { symbol: "KM_T", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(150.0), name_at: 0.4, colour: "#a8437f", dash: FULL, value: |r| r.km_transverse },
         Curve { symbol: "KB", unit: "m", axis: Aft, scaled_by: Largest, target: Some(80.0), name_at: 0.35, colour: "#8a6100", dash: FULL, value: |r| r.kb },
         Curve { symbol: "LCB", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.6, colour: "#007a59", dash: FULL, value: |r| r.lcb },
         Curve { symbol: "LCF", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.8, colour: "#007a59", dash: LONG, value: |r| r.lcf },
@@ -100,15 +102,21 @@ impl Curve {
         Some(if self.axis == Axis::MidshipOfPosition { value - midship } else { value })
     }
 
-    /// The value that fixes the scale; all rows count where none reaches [`SHALLOW`] of the design draught `draught` [m].
+    /// The value that fixes the scale; `rows` rise in draught, `draught` is the design draught [m].
     fn scaling_value(&self, rows: &[Hydrostatics], midship: f64, draught: f64) -> f64 {
-        let low = SHALLOW * draught * (1.0 - 1e-9);
-        let shallow = self.scaled_by == ScaledBy::LargestAboveShallow && rows.iter().any(|row| row.draught >= low);
-        let counts = |row: &&Hydrostatics| !shallow || row.draught >= low;
-        let values = rows.iter().filter(counts).filter_map(|row| self.drawn(row, midship)).map(f64::abs);
         // Centres that stay at midship are not blown up: their scale is for a hundredth of L_PP / 2 at least.
         let least = if self.axis == Axis::MidshipOfPosition { 0.01 * midship } else { 0.0 };
-        values.fold(least, f64::max)
+        let value = |row: &Hydrostatics| self.drawn(row, midship).map(f64::abs);
+        let largest = |rows: &[Hydrostatics]| rows.iter().filter_map(value).fold(least, f64::max);
+        match self.scaled_by {
+            ScaledBy::Largest => largest(rows),
+            ScaledBy::LowestDraught => {
+                let low = SHALLOW * draught * (1.0 - 1e-9);
+                let deep = rows.iter().position(|row| row.draught >= low).map_or(rows, |first| &rows[first..]);
+                let fitting = self.target.unwrap_or(WIDTH) / WIDTH * largest(deep);
+                deep.iter().find_map(value).unwrap_or(0.0).max(fitting)
+            }
+        }
     }
 
     /// Distance from the aft axis at which `value` stands [mm].

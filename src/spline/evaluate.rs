@@ -1,7 +1,9 @@
 //! Evaluation of surfaces: anywhere, and on grids of parameters.
 //!
-//! Nothing is allocated for a point. The work for a point is two bases and a (p + 1) x (q + 1) net; a grid computes the
-//! bases once a line and collapses the net once a line u = constant, after which a point costs O(q).
+//! The work for a point is two bases and a (p + 1) x (q + 1) net, and nothing is allocated for it. A bicubic surface is
+//! put into powers of the parameters, span by span, when its second derivatives are first asked for; after that a point
+//! needs no bases. A grid computes the bases once a line and collapses the net once a line u = constant, after which a
+//! point costs O(q).
 
 use super::surface::BsplineSurface;
 
@@ -84,9 +86,15 @@ impl<const D: usize> BsplineSurface<D> {
         result
     }
 
-    /// Point, first and second derivatives at (u, v); nothing is allocated.
+    /// Point, first and second derivatives at (u, v). The first call for a bicubic surface allocates 16 points for each
+    /// pair of spans and makes their polynomials; no other call allocates. For a few points of a
+    /// surface that is then thrown away [`Self::derivatives`] is the cheaper way.
     #[must_use]
+    #[inline]
     pub fn jet(&self, u: f64, v: f64) -> SurfaceJet<D> {
+        if self.u().degree() == 3 && self.v().degree() == 3 {
+            return self.powers().jet(self, u, v);
+        }
         by_degree!(self, jet_fixed, (u, v), {
             let d = self.derivatives::<3>(u, v);
             SurfaceJet { point: d[0][0], du: d[1][0], dv: d[0][1], duu: d[2][0], duv: d[1][1], dvv: d[0][2] }
@@ -95,6 +103,7 @@ impl<const D: usize> BsplineSurface<D> {
 
     /// Point and first derivatives at (u, v); nothing is allocated.
     #[must_use]
+    #[inline]
     pub fn tangents(&self, u: f64, v: f64) -> SurfaceTangents<D> {
         by_degree!(self, tangents_fixed, (u, v), {
             let d = self.derivatives::<2>(u, v);
@@ -102,41 +111,57 @@ impl<const D: usize> BsplineSurface<D> {
         })
     }
 
-    fn jet_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceJet<D> {
-        let [point, du, dv, duu, duv, dvv] = self.jet_lanes::<K>(u, v);
-        SurfaceJet { point, du, dv, duu, duv, dvv }
-    }
-
     #[inline(never)]
-    fn jet_lanes<const K: usize>(&self, u: f64, v: f64) -> [[f64; D]; 6] {
+    fn jet_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceJet<D> {
         let (first_u, basis_u) = self.u().orders_at_fixed::<K, 3>(u);
         let (first_v, basis_v) = self.v().orders_at_fixed::<K, 3>(v);
-        let mut result = [[0.0; D]; 6];
-        let strip = self.strip::<K>(first_u, first_v, &basis_u[0]);
-        result[0] = combine(&basis_v[0], &strip);
-        result[2] = combine(&basis_v[1], &strip);
-        result[5] = combine(&basis_v[2], &strip);
-        let strip = self.strip::<K>(first_u, first_v, &basis_u[1]);
-        result[1] = combine(&basis_v[0], &strip);
-        result[4] = combine(&basis_v[1], &strip);
-        let strip = self.strip::<K>(first_u, first_v, &basis_u[2]);
-        result[3] = combine(&basis_v[0], &strip);
-        result
+        let strips = self.strips::<K, 3>(first_u, first_v, &basis_u);
+        SurfaceJet {
+            point: combine(&basis_v[0], &strips[0]),
+            du: combine(&basis_v[0], &strips[1]),
+            dv: combine(&basis_v[1], &strips[0]),
+            duu: combine(&basis_v[0], &strips[2]),
+            duv: combine(&basis_v[1], &strips[1]),
+            dvv: combine(&basis_v[2], &strips[0]),
+        }
     }
 
-    fn tangents_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceTangents<D> {
-        let [point, du, dv] = self.tangents_lanes::<K>(u, v);
-        SurfaceTangents { point, du, dv }
+    /// The K x K net at (`first_u`, `first_v`), summed in u with N sets of weights.
+    #[inline(always)]
+    fn strips<const K: usize, const N: usize>(
+        &self,
+        first_u: usize,
+        first_v: usize,
+        weights: &[[f64; K]; N],
+    ) -> [[[f64; D]; K]; N] {
+        let columns = self.v().basis_count();
+        let start = first_u * columns + first_v;
+        let rows: [&[[f64; D]]; K] = std::array::from_fn(|i| &self.points()[start + i * columns..][..K]);
+        let mut strips = [[[0.0; D]; K]; N];
+        for j in 0..K {
+            for l in 0..D {
+                for o in 0..N {
+                    let mut sum = weights[o][0] * rows[0][j][l];
+                    for i in 1..K {
+                        sum += weights[o][i] * rows[i][j][l];
+                    }
+                    strips[o][j][l] = sum;
+                }
+            }
+        }
+        strips
     }
 
     #[inline(never)]
-    fn tangents_lanes<const K: usize>(&self, u: f64, v: f64) -> [[f64; D]; 3] {
+    fn tangents_fixed<const K: usize>(&self, u: f64, v: f64) -> SurfaceTangents<D> {
         let (first_u, basis_u) = self.u().orders_at_fixed::<K, 2>(u);
         let (first_v, basis_v) = self.v().orders_at_fixed::<K, 2>(v);
-        let strip = self.strip::<K>(first_u, first_v, &basis_u[0]);
-        let (point, dv) = (combine(&basis_v[0], &strip), combine(&basis_v[1], &strip));
-        let du = combine(&basis_v[0], &self.strip::<K>(first_u, first_v, &basis_u[1]));
-        [point, du, dv]
+        let strips = self.strips::<K, 2>(first_u, first_v, &basis_u);
+        SurfaceTangents {
+            point: combine(&basis_v[0], &strips[0]),
+            du: combine(&basis_v[0], &strips[1]),
+            dv: combine(&basis_v[1], &strips[0]),
+        }
     }
 
     /// Calls `visit(i, j, jet)` for every pair of parameters (`us[i]`, `vs[j]`), `i` slowest. Storage for the bases in v
@@ -188,24 +213,6 @@ impl<const D: usize> BsplineSurface<D> {
             }
         }
     }
-
-    /// The K x K net at (`first_u`, `first_v`), weighted and summed in u.
-    #[inline(always)]
-    fn strip<const K: usize>(&self, first_u: usize, first_v: usize, weights: &[f64; K]) -> [[f64; D]; K] {
-        let columns = self.v().basis_count();
-        let numbers = self.points().as_flattened();
-        let mut strip = [[0.0; D]; K];
-        for i in 0..K {
-            let row = &numbers[((first_u + i) * columns + first_v) * D..][..K * D];
-            for j in 0..K {
-                for l in 0..D {
-                    let term = weights[i] * row[j * D + l];
-                    strip[j][l] = if i == 0 { term } else { strip[j][l] + term };
-                }
-            }
-        }
-        strip
-    }
 }
 
 /// The weighted sum of points.
@@ -222,7 +229,7 @@ fn combine<const K: usize, const L: usize>(weights: &[f64; K], points: &[[f64; L
 }
 
 #[inline(always)]
-fn add<const D: usize>(sum: &mut [f64; D], weight: f64, point: &[f64; D]) {
+pub(super) fn add<const D: usize>(sum: &mut [f64; D], weight: f64, point: &[f64; D]) {
     for (s, c) in sum.iter_mut().zip(point) {
         *s += weight * c;
     }
@@ -232,7 +239,7 @@ fn add<const D: usize>(sum: &mut [f64; D], weight: f64, point: &[f64; D]) {
 mod tests {
     use super::*;
     use crate::spline::KnotVector;
-    use crate::spline::tests::{parameters, surface};
+    use crate::spline::tests::{bicubic, parameters, surface};
     use proptest::prelude::*;
 
     fn close<const D: usize>(a: &SurfaceJet<D>, d: &[[[f64; D]; 3]; 3]) -> bool {
@@ -276,6 +283,18 @@ mod tests {
             fast_ways_agree(&a)?;
             fast_ways_agree(&b)?;
             fast_ways_agree(&c)?;
+        }
+
+        #[test]
+        fn fast_ways_agree_for_cubics(a in bicubic::<3>(), b in bicubic::<1>()) {
+            fast_ways_agree(&a)?;
+            fast_ways_agree(&b)?;
+            // Copies are equal, evaluated or not, and give the same numbers.
+            let fresh = BsplineSurface::new(a.u().clone(), a.v().clone(), a.points().to_vec()).unwrap();
+            prop_assert_eq!(&fresh, &a);
+            let (u, v) = (0.3 * a.u().domain().0 + 0.7 * a.u().domain().1, a.v().domain().1);
+            prop_assert_eq!(a.clone().jet(u, v), a.jet(u, v));
+            prop_assert_eq!(fresh.jet(u, v), a.jet(u, v));
         }
 
         #[test]

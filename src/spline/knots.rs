@@ -1,7 +1,7 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
 use super::basis::{Row, basis_orders, padded_orders};
-use super::table::SpanTable;
+use super::table::{Cubic, SpanTable};
 use std::sync::Arc;
 
 /// The highest degree of a spline.
@@ -225,14 +225,7 @@ impl KnotVector {
     /// `t` taken to the nearest end of the domain; NaN stays NaN.
     #[inline]
     pub(super) fn clamp(&self, t: f64) -> f64 {
-        let (a, b) = self.domain();
-        if t < a {
-            a
-        } else if t > b {
-            b
-        } else {
-            t
-        }
+        self.table.clamp(t)
     }
 
     /// Index of the first basis function that does not vanish at `t`, and basis values and derivatives there.
@@ -243,6 +236,20 @@ impl KnotVector {
         (self.table.knot_index(number) - self.degree, self.orders_in(number, t))
     }
 
+    /// The spans of a cubic, the end of the domain included; empty for other degrees.
+    #[inline(always)]
+    pub(super) fn cubics(&self) -> &[Cubic] {
+        self.table.cubics()
+    }
+
+    /// The number of the span of a cubic that holds `t`, and how far `t` is from its start.
+    #[inline(always)]
+    pub(super) fn cubic_at(&self, t: f64) -> (usize, f64) {
+        let t = self.table.clamp(t);
+        let number = self.table.locate(t);
+        (number, t - self.table.cubics()[number].start)
+    }
+
     /// As [`Self::orders_at`] where the order K, the degree plus 1, is known.
     ///
     /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the ends).
@@ -250,10 +257,9 @@ impl KnotVector {
     pub(super) fn orders_at_fixed<const K: usize, const N: usize>(&self, t: f64) -> (usize, [[f64; K]; N]) {
         let t = self.clamp(t);
         let number = self.table.locate(t);
-        let first = self.table.knot_index(number) + 1 - K;
         if K == 4 && N <= 3 {
-            let x = t - self.table.start(number);
-            let [c0, c1, c2, c3] = self.table.cubic(number);
+            let Cubic { start, first, powers: [c0, c1, c2, c3] } = &self.table.cubics()[number];
+            let x = t - start;
             let mut result = [[0.0; K]; N];
             // Horner's scheme, carried on for the derivatives.
             for r in 0..K {
@@ -268,8 +274,9 @@ impl KnotVector {
                     }
                 }
             }
-            return (first, result);
+            return (*first, result);
         }
+        let first = self.table.knot_index(number) + 1 - K;
         (first, basis_orders::<K, N>(&self.knots[first + 1..], self.table.reciprocals(number), t))
     }
 

@@ -5,7 +5,7 @@
 //! right; the last span is closed. Arguments outside the domain are taken to its nearest end. Nets are stored `u` slowest.
 //! Signs of curvature: a planar curve that turns left is positive; a surface that bends towards S_u x S_v is positive.
 //!
-//! Evaluation finds its span in constant time and allocates nothing; [`BsplineSurface::grid_jets`] is for grids. Refinement
+//! Evaluation finds its span in constant time; [`BsplineSurface::grid_jets`] is for grids. Refinement
 //! keeps shapes to rounding (1e-13 of their size in the tests), integrals are exact to rounding.
 
 mod basis;
@@ -19,6 +19,7 @@ mod knots;
 mod least_squares;
 mod parametrize;
 mod periodic;
+mod powers;
 mod refine;
 mod surface;
 mod table;

@@ -2,6 +2,7 @@
 
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, SplineError};
+use super::powers::Powers;
 
 /// S(u, v) = sum_ij P_ij N_i(u) M_j(v), D coordinates; P_ij is stored at `i * columns + j`.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +10,7 @@ pub struct BsplineSurface<const D: usize> {
     u: KnotVector,
     v: KnotVector,
     points: Vec<[f64; D]>,
+    powers: Powers<D>,
 }
 
 impl<const D: usize> BsplineSurface<D> {
@@ -30,7 +32,7 @@ impl<const D: usize> BsplineSurface<D> {
     /// A surface whose parts are known to fit; used inside the kernel only.
     pub(super) fn from_parts(u: KnotVector, v: KnotVector, points: Vec<[f64; D]>) -> Self {
         debug_assert_eq!(points.len(), u.basis_count() * v.basis_count());
-        Self { u, v, points }
+        Self { u, v, points, powers: Powers::default() }
     }
 
     /// The same surface with the parameters exchanged: (u, v) -> S(v, u).
@@ -57,6 +59,12 @@ impl<const D: usize> BsplineSurface<D> {
     #[must_use]
     pub fn points(&self) -> &[[f64; D]] {
         &self.points
+    }
+
+    /// The polynomials of a bicubic surface.
+    #[inline(always)]
+    pub(super) fn powers(&self) -> &Powers<D> {
+        &self.powers
     }
 
     /// Numbers of control points in u and in v.

@@ -6,17 +6,35 @@ use super::basis::basis_orders;
 /// Breakpoints that one bucket may hold for the search without branches.
 const PER_BUCKET: usize = 2;
 
-/// Coefficients of (t - t_k)^0 .. ^3 of the four cubic basis functions of a span.
-pub(super) type Cubic = [[f64; 4]; 4];
+/// A span of a cubic.
+#[derive(Debug)]
+pub(super) struct Cubic {
+    /// Where the span starts.
+    pub start: f64,
+    /// Index of the first basis function that does not vanish there.
+    pub first: usize,
+    /// Coefficients of (t - start)^0 .. ^3 of the four basis functions.
+    pub powers: [[f64; 4]; 4],
+}
+
+/// A bucket of the search for spans.
+#[derive(Debug, Clone, Copy)]
+struct Bucket {
+    /// Number of starts in the buckets before.
+    before: usize,
+    /// The next `PER_BUCKET` starts, infinite behind the last one.
+    near: [f64; PER_BUCKET],
+}
 
 /// The spans of positive length of a knot vector.
 #[derive(Debug)]
 pub(super) struct SpanTable {
     origin: f64,
+    end: f64,
     scale: f64,
-    /// Number of starts in the buckets before bucket `b`; one entry more than there are buckets.
-    before: Vec<u32>,
-    /// Starts of the spans, the end of the domain, then `PER_BUCKET` infinities.
+    /// One entry more than there are buckets.
+    buckets: Vec<Bucket>,
+    /// Starts of the spans and the end of the domain.
     starts: Vec<f64>,
     /// Index of the knot at which each span starts, for the whole knot vector.
     knot_index: Vec<u32>,
@@ -35,7 +53,7 @@ impl SpanTable {
         let mut spans: Vec<usize> = (degree..last).filter(|&k| knots[k] < knots[k + 1]).collect();
         let (origin, end) = (knots[0], knots[knots.len() - 1]);
         // The end of the domain counts as a span of its own, with the functions of the last one.
-        let mut starts: Vec<f64> = spans.iter().map(|&k| knots[k]).chain([end]).collect();
+        let starts: Vec<f64> = spans.iter().map(|&k| knots[k]).chain([end]).collect();
         spans.extend(spans.last().copied());
         let per_span = degree * (degree + 1) / 2;
         let mut reciprocals = Vec::with_capacity(per_span * spans.len());
@@ -67,15 +85,17 @@ impl SpanTable {
         let cubics = if degree == 3 {
             let span = |((&k, &start), reciprocals): ((&usize, &f64), &[f64])| {
                 let [value, first, second, third] = basis_orders::<4, 4>(&knots[k - 2..], reciprocals, start);
-                [value, first, second.map(|c| c / 2.0), third.map(|c| c / 6.0)]
+                let powers = [value, first, second.map(|c| c / 2.0), third.map(|c| c / 6.0)];
+                Cubic { start, first: k - 3, powers }
             };
             spans.iter().zip(&starts).zip(reciprocals.chunks_exact(per_span)).map(span).collect()
         } else {
             Vec::new()
         };
-        starts.extend([f64::INFINITY; PER_BUCKET]);
+        let near = |low: usize| std::array::from_fn(|k| starts.get(low + k).copied().unwrap_or(f64::INFINITY));
+        let buckets = before.iter().map(|&low| Bucket { before: low as usize, near: near(low as usize) }).collect();
         let knot_index = spans.iter().map(|&k| k as u32).collect();
-        Self { origin, scale, before, starts, knot_index, reciprocals, per_span, cubics, crowded }
+        Self { origin, end, scale, buckets, starts, knot_index, reciprocals, per_span, cubics, crowded }
     }
 
     /// Number of spans of positive length.
@@ -88,33 +108,38 @@ impl SpanTable {
     #[inline(always)]
     pub(super) fn locate(&self, t: f64) -> usize {
         // Rounding is monotone: a start in an earlier bucket is below t, a start in a later one above it.
-        let b = bucket(t, self.origin, self.scale, self.before.len() - 1);
-        let low = self.before[b] as usize;
+        let b = bucket(t, self.origin, self.scale, self.buckets.len() - 1);
         let count = if self.crowded {
             self.search(b, t)
         } else {
-            let near = &self.starts[low..low + PER_BUCKET];
-            low + usize::from(near[0] <= t) + usize::from(near[1] <= t)
+            let Bucket { before, near } = self.buckets[b];
+            before + usize::from(near[0] <= t) + usize::from(near[1] <= t)
         };
         count.max(1) - 1
     }
 
     #[cold]
     fn search(&self, b: usize, t: f64) -> usize {
-        let (low, high) = (self.before[b] as usize, self.before[b + 1] as usize);
+        let (low, high) = (self.buckets[b].before, self.buckets[b + 1].before);
         low + self.starts[low..high].partition_point(|&start| start <= t)
     }
 
-    /// Where span `number` starts.
+    /// `t` taken to the nearest end of the domain; NaN stays NaN.
     #[inline(always)]
-    pub(super) fn start(&self, number: usize) -> f64 {
-        self.starts[number]
+    pub(super) fn clamp(&self, t: f64) -> f64 {
+        if t < self.origin {
+            self.origin
+        } else if t > self.end {
+            self.end
+        } else {
+            t
+        }
     }
 
-    /// The polynomials of span `number` of a cubic.
+    /// The spans of a cubic, the end of the domain included; empty for other degrees.
     #[inline(always)]
-    pub(super) fn cubic(&self, number: usize) -> &Cubic {
-        &self.cubics[number]
+    pub(super) fn cubics(&self) -> &[Cubic] {
+        &self.cubics
     }
 
     /// Index of the knot at which span `number` starts.

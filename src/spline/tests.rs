@@ -5,7 +5,11 @@ use proptest::prelude::*;
 
 /// Clamped knots of degree 1 to `highest`, with uneven spans and multiplicities up to the degree.
 pub(super) fn knots(highest: usize) -> impl Strategy<Value = KnotVector> {
-    (1..=highest.min(MAX_DEGREE), prop::collection::vec((0.05f64..1.0, 1usize..=7), 1..6), -3.0f64..3.0).prop_map(
+    knots_of(1..=highest.min(MAX_DEGREE))
+}
+
+fn knots_of(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = KnotVector> {
+    (degrees, prop::collection::vec((0.05f64..1.0, 1usize..=7), 1..6), -3.0f64..3.0).prop_map(
         |(degree, spans, start)| {
             let mut breaks = vec![start];
             for (length, _) in &spans {
@@ -28,7 +32,19 @@ pub(super) fn curve<const D: usize>(highest: usize) -> impl Strategy<Value = Bsp
 
 /// Surfaces with coordinates between -1 and 1.
 pub(super) fn surface<const D: usize>(highest: usize) -> impl Strategy<Value = BsplineSurface<D>> {
-    (knots(highest), knots(highest)).prop_flat_map(|(u, v)| {
+    net(knots(highest), knots(highest))
+}
+
+/// Bicubic surfaces with coordinates between -1 and 1.
+pub(super) fn bicubic<const D: usize>() -> impl Strategy<Value = BsplineSurface<D>> {
+    net(knots_of(3..=3), knots_of(3..=3))
+}
+
+fn net<const D: usize>(
+    u: impl Strategy<Value = KnotVector>,
+    v: impl Strategy<Value = KnotVector>,
+) -> impl Strategy<Value = BsplineSurface<D>> {
+    (u, v).prop_flat_map(|(u, v)| {
         let count = u.basis_count() * v.basis_count();
         prop::collection::vec(prop::array::uniform::<_, D>(-1.0f64..1.0), count)
             .prop_map(move |points| BsplineSurface::new(u.clone(), v.clone(), points).unwrap())

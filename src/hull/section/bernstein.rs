@@ -124,8 +124,16 @@ pub(super) fn minus(value: f64) -> bool {
     value < 0.0
 }
 
-/// Value and derivative at `t` of the polynomial with Bernstein coefficients `c` on [0, 1].
+/// Value and derivative at `t` of the polynomial with Bernstein coefficients `c` on [0, 1]: the scheme of de Casteljau down
+/// to two numbers.
+#[inline]
 pub(super) fn value_and_slope(c: &[f64], t: f64) -> (f64, f64) {
+    // The usual degree without loops.
+    if let &[c0, c1, c2, c3] = c {
+        let (a, b, d) = (c0 + t * (c1 - c0), c1 + t * (c2 - c1), c2 + t * (c3 - c2));
+        let (a, b) = (a + t * (b - a), b + t * (d - b));
+        return (a + t * (b - a), 3.0 * (b - a));
+    }
     let p = c.len() - 1;
     let mut work = [0.0; ORDER];
     work[..=p].copy_from_slice(c);

@@ -8,7 +8,7 @@
 use super::bernstein::{Arc, curve_sign_changes, join};
 use crate::spline::{BsplineCurve, KnotVector};
 
-/// The curves in which the plane cuts the face that an edge of the surface closes; breadths below `least` [m] are none.
+/// The curves in which the plane cuts the face that an edge of the surface closes; breadths below `least` \[m\] are none.
 pub(super) fn cut_face(edge: &BsplineCurve<3>, normal: [f64; 3], offset: f64, least: f64) -> Vec<BsplineCurve<3>> {
     if edge.points().iter().all(|p| p[1].abs() <= least) {
         return Vec::new();

@@ -40,7 +40,7 @@ impl Spans {
     }
 }
 
-/// f(u, v) = n . S(u, v) - d over the whole surface; n is of unit length, so that f is a distance [m]. Coefficients on the
+/// f(u, v) = n . S(u, v) - d over the whole surface; n is of unit length, so that f is a distance \[m\]. Coefficients on the
 /// edge of two patches are one number.
 pub(super) struct Field {
     pub u: Spans,

@@ -1,8 +1,9 @@
 //! From numbers to the hull: the search over what was left free, the net, and what to say when there is no hull.
 
-use super::form::{Form, HeightNode, Law, Stem, Stern};
+use super::book::Sourced;
+use super::form::{Form, Law, Stem, Stern};
 use super::net::{self, Exact};
-use super::resolve::{Resolved, Sourced};
+use super::resolve::Resolved;
 use super::solve::{self, Goal};
 use crate::hull::PrincipalParticulars;
 use crate::numeric::bracketed_root;
@@ -37,10 +38,17 @@ impl Resolved {
             fore_shoulder,
             entrance: law,
             run: law,
+            softness: 0.0,
         }
     }
 
-    fn goal(&self, waterplane: f64, lcb: f64) -> Goal {
+    /// Whether run and entrance have a length on the keel.
+    fn has_ends(form: &Form) -> bool {
+        let least = 0.02 * form.length;
+        form.stern.cut_up + least <= form.aft_shoulder && form.fore_shoulder + least <= form.stem.at(0.0)
+    }
+
+    pub(super) fn goal(&self, waterplane: f64, lcb: f64) -> Goal {
         Goal {
             volume: self.block.value * self.length * self.breadth * self.draught,
             lcb,
@@ -81,7 +89,7 @@ impl Resolved {
     }
 
     /// Waterplane coefficients to try, the usual one first.
-    fn waterplanes(&self) -> Vec<f64> {
+    pub(super) fn waterplanes(&self) -> Vec<f64> {
         let usual = self.waterplane.value;
         if self.waterplane.origin == Origin::Given {
             return vec![usual];
@@ -108,7 +116,7 @@ impl Resolved {
                     break;
                 }
                 let form = self.form(body, rise);
-                if form.stern.cut_up >= 0.98 * body.0 {
+                if !Self::has_ends(&form) {
                     continue;
                 }
                 let nodes = form.height_nodes();
@@ -143,7 +151,7 @@ impl Resolved {
     /// An LCB of our own choice gives way: into the range that the usual body can have.
     fn search_lcb(&self, body: (f64, f64)) -> Option<(f64, Form, Sourced, Sourced)> {
         let form = self.form(body, 1.0);
-        if form.stern.cut_up >= 0.98 * body.0 {
+        if !Self::has_ends(&form) {
             return None;
         }
         let nodes = form.height_nodes();
@@ -212,13 +220,34 @@ impl Resolved {
                 .or_else(|| solve::solve(&form, &nodes, goal, true).map(|found| found.form))
             {
                 Some(found) => found,
-                None => return Err(self.infeasible(&form, &nodes, goal)),
+                None => return Err(self.infeasible(&form, goal)),
             };
             if change < 1e-11 {
                 break;
             }
         }
         Ok(form)
+    }
+
+    /// Gives the ends the soft section, and solves again for what that leaves to do; where the fullness has no room for it,
+    /// the form stays as it is.
+    fn soften(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
+        let mut soft = form;
+        soft.soften(self.midship.value);
+        if soft.softness <= 0.0 {
+            return Ok(form);
+        }
+        for _ in 0..6 {
+            let nodes = soft.height_nodes();
+            let (volume, moment) = soft.softening(&nodes);
+            let left = goal.volume - volume;
+            let goal = Goal { volume: left, lcb: (goal.volume * goal.lcb - moment) / left, ..*goal };
+            match solve::at_entrance(&soft, &nodes, &goal, soft.entrance.waterline) {
+                Some(found) => soft = self.fit_transom(found, &goal)?,
+                None => return Ok(form),
+            }
+        }
+        Ok(soft)
     }
 
     /// The flare above the waterline at 0.9 Lpp.
@@ -250,108 +279,32 @@ impl Resolved {
         }
     }
 
-    /// Which wish cannot be had, with the intervals that can.
-    fn infeasible(&self, form: &Form, nodes: &[HeightNode], goal: &Goal) -> Vec<Infeasible> {
-        let (l, lb) = (self.length, self.length * self.breadth);
-        let reach = solve::reach(form, nodes, goal);
-        let (wl, wh) = (reach.waterplane.0 / lb, reach.waterplane.1 / lb);
-        let cwp = goal.waterplane / lb;
-        let box_volume = lb * self.draught;
-        let body = (form.fore_shoulder - form.aft_shoulder) / l;
-        let (code, keys, message) = if cwp < wl || cwp > wh {
-            (
-                "E107",
-                vec!["Cwp", "parallel_body"],
-                format!(
-                    "Cwp {cwp:.4} is out of reach: {wl:.4} to {wh:.4} with a parallel body of {:.1} % of Lpp and these profiles",
-                    100.0 * body
-                ),
-            )
-        } else if goal.volume < reach.volume.0 || goal.volume > reach.volume.1 {
-            let (low, high) = (reach.volume.0 / box_volume, reach.volume.1 / box_volume);
-            let hint = if goal.volume > reach.volume.1 {
-                "raise Cwp or lengthen the parallel body"
-            } else {
-                "lower Cwp, shorten the parallel body or cut the ends away"
-            };
-            (
-                "E108",
-                vec!["Cb", "Cwp", "Cm"],
-                format!(
-                    "Cb {:.4} is out of reach: {low:.4} to {high:.4} with Cm {:.4}, Cwp {cwp:.4} and a parallel body of {:.1} % of Lpp; {hint}",
-                    self.block.value,
-                    self.midship.value,
-                    100.0 * body
-                ),
-            )
-        } else {
-            match reach.lcb {
-                Some((low, high)) if goal.lcb < low || goal.lcb > high => {
-                    let percent = |x: f64| 100.0 * (x / l - 0.5);
-                    let hint = if goal.lcb > high {
-                        "move the parallel body forward or lower Cwp"
-                    } else {
-                        "move the parallel body aft or lower Cwp"
-                    };
-                    (
-                        "E104",
-                        vec!["LCB"],
-                        format!(
-                            "LCB {:+.2} % of Lpp from midship is out of reach: {:+.2} to {:+.2} % with Cb {:.4}, Cwp {cwp:.4} and a parallel body of {:.1} % of Lpp; {hint}",
-                            percent(goal.lcb),
-                            percent(low),
-                            percent(high),
-                            self.block.value,
-                            100.0 * body
-                        ),
-                    )
-                }
-                _ if self.half_entrance.is_finite() => (
-                    "E114",
-                    vec!["entrance_half_angle_max"],
-                    format!(
-                        "no entrance below {:.1} deg reaches Cb {:.4}, LCB and Cwp {cwp:.4} together; allow a larger angle or lengthen the entrance",
-                        self.half_entrance.to_degrees(),
-                        self.block.value
-                    ),
-                ),
-                _ => (
-                    "E108",
-                    vec!["Cb", "Cwp", "LCB"],
-                    format!(
-                        "Cb {:.4}, Cwp {cwp:.4} and LCB {:+.2} % cannot be had together; leave Cwp or LCB free",
-                        self.block.value,
-                        100.0 * (goal.lcb / l - 0.5)
-                    ),
-                ),
-            }
-        };
-        vec![Infeasible { code, keys, message }]
-    }
-
     /// The hull.
     ///
     /// # Errors
     /// The wish that cannot be had, with the intervals that can.
     pub(super) fn build(mut self, name: &str) -> Result<Generated, Vec<Infeasible>> {
         let Some((form, waterplane, lcb)) = self.search() else {
-            let body = self.bodies()[0];
-            let form = self.form(body, 1.0);
-            if form.stern.cut_up >= 0.98 * body.0 {
+            let bodies = self.bodies();
+            let forms = bodies.iter().map(|&body| self.form(body, 1.0));
+            let Some(form) = forms.clone().find(Self::has_ends) else {
+                let form = self.form(bodies[0], 1.0);
                 return Err(vec![Infeasible {
                     code: "E109",
-                    keys: vec!["cut_up", "parallel_body"],
+                    keys: vec!["cut_up", "parallel_body", "run_length", "entrance_length", "forefoot"],
                     message: format!(
-                        "the keel rises from {:.3} m, at or forward of the aft shoulder at {:.3} m; move one of them",
-                        form.stern.cut_up, body.0
+                        "the keel runs from the cut-up at {:.3} m to the forefoot at {:.3} m and must reach beyond the parallel body, {:.3} to {:.3} m, by 2 % of Lpp at each end; move one of them",
+                        form.stern.cut_up,
+                        form.stem.at(0.0),
+                        form.aft_shoulder,
+                        form.fore_shoulder
                     ),
                 }]);
-            }
-            let nodes = form.height_nodes();
-            return Err(self.infeasible(&form, &nodes, &self.goal(self.waterplane.value, self.lcb.value)));
+            };
+            return Err(self.infeasible(&form, &self.goal(self.waterplane.value, self.lcb.value)));
         };
         let goal = self.goal(waterplane.value, lcb.value);
-        let form = self.fit_flare(self.fit_transom(form, &goal)?)?;
+        let form = self.fit_flare(self.soften(self.fit_transom(form, &goal)?, &goal)?)?;
 
         let (l, b, t) = (self.length, self.breadth, self.draught);
         let particulars =
@@ -374,6 +327,9 @@ impl Resolved {
                 }]
             })?;
 
+        if let Some(problem) = self.misshapen(&hull, &form) {
+            return Err(vec![problem]);
+        }
         let [cb, cm, xcb, cwp] = achieved(&hull);
         let cx = crate::hull::Functional::SectionArea { x: station }.value(&hull, t) / (b * t);
         let section = if at_midship { ("CM", cm) } else { ("CX", cx) };

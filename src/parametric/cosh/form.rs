@@ -105,11 +105,15 @@ pub(super) struct Form {
     pub(super) fore_shoulder: f64,
     pub(super) entrance: Law,
     pub(super) run: Law,
+    /// Exponent m of the soft section of the ends, 0 for none.
+    pub(super) softness: f64,
 }
 
 /// One waterline: the blended kernels of both ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Waterline {
+    breadth: f64,
+    soft: f64,
     aft_shoulder: f64,
     fore_shoulder: f64,
     stem: f64,
@@ -157,8 +161,28 @@ impl Blend {
 }
 
 impl Waterline {
-    /// y / b at `x`.
-    pub(super) fn fraction(&self, x: f64) -> f64 {
+    /// Half-breadth at `x`: f (b f + s (1 - f)), which increases with f, b and s while s <= 2 b.
+    pub(super) fn half_breadth(&self, x: f64) -> f64 {
+        let f = self.fraction(x);
+        f * (self.breadth + (self.soft - self.breadth) * (1.0 - f))
+    }
+
+    /// Area and first moment about x = 0 of (s - b) f (1 - f), what the soft section adds.
+    fn softening(&self) -> (f64, f64) {
+        let (mut area, mut moment) = (0.0, 0.0);
+        for (from, to) in [(self.stern, self.aft_shoulder), (self.fore_shoulder, self.stem)] {
+            for (x, weight) in gauss_legendre(12).on(from, to) {
+                let f = self.fraction(x);
+                let y = weight * (self.soft - self.breadth) * f * (1.0 - f);
+                area += y;
+                moment += y * x;
+            }
+        }
+        (area, moment)
+    }
+
+    /// f at `x`.
+    fn fraction(&self, x: f64) -> f64 {
         if x > self.fore_shoulder {
             self.entrance.value((x - self.fore_shoulder) / (self.stem - self.fore_shoulder))
         } else if x < self.aft_shoulder {
@@ -196,10 +220,11 @@ pub(super) struct Integrals {
     pub(super) waterplane_moment: f64,
 }
 
-/// A node of the quadrature over height: z, weight times b.
+/// A node of the quadrature over height: z, weight of dz, the same times b.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HeightNode {
     z: f64,
+    rise: f64,
     weight: f64,
 }
 
@@ -221,7 +246,10 @@ impl Form {
             entrance.part = aft / (fore + aft);
             run.part = fore / (fore + aft);
         }
+        let breadth = self.section.breadth_at(z);
         Waterline {
+            breadth,
+            soft: self.soft_breadth(z, breadth),
             aft_shoulder: self.aft_shoulder,
             fore_shoulder: self.fore_shoulder,
             stem,
@@ -230,6 +258,47 @@ impl Form {
             entrance,
             run,
         }
+    }
+
+    /// The soft section s(z) = k + (B/2 - k) (1 - (1 - z/T)^m), of the area of the midship section, without its tangent lines.
+    fn soft_breadth(&self, z: f64, breadth: f64) -> f64 {
+        if self.softness <= 0.0 || z >= self.draught {
+            return breadth;
+        }
+        let keel = self.section.keel;
+        keel + (self.section.half_breadth - keel) * (1.0 - (1.0 - z / self.draught).powf(self.softness))
+    }
+
+    /// The exponent of the soft section for a midship section of coefficient `coefficient`; 0 where the floor is flat (the
+    /// bilge then is what the ends have too) or where the section would not stay below twice the midship section.
+    pub(super) fn soften(&mut self, coefficient: f64) {
+        let (half, keel) = (self.section.half_breadth, self.section.keel);
+        let part = (coefficient * half - keel) / (half - keel);
+        let exponent = part / (1.0 - part);
+        if self.section.deadrise <= 0.0 || exponent < 2.5 {
+            return;
+        }
+        self.softness = exponent;
+        let holds = (1..200).all(|k| {
+            let z = self.draught * f64::from(k) / 200.0;
+            let breadth = self.section.breadth_at(z);
+            self.soft_breadth(z, breadth) <= 2.0 * breadth
+        });
+        if !holds {
+            self.softness = 0.0;
+        }
+    }
+
+    /// Volume and first moment below the design waterline that the soft section adds to [`Form::integrals`], both sides. (It
+    /// adds nothing at the design waterline.)
+    pub(super) fn softening(&self, nodes: &[HeightNode]) -> (f64, f64) {
+        let (mut volume, mut moment) = (0.0, 0.0);
+        for node in nodes {
+            let (area, first) = self.waterline(node.z).softening();
+            volume += 2.0 * node.rise * area;
+            moment += 2.0 * node.rise * first;
+        }
+        (volume, moment)
     }
 
     /// Nodes of a quadrature over the height from keel to design waterline, split where the section or the stern has a
@@ -254,7 +323,7 @@ impl Form {
                 } else {
                     1.0
                 };
-                nodes.push(HeightNode { z, weight: weight * slope * y });
+                nodes.push(HeightNode { z, rise: weight * slope, weight: weight * slope * y });
             }
         }
         nodes
@@ -280,6 +349,6 @@ impl Form {
 
     /// Half-breadth \[m\].
     pub(super) fn half_breadth(&self, x: f64, z: f64) -> f64 {
-        self.section.breadth_at(z) * self.waterline(z).fraction(x)
+        self.waterline(z).half_breadth(x)
     }
 }

@@ -9,9 +9,11 @@
 //! The four numbers of fullness are solved for displacement, LCB and waterplane area; the net interpolates that form and a
 //! last linear correction makes the coefficients of the B-spline hull exact (errors below 1e-12, see the tests).
 
+mod book;
 mod build;
 mod form;
 mod net;
+mod refuse;
 mod resolve;
 mod solve;
 

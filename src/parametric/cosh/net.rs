@@ -3,8 +3,8 @@
 //! v runs along the girth of the midship section (floor, bilge, side), so that y is smooth in v where dy/dz is infinite; the
 //! tangent lines of the bilge are double knots, the height of the transom tip is a triple one (corner of the stern profile),
 //! the design waterline a simple one. x(u, v) = linear + (stern profile) (1 - u/ua)^3 + (stem profile) ((u - uf)/(1 - uf))^3,
-//! cut off at the shoulders ua and uf: it lies in the spline space, has simple knots only and x_u > 0. Along the parallel
-//! body the columns of the net are those of the midship section exactly.
+//! cut off at the shoulders ua and uf: it lies in the spline space, is C2 and x_u > 0. Along the parallel body the columns of
+//! the net are those of the midship section exactly; without one, a double knot holds value and slope at the largest section.
 
 use super::form::Form;
 use crate::hull::{Functional, Hull, HullError, PrincipalParticulars};
@@ -62,8 +62,13 @@ fn girth_knots(form: &Form, top: f64) -> Result<KnotVector, SplineError> {
     let section = &form.section;
     let (floor, bilge) = section.girths();
     let total = section.girth_at(top);
-    let mut lines: Vec<(f64, usize)> =
-        vec![(0.0, 4), (floor, 2), (floor + bilge, 2), (section.girth_at(form.draught), 1), (total, 4)];
+    let mut lines: Vec<(f64, usize)> = vec![(0.0, 4), (section.girth_at(form.draught), 1), (total, 4)];
+    if bilge < 1e-6 * total {
+        // A hard chine.
+        lines.push((floor, 3));
+    } else {
+        lines.extend([(floor, 2), (floor + bilge, 2)]);
+    }
     if form.stern.transom && form.stern.height < top {
         lines.push((section.girth_at(form.stern.height), 3));
     }
@@ -193,7 +198,11 @@ pub(super) fn interpolate(
         breaks.extend((1..=BODY_SPANS).map(|k| ua + (uf - ua) * k as f64 / BODY_SPANS as f64));
     }
     breaks.extend((1..=END_SPANS).map(|k| if k == END_SPANS { 1.0 } else { uf + (1.0 - uf) * graded(k) }));
-    let u = KnotVector::from_breakpoints(3, &breaks, &vec![1; breaks.len() - 2])?;
+    let mut times = vec![1; breaks.len() - 2];
+    if !parallel {
+        times[END_SPANS - 1] = 2;
+    }
+    let u = KnotVector::from_breakpoints(3, &breaks, &times)?;
     let cube = |t: f64| t.max(0.0).powi(3);
     let run = |t: f64| cube(1.0 - t / ua);
     let entrance = |t: f64| cube((t - uf) / (1.0 - uf));
@@ -204,6 +213,11 @@ pub(super) fn interpolate(
         for order in 0..3 {
             conditions[END_SPANS + order] = Condition { site: ua, order };
             conditions[END_SPANS + BODY_SPANS + order] = Condition { site: uf, order };
+        }
+    } else {
+        // Value and slope at the largest section, where the curvatures of both ends agree by the choice of the kernels.
+        for order in 0..2 {
+            conditions[END_SPANS + 1 + order] = Condition { site: ua, order };
         }
     }
     let along = Collocation::with_conditions(&u, &conditions)?;
@@ -228,15 +242,15 @@ pub(super) fn interpolate(
     let mut y = vec![0.0; rows * columns];
     for (j, level) in levels.iter().enumerate() {
         let waterlines = level.girths.map(|g| {
-            let (breadth, z) = form.section.at_girth(g);
-            (breadth, form.stern.at(z) - aft, form.stem.at(z) - fore, form.waterline(z))
+            let (_, z) = form.section.at_girth(g);
+            (form.stern.at(z) - aft, form.stem.at(z) - fore, form.waterline(z))
         });
         for (i, condition) in conditions.iter().enumerate() {
             let t = condition.site;
             let at = |k: usize| {
-                let (breadth, stern, stem, waterline) = &waterlines[k];
+                let (stern, stem, waterline) = &waterlines[k];
                 let x = aft + (fore - aft) * t + stern * run(t) + stem * entrance(t);
-                breadth * waterline.fraction(x)
+                waterline.half_breadth(x)
             };
             y[i * columns + j] = if condition.order > 0 { 0.0 } else { level.combine(at) };
         }
