@@ -314,18 +314,26 @@ fn exit_codes_tell_what_went_wrong() {
     assert!(bad.stdout.is_empty());
     let latin = generate(&write("latin.toml", b"a = 1\n# \xe9\n"));
     assert!(
-        latin.status.code() == Some(3) && stderr(&latin).contains("latin.toml:2 byte 8 is not UTF-8"),
+        latin.status.code() == Some(3)
+            && stderr(&latin).starts_with("E129 ")
+            && stderr(&latin).contains("latin.toml:2 byte 8 is not UTF-8"),
         "{}",
         stderr(&latin)
     );
     let record = generate(&write("ship.hgf", b"Name,LOA,BOA,D,HullData\nx,1,y,3,1 2\n"));
     assert_eq!(record.status.code(), Some(3));
+    assert!(stderr(&record).lines().all(|line| line.starts_with("E130 ")), "{}", stderr(&record));
     assert!(stderr(&record).contains("ship.hgf:2 BOA: 'y' is not a number"), "{}", stderr(&record));
     assert!(stderr(&record).contains("ship.hgf:2 HullData: 2 numbers"), "{}", stderr(&record));
     let hull = program(&["hydro", &write("hull.json", b"{\"format\": 1}"), "--draughts", "1"]);
-    assert!(hull.status.code() == Some(3) && stderr(&hull).contains("hull.json:1:"), "{}", stderr(&hull));
+    assert!(
+        hull.status.code() == Some(3) && stderr(&hull).starts_with("E140 ") && stderr(&hull).contains("hull.json:1:"),
+        "{}",
+        stderr(&hull)
+    );
     let newer =
         program(&["hydro", &write("h.json", b"{\"format\":\"loftsman-hull\",\"version\":9}"), "--draughts", "1"]);
+    assert!(stderr(&newer).starts_with("E141 "), "{}", stderr(&newer));
     assert!(stderr(&newer).contains("version 9 is newer than this program"), "{}", stderr(&newer));
 
     let tall = write("tall.toml", b"[project]\nfamily = \"box\"\n[dimensions]\nLpp = 80\nB = 10\nT = 8.2\nD = 7.9\n");
@@ -337,7 +345,12 @@ fn exit_codes_tell_what_went_wrong() {
         stderr(&infeasible)
     );
 
-    assert_eq!(generate(&path.join("absent.toml").display().to_string()).status.code(), Some(6));
+    let absent = generate(&path.join("absent.toml").display().to_string());
+    assert!(absent.status.code() == Some(6) && stderr(&absent).starts_with("E602 cannot read "), "{}", stderr(&absent));
+    let both = write("both.toml", b"[dimensions]\nLpp = 80\nB = 10\nT = 8.2\nD = 7.9\n[output]\nfigures = 3\n");
+    let both = generate(&both);
+    assert_eq!(both.status.code(), Some(3));
+    assert!(stderr(&both).contains("E105 ") && stderr(&both).contains("E122 "), "{}", stderr(&both));
     fs::write(path.join("file"), "").unwrap();
     let inside = path.join("file/out").display().to_string();
     assert_eq!(program(&["generate", &config("box.toml"), "-o", &inside, "--no-figures"]).status.code(), Some(6));

@@ -102,6 +102,27 @@ fn what_the_family_refuses_stands_beside_the_other_problems() {
 }
 
 #[test]
+fn remarks_of_a_design_that_can_be_built() {
+    let remarks = |text: &str| {
+        let generated = read("hull.toml", text).unwrap().family.generate("ship").unwrap_or_else(|e| panic!("{e:#?}"));
+        generated.remarks.into_iter().map(|remark| (remark.code, remark.key)).collect::<Vec<_>>()
+    };
+    let cargo =
+        "project.preset = \"general-cargo\"\ndimensions = { Lpp = 80, B = 13.2, T = 5.2, D = 7 }\nform.Cb = 0.72\n";
+    assert_eq!(remarks(cargo), []);
+    assert_eq!(remarks(&cargo.replace("13.2", "15.5")), [("W202", "B")]);
+    assert!(remarks(&format!("{cargo}form.parallel_body = [0.52, 0.6]\n")).contains(&("W203", "Cm")));
+}
+
+#[test]
+fn published_tables() {
+    let table = |text: &str| with(&format!("reference.table = \"{text}\""));
+    says(&table("T,DISPVOLL\\n1,2"), "E150 hull.toml:2:19 the table has an unknown column `DISPVOLL`");
+    says(&table("KB\\n1"), "E150 hull.toml:2:19 the table has no column T");
+    says(&table("T,KB\\n1"), "E150 hull.toml:2:19 line 2 of the table is `1`");
+}
+
+#[test]
 fn types() {
     says(&with("project.name = 3"), "E122 hull.toml:2:16 project.name is 3, expected a text in quotes");
     says(&with("form.Cb = true"), "E122 hull.toml:2:11 form.Cb is a boolean, expected a number");

@@ -64,3 +64,15 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_of_the_program_says_so() {
+        let failure = Failure::Internal("no plane".to_owned());
+        assert_eq!(failure.exit_code(), 1);
+        assert_eq!(failure.to_string(), "E901 no plane. This is a fault of the program; please report it");
+    }
+}

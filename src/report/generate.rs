@@ -73,8 +73,13 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     let particulars = *hull.particulars();
     let draughts =
         design.output.draughts.clone().unwrap_or_else(|| default_draughts(particulars.draught, particulars.depth));
-    let table = CurvesOfForm::new(&hull, &draughts, &design.conventions);
-    let design_row = CurvesOfForm::new(&hull, &[particulars.draught], &design.conventions).rows.swap_remove(0);
+    // All draughts in one pass over the surface: those of the table, the design draught, those of the reference.
+    let mut all = draughts.clone();
+    all.push(particulars.draught);
+    all.extend(design.reference.iter().flat_map(|reference| reference.rows.iter().map(|row| row.draught)));
+    let mut table = CurvesOfForm::new(&hull, &all, &design.conventions);
+    let reference_rows = table.rows.split_off(draughts.len() + 1);
+    let design_row = table.rows.split_off(draughts.len()).swap_remove(0);
     let waterlines = design
         .output
         .waterlines
@@ -142,13 +147,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };
     let references: Vec<_> = design.reference.iter().cloned().collect();
-    let rows: Vec<CurvesOfForm> = references
-        .iter()
-        .map(|reference| {
-            let draughts: Vec<f64> = reference.rows.iter().map(|row| row.draught).collect();
-            CurvesOfForm::new(&outputs.hull, &draughts, &design.conventions)
-        })
-        .collect();
+    let rows = [CurvesOfForm { conventions: design.conventions, rows: reference_rows }];
     outputs.files.push(OutputFile::text("report.md", markdown_page(&outputs, &references, &rows)));
     outputs.files.sort_by(|a, b| a.name.cmp(&b.name));
     let name = input.0.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

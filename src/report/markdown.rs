@@ -56,7 +56,11 @@ fn write_page(
     writeln!(page, "| | | value | unit |\n|---|---|---|---|")?;
     let conventions = &outputs.table.conventions;
     let (centre, unit_of_centre) = (lcb(&outputs.design_row, conventions, p.lpp), conventions.lcb_reference.unit());
-    writeln!(page, "| LCB | {} | {centre} | {unit_of_centre} |", conventions.lcb_reference.statement())?;
+    writeln!(
+        page,
+        "| LCB | centre of buoyancy as printed: {} | {centre} | {unit_of_centre} |",
+        conventions.lcb_reference.statement()
+    )?;
     for quantity in QUANTITIES {
         let shown = value(&outputs.design_row, quantity.key);
         if !shown.is_empty() {
