@@ -7,11 +7,11 @@ use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, 
 use crate::hull::Hull;
 
 /// Room beside the sections for the names of waterlines [mm].
-pub(super) const SIDE_ROOM: f64 = 20.0;
+pub(super) const SIDE_ROOM: f64 = 28.5;
 /// Room above the sections for the names of stations [mm].
-pub(super) const TOP_ROOM: f64 = 14.0;
+pub(super) const TOP_ROOM: f64 = 16.0;
 /// Room below the sections for the names of buttocks [mm].
-pub(super) const BOTTOM_ROOM: f64 = 9.0;
+pub(super) const BOTTOM_ROOM: f64 = 12.0;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
 /// A section shorter than this on paper is named at the deck alone [mm].
@@ -55,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
     for text in canvas.texts() {
         placer.take(text.place);
     }
-    let mut owners = Vec::new();
+    let (mut owners, mut outlines) = (Vec::new(), Vec::new());
     for half in [Half::Aft, Half::Fore] {
         let sign = half.sign();
         let project = |points: &[[f64; 3]]| points.iter().map(|p| [sign * p[1], p[2]]).collect::<Vec<_>>();
@@ -67,10 +67,11 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
             }
         }
         let deck: Vec<_> = grid.deck.iter().filter(|p| half.has(p[0], midship)).copied().collect();
-        view.draw(canvas, project(&deck), &OUTLINE);
-        draw_flat_end(canvas, grid, view, half);
+        outlines.push(view.draw(canvas, project(&deck), &OUTLINE));
+        outlines.extend(draw_flat_end(canvas, grid, view, half));
     }
-    let first = placer.curve_count() - owners.len();
+    outlines.iter().for_each(|outline| placer.add_curve(outline));
+    name_diagonals(canvas, &mut placer, grid, view, &frame, text_size);
     for half in [Half::Aft, Half::Fore] {
         name_stations(canvas, &mut placer, grid, view, half, midship, text_size);
     }
@@ -80,24 +81,17 @@ pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &Vi
         if *length < SHORT {
             continue;
         }
-        placer.name_curve(
-            canvas,
-            first + k,
-            name,
-            &style,
-            Preference { part: 0.3, crossings: 0, beside: false },
-            &frame,
-        );
+        placer.name_curve(canvas, k, name, &style, Preference { part: 0.3, crossings: 0, beside: false }, &frame);
     }
     canvas.end_group();
 }
 
 /// The transom (aft) or a flat bow (forward): its edge and its upper edge.
-fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half) {
+fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half) -> Option<Vec<[f64; 2]>> {
     let end = &grid.ends[usize::from(half == Half::Fore)];
     let sign = half.sign();
     if !end.iter().any(|p| p[1] * view.scale > 0.1) {
-        return;
+        return None;
     }
     let mut edge: Vec<_> = end.iter().map(|p| [sign * p[1], p[2]]).collect();
     if let Some(&[_, z]) = edge.last() {
@@ -106,7 +100,37 @@ fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half)
     if let Some(&[_, z]) = edge.first() {
         edge.insert(0, [0.0, z]);
     }
-    view.draw(canvas, edge, &OUTLINE);
+    Some(view.draw(canvas, edge, &OUTLINE))
+}
+
+/// The lines in which the planes of a diagonal stand edgewise, from the centre line out, as far as the grid goes: outboard to
+/// its edge or down to its foot.
+fn diagonal_lines(grid: &LinesGrid, view: &View, frame: &Rectangle, plane: &GridPlane) -> [[[f64; 2]; 2]; 2] {
+    let (sine, cosine) = grid.diagonal_angle.sin_cos();
+    let reach = (0.5 * frame.width() / view.scale / cosine).min((plane.at - grid.height[0]) / sine);
+    [-1.0, 1.0].map(|sign| [[0.0, plane.at], [sign * reach * cosine, plane.at - reach * sine]].map(|p| view.at(p)))
+}
+
+/// Names the planes of the diagonals on their lines, clear of sections where they can be.
+fn name_diagonals(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    grid: &LinesGrid,
+    view: &View,
+    frame: &Rectangle,
+    text_size: f64,
+) {
+    let style = TextStyle::new(0.9 * text_size, Anchor::Middle).coloured(DIAGONAL_PLANE.colour);
+    let first = placer.curve_count();
+    let named = |plane| diagonal_lines(grid, view, frame, plane).map(|line| (line, plane));
+    let lines: Vec<([[f64; 2]; 2], &GridPlane)> = grid.diagonals.iter().flat_map(named).collect();
+    for (line, _) in &lines {
+        placer.add_curve(line);
+    }
+    for (k, (_, plane)) in lines.iter().enumerate() {
+        let preference = Preference { part: 0.97, crossings: 2, beside: false };
+        placer.name_curve(canvas, first + k, &plane.name, &style, preference, frame);
+    }
 }
 
 fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
@@ -124,14 +148,32 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
         let right = TextStyle { anchor: Anchor::Start, ..style };
         names.name_point(canvas, &label, &right, &[[frame.right + 1.0, y]], &room);
     }
+    // Name and distance side by side, in two rows, or the name alone, the same for all.
+    let caption = TextStyle { anchor: Anchor::Middle, ..style };
+    let widest = |text: &dyn Fn(&GridPlane) -> String| {
+        grid.buttocks
+            .iter()
+            .map(|plane| Canvas::text_place([0.0, 0.0], &text(plane), &caption).width())
+            .fold(0.0, f64::max)
+    };
+    let room_of_one = grid.buttock_spacing * view.scale - 1.2 * text_size;
+    let distance = |plane: &GridPlane| grid.buttock_label(plane).replacen(&plane.name, "", 1).trim().to_owned();
+    let (one_row, two_rows) =
+        (widest(&|plane| grid.buttock_label(plane)) < room_of_one, widest(&distance) < room_of_one);
     for plane in &grid.buttocks {
         for sign in [-1.0, 1.0] {
             let x = view.at([sign * plane.at, 0.0])[0];
             canvas.line([x, frame.top], [x, frame.bottom], &GRID);
-            let below = TextStyle { anchor: Anchor::Middle, ..style };
-            let places = [[x, frame.bottom + 2.2]];
-            if names.name_point(canvas, &grid.buttock_label(plane), &below, &places, &room).is_none() {
-                names.name_point(canvas, &plane.name, &below, &places, &room);
+            let rows = if one_row {
+                vec![grid.buttock_label(plane)]
+            } else if two_rows {
+                vec![plane.name.clone(), distance(plane)]
+            } else {
+                vec![plane.name.clone()]
+            };
+            for (row, text) in rows.iter().enumerate() {
+                let at = [x, frame.bottom + text_size * (0.95 + 1.2 * row as f64)];
+                names.name_point(canvas, text, &caption, &[at], &room);
             }
         }
     }
@@ -141,22 +183,12 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
         canvas,
         "CL",
         &TextStyle { anchor: Anchor::Middle, ..style },
-        &[[centre, frame.bottom + 2.2]],
+        &[[centre, frame.bottom + 0.95 * text_size]],
         &room,
     );
-    let (sine, cosine) = grid.diagonal_angle.sin_cos();
     for plane in &grid.diagonals {
-        // As far as the grid goes: outboard to its edge or down to its foot.
-        let reach = (0.5 * frame.width() / view.scale / cosine).min((plane.at - grid.height[0]) / sine);
-        for sign in [-1.0, 1.0] {
-            let to = [sign * reach * cosine, plane.at - reach * sine];
-            view.draw(canvas, [[0.0, plane.at], to], &DIAGONAL_PLANE);
-        }
-        let name = TextStyle { anchor: Anchor::Middle, ..style }.coloured(DIAGONAL_PLANE.colour).halo();
-        for sign in [-1.0, 1.0] {
-            let end = view.at([sign * reach * cosine, plane.at - reach * sine]);
-            let up = [end[0] - sign * 1.2 * text_size, end[1] - 0.2 * text_size];
-            names.name_point(canvas, &plane.name, &name, &[[end[0], end[1] + 0.75 * text_size], up], frame);
+        for line in diagonal_lines(grid, view, frame, plane) {
+            canvas.polyline(&line, &DIAGONAL_PLANE);
         }
     }
 }
@@ -195,10 +227,12 @@ fn name_stations(
     for (at, planes) in groups {
         let (first, last) = (planes[0], planes[planes.len() - 1]);
         let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
-        let rows: Vec<_> = (0..6).map(|row| [at[0], at[1] - (0.9 + 1.15 * f64::from(row)) * text_size]).collect();
-        if let Some(row) = placer.name_point(canvas, &name, &style, &rows, &room).filter(|&row| row > 0) {
-            // A thread from the section to a name that stands higher.
-            canvas.line(at, [at[0], rows[row][1] + 0.5 * text_size], &THREAD);
-        }
+        // From the deck up, straight over the end of the section before aside of it.
+        let aside = [0.0, 0.9, -0.9, 1.8, -1.8, 2.7, -2.7, 3.6, -3.6];
+        let places: Vec<_> = (0..8)
+            .flat_map(|row| aside.map(|dx| (row, dx)))
+            .map(|(row, dx)| [at[0] + dx * text_size, at[1] - (0.9 + 0.7 * f64::from(row)) * text_size])
+            .collect();
+        placer.name_off_curves(canvas, &name, &style, &places, &room, (at, &THREAD));
     }
 }

@@ -1,6 +1,6 @@
-//! Places for names on curves: on the curve itself, clear of other curves and of other text.
+//! Places for names on curves: on the curve itself, clear of other curves and of other text, or beside it with a leader.
 
-use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 
 /// Whether a segment passes through a rectangle.
 fn crosses(r: &Rectangle, a: [f64; 2], b: [f64; 2]) -> bool {
@@ -20,6 +20,20 @@ fn crosses(r: &Rectangle, a: [f64; 2], b: [f64; 2]) -> bool {
     enter <= leave
 }
 
+/// Whether two segments cross.
+fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
+}
+
+/// The rectangle around points.
+fn bounds(points: &[[f64; 2]]) -> Rectangle {
+    let empty = Rectangle::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    points
+        .iter()
+        .fold(empty, |r, p| Rectangle::new(r.left.min(p[0]), r.top.min(p[1]), r.right.max(p[0]), r.bottom.max(p[1])))
+}
+
 /// Where a name is wanted on its curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Preference {
@@ -35,13 +49,16 @@ pub(super) struct Preference {
 #[derive(Debug, Default)]
 pub(super) struct LabelPlacer {
     curves: Vec<Vec<[f64; 2]>>,
+    bounds: Vec<Rectangle>,
     taken: Vec<Rectangle>,
+    leaders: Vec<[[f64; 2]; 2]>,
 }
 
 impl LabelPlacer {
     /// Curves that names keep off.
     pub(super) fn add_curve(&mut self, points: &[[f64; 2]]) {
         self.curves.push(points.to_vec());
+        self.bounds.push(bounds(points).grown(1e-6));
     }
 
     /// A place that is taken.
@@ -58,7 +75,7 @@ impl LabelPlacer {
         self.curves
             .iter()
             .enumerate()
-            .filter(|(k, _)| Some(*k) != own)
+            .filter(|(k, _)| Some(*k) != own && self.bounds[*k].overlaps(place))
             .map(|(_, curve)| curve.windows(2).filter(|w| crosses(place, w[0], w[1])).count().min(3))
             .sum()
     }
@@ -87,7 +104,7 @@ impl LabelPlacer {
             let Some(on) = path.point(part) else { continue };
             let at = [on[0] + offset * aside, on[1]];
             let place = Canvas::text_place(at, name, &style).grown(0.25 * style.size);
-            if !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place)) {
+            if !window.contains(&place) || !self.is_free(&place) {
                 continue;
             }
             let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
@@ -99,6 +116,111 @@ impl LabelPlacer {
         let Some((_, at, place)) = best else { return false };
         self.take(place);
         canvas.text(at, name, &style.halo());
+        true
+    }
+
+    /// Whether neither text nor a leader stands in `place`.
+    fn is_free(&self, place: &Rectangle) -> bool {
+        !self.taken.iter().any(|taken| taken.overlaps(place))
+            && !self.leaders.iter().any(|&[a, b]| crosses(place, a, b))
+    }
+
+    /// Writes `name` off every curve and text inside `window`, with a leader of `pen` to curve number `curve`; the shortest
+    /// leader that crosses fewest curves. False when there is no place.
+    pub(super) fn name_by_leader(
+        &mut self,
+        canvas: &mut Canvas,
+        curve: usize,
+        name: &str,
+        style: &TextStyle,
+        pen: &Pen,
+        window: &Rectangle,
+    ) -> bool {
+        const PLACES: usize = 48;
+        const LENGTHS: [f64; 7] = [3.0, 5.0, 7.5, 11.0, 15.0, 20.0, 26.0];
+        /// Length of leader that is worth a curve not crossed [mm].
+        const CROSSING: f64 = 2.5;
+        let style = TextStyle { anchor: Anchor::Middle, ..*style };
+        let path = Path::new(&self.curves[curve]);
+        let width = Canvas::text_place([0.0, 0.0], name, &style).width();
+        let directions: Vec<[f64; 2]> = (0..12)
+            .map(|k| (std::f64::consts::PI * (f64::from(k) + 0.5) / 6.0).sin_cos())
+            .map(|(s, c)| [c, s])
+            .collect();
+        let mut best: Option<(f64, [[f64; 2]; 2], [f64; 2], Rectangle)> = None;
+        for k in 1..PLACES {
+            let Some(on) = path.point(k as f64 / PLACES as f64) else { continue };
+            for [dx, dy] in &directions {
+                for length in LENGTHS {
+                    let tip = [on[0] + length * dx, on[1] + length * dy];
+                    let at = [tip[0] + dx * (0.5 * width + 0.6), tip[1] + dy * 0.75 * style.size];
+                    let place = Canvas::text_place(at, name, &style).grown(0.15 * style.size);
+                    if best.as_ref().is_some_and(|(least, ..)| *least <= length)
+                        || !window.contains(&place)
+                        || !self.is_free(&place)
+                        || self.crossings(&place, None) > 0
+                    {
+                        continue;
+                    }
+                    let leader = [on, tip];
+                    if self.taken.iter().any(|taken| crosses(taken, on, tip))
+                        || self.leaders.iter().any(|&other| meet(leader, other))
+                    {
+                        continue;
+                    }
+                    let around = bounds(&leader);
+                    let crossed = (0..self.curves.len())
+                        .filter(|&k| k != curve && self.bounds[k].overlaps(&around))
+                        .filter(|&k| self.curves[k].windows(2).any(|w| meet(leader, [w[0], w[1]])))
+                        .count();
+                    let cost = length + CROSSING * crossed as f64;
+                    if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                        best = Some((cost, leader, at, place));
+                    }
+                }
+            }
+        }
+        let Some((_, [on, tip], at, place)) = best else { return false };
+        self.take(place);
+        self.leaders.push([on, tip]);
+        canvas.line(on, tip, pen);
+        canvas.fill(&Rectangle::new(on[0], on[1], on[0], on[1]).grown(0.35), style.colour);
+        canvas.text(at, name, &style);
+        true
+    }
+
+    /// Writes `name` at the first of `places` inside `window` that is off every text, leader and curve, or else at that of them
+    /// off text which meets fewest curves; with a thread of `pen` from `from` unless it is the first place. False when there is
+    /// none.
+    #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
+    pub(super) fn name_off_curves(
+        &mut self,
+        canvas: &mut Canvas,
+        name: &str,
+        style: &TextStyle,
+        places: &[[f64; 2]],
+        window: &Rectangle,
+        (from, pen): ([f64; 2], &Pen),
+    ) -> bool {
+        let foot = |at: [f64; 2]| [at[0], at[1] + 0.5 * style.size];
+        let free = places.iter().enumerate().filter_map(|(k, &at)| {
+            let place = Canvas::text_place(at, name, style).grown(0.12 * style.size);
+            let apart =
+                Rectangle { left: place.left - 0.3 * style.size, right: place.right + 0.3 * style.size, ..place };
+            let thread = [from, foot(at)];
+            let clear = k == 0
+                || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
+                    && !self.leaders.iter().any(|&other| meet(thread, other));
+            let free = window.contains(&place) && self.is_free(&apart);
+            free.then(|| ((!clear, self.crossings(&place, None), k), at, apart))
+        });
+        let Some(((.., k), at, place)) = free.min_by_key(|(order, ..)| *order) else { return false };
+        self.take(place);
+        if k > 0 {
+            canvas.line(from, foot(at), pen);
+            self.leaders.push([from, foot(at)]);
+        }
+        canvas.text(at, name, style);
         true
     }
 
@@ -136,7 +258,7 @@ impl LabelPlacer {
             let place = Canvas::text_place(at, name, style);
             if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
                 // Names side by side need more room between them than names in rows.
-                let (beside, above) = (0.35 * style.size, 0.08 * style.size);
+                let (beside, above) = (0.5 * style.size, 0.08 * style.size);
                 self.take(Rectangle::new(
                     place.left - beside,
                     place.top - above,
@@ -194,6 +316,32 @@ mod tests {
         assert!(crosses(&r, [0.5, 0.5], [0.6, 0.6]));
         assert!(!crosses(&r, [-1.0, 0.5], [0.5, -1.0]));
         assert!(!crosses(&r, [3.0, 0.0], [3.0, 1.0]));
+    }
+
+    #[test]
+    fn segments_meet_or_do_not() {
+        assert!(meet([[0.0, 0.0], [2.0, 2.0]], [[0.0, 2.0], [2.0, 0.0]]));
+        assert!(!meet([[0.0, 0.0], [2.0, 2.0]], [[3.0, 2.0], [2.1, 0.0]]));
+    }
+
+    #[test]
+    fn a_name_with_a_leader_stands_off_every_curve() {
+        let mut canvas = Canvas::new(100.0, 50.0);
+        let mut placer = LabelPlacer::default();
+        for k in 0..8 {
+            let y = 20.0 + f64::from(k);
+            placer.add_curve(&[[10.0, y], [90.0, y]]);
+        }
+        let (style, sheet) = (TextStyle::new(3.0, Anchor::Start), canvas.sheet());
+        let on = Preference { part: 0.5, crossings: 0, beside: false };
+        for curve in 0..8 {
+            assert!(!placer.name_curve(&mut canvas, curve, "WL 1", &style, on, &sheet));
+            assert!(placer.name_by_leader(&mut canvas, curve, "WL 1", &style, &Pen::new(0.1, "#000000"), &sheet));
+        }
+        for (k, text) in canvas.texts().iter().enumerate() {
+            assert_eq!(placer.crossings(&text.place, None), 0, "{text:?}");
+            assert!(canvas.texts()[..k].iter().all(|other| !other.place.overlaps(&text.place)), "{text:?}");
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::LinesGrid;
 use super::profile::LongStyle;
-use super::scale::{DRAWING_SCALES, drawing_scale};
+use super::scale::{drawing_scale, drawing_scales};
 use super::title_block::{self, Scales};
 use super::view::View;
 use super::{FigureInputs, PlotError, body_plan, profile};
@@ -17,10 +17,10 @@ const FRAME: Rectangle = Rectangle::new(8.0, 8.0, SHEET[0] - 8.0, SHEET[1] - 8.0
 const GAP: f64 = 5.0;
 /// Height of the name of a view [mm].
 const VIEW_TITLE: f64 = 6.0;
-/// Size of the text at the grid [mm].
-const TEXT: f64 = 2.3;
+/// Size of the text at the grid [mm]; its capitals are 2.2 mm high.
+const TEXT: f64 = 3.0;
 /// Narrowest column that a body plan is set in beside the long views [mm].
-const BODY_COLUMN: f64 = 132.0;
+const BODY_COLUMN: f64 = 128.0;
 /// Deviation of chords from their curves on paper [mm].
 const DEVIATION: f64 = 0.004;
 
@@ -48,12 +48,20 @@ impl Extents {
     /// Width of the long views and heights of profile and half-breadth plan at 1 : `scale` with their names [mm].
     fn long_views(&self, scale: u32, side_room: f64) -> [f64; 3] {
         let millimetres = 1000.0 / f64::from(scale);
-        let ends = 2.0 * profile::END_ROOM + VIEW_TITLE;
+        let ends = profile::TOP_ROOM + profile::END_ROOM + VIEW_TITLE;
         [
             self.length * millimetres + 2.0 * side_room,
             self.height * millimetres + ends,
             (self.half_breadth + self.diagonals) * millimetres + ends,
         ]
+    }
+
+    /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that neither
+    /// grows at the cost of the other; a tenth of it when the table does not fit.
+    fn merit(&self, layout: &Layout) -> f64 {
+        let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
+        let table = layout.table.width() >= self.table[0] && layout.table.height() >= self.table[1];
+        long * long * body * if table { 1.0 } else { 0.1 }
     }
 
     /// Height of the body plan with its names at 1 : `scale` [mm].
@@ -86,22 +94,25 @@ struct Layout {
     table: Rectangle,
 }
 
-/// The layout at the largest scale of the list that leaves the views their room, with the body plan beside or below the long
-/// views, where it is larger.
+/// The layout of most merit, of those at scales of the list that leave the views their room, with the body
+/// plan beside or below the long views.
 fn layout(extents: &Extents) -> Layout {
     let inner = FRAME.grown(-GAP);
-    let beyond = [2000, 5000, 10_000, 20_000, 50_000, 100_000];
-    let rooms = [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM];
-    let scales = [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(beyond);
-    let mut tries = scales.flat_map(|scale| rooms.map(|room| (scale, room)));
-    let fitting = tries.find_map(|(scale, side_room)| {
+    let mut best: Option<(f64, Layout)> = None;
+    for (scale, side_room) in
+        drawing_scales().flat_map(|scale| [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM].map(|room| (scale, room)))
+    {
         let views = extents.long_views(scale, side_room);
-        let choices = [beside(extents, scale, views, &inner), below(extents, scale, views, &inner)];
-        let best = choices.into_iter().flatten().min_by_key(|choice| choice.body_scale);
-        best.map(|choice| Layout { side_room, ..choice })
-    });
+        let choices = beside(extents, scale, views, &inner).into_iter().chain(below(extents, scale, views, &inner));
+        for choice in choices {
+            let merit = extents.merit(&choice);
+            if best.as_ref().is_none_or(|(most, _)| merit > *most * (1.0 + 1e-9)) {
+                best = Some((merit, Layout { side_room, ..choice }));
+            }
+        }
+    }
     let nothing = Rectangle::new(inner.left, inner.top, inner.right, inner.top);
-    fitting.unwrap_or(Layout {
+    let otherwise = Layout {
         scale: 1_000_000,
         side_room: profile::SIDE_ROOM,
         body_scale: 1_000_000,
@@ -109,7 +120,8 @@ fn layout(extents: &Extents) -> Layout {
         half_breadths: nothing,
         body: nothing,
         table: nothing,
-    })
+    };
+    best.map_or(otherwise, |(_, layout)| layout)
 }
 
 /// The long views in a column on the left with the table under them, the body plan on the right.
@@ -128,28 +140,32 @@ fn beside(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner
     Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
-/// The long views one under the other, the body plan under them, table and title block to its right.
-fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Option<Layout> {
+/// The long views one under the other, the body plan under them, table and title block to its right: at the largest scale of
+/// the body plan, and at smaller ones that may leave more room to the table.
+fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Vec<Layout> {
     let body_height = inner.height() - profile - half - 2.0 * GAP;
-    if width > inner.width() || body_height < title_block::SIZE[1] + 20.0 {
-        return None;
+    if width > inner.width() || body_height < title_block::SIZE[1] + 5.0 {
+        return Vec::new();
     }
     let column = inner.right - title_block::SIZE[0] - GAP;
     let room = Rectangle::new(inner.left, inner.bottom - body_height, column, inner.bottom);
-    let body_scale = extents.body_scale(&room);
-    // What the body plan leaves parts the views.
-    let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
-    let left = inner.left + 0.5 * (inner.width() - width);
-    let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
-    let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
-    let top = lower.bottom + gap;
-    // The table stands over the title block, or else between it and the body plan.
-    let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
-    let beside = column - extents.table[0] - GAP;
-    let between = over.height() < extents.table[1] && beside - inner.left >= extents.body_width(body_scale);
-    let body = Rectangle::new(inner.left, top, if between { beside } else { column }, inner.bottom);
-    let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
-    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
+    let largest = extents.body_scale(&room);
+    let arrange = |body_scale: u32| {
+        // What the body plan leaves parts the views.
+        let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+        let left = inner.left + 0.5 * (inner.width() - width);
+        let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
+        let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
+        let top = lower.bottom + gap;
+        // The table stands over the title block, or else between it and the body plan.
+        let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
+        let beside = column - extents.table[0] - GAP;
+        let between = over.height() < extents.table[1] && beside - GAP - inner.left >= extents.body_width(body_scale);
+        let body = Rectangle::new(inner.left, top, if between { beside - GAP } else { column }, inner.bottom);
+        let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
+        Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table }
+    };
+    drawing_scales().filter(|&body_scale| body_scale >= largest).take(4).map(arrange).collect()
 }
 
 /// Draws the sheet.

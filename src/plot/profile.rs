@@ -4,15 +4,17 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::outline;
-use super::view::{BASE, BUTTOCK, DESIGN, DIAGONAL, GRID, OUTLINE, View, WATERLINE};
+use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
-pub(super) const SIDE_ROOM: f64 = 20.5;
+pub(super) const SIDE_ROOM: f64 = 28.0;
 /// Room beside the hull for their names alone [mm].
-pub(super) const NARROW_SIDE_ROOM: f64 = 12.5;
-/// Room above and below the hull for the names of stations [mm].
-pub(super) const END_ROOM: f64 = 8.0;
+pub(super) const NARROW_SIDE_ROOM: f64 = 15.5;
+/// Room above the hull for the names of stations [mm].
+pub(super) const TOP_ROOM: f64 = 7.0;
+/// Room below the hull for the names of stations and perpendiculars [mm].
+pub(super) const END_ROOM: f64 = 11.0;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
 
@@ -123,17 +125,27 @@ pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, v
         let Some(plane) = plane else { continue };
         let longest = grid.length[1] - grid.length[0];
         let part = if longest > 0.0 { 0.06 + 0.03 * (k % 4) as f64 } else { 0.1 };
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
-        placer.name_curve(
-            canvas,
-            k,
-            &plane.name,
-            &style,
-            Preference { part: 1.0 - part, crossings: 2, beside: false },
-            &inside,
-        );
+        name_twice(canvas, &mut placer, k, &plane.name, &style, part, &inside);
     }
     canvas.end_group();
+}
+
+/// Names a curve near both of its ends, clear of other curves; once, where it meets fewest, when there is no clear place.
+fn name_twice(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    curve: usize,
+    name: &str,
+    style: &TextStyle,
+    part: f64,
+    window: &Rectangle,
+) {
+    let clear = |part| Preference { part, crossings: 0, beside: false };
+    let ends = [part, 1.0 - part].map(|part| placer.name_curve(canvas, curve, name, style, clear(part), window));
+    if ends == [false, false] {
+        let preference = Preference { crossings: 2, ..clear(part) };
+        placer.name_curve(canvas, curve, name, style, preference, window);
+    }
 }
 
 /// The half-breadth plan: waterlines above the centre line, diagonals in their true shape below it; the origin of `view` is AP
@@ -153,9 +165,10 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     let mut placer = LabelPlacer::default();
     let mut owners: Vec<Option<(&GridPlane, &Pen)>> = Vec::new();
     for plane in [&grid.design_waterline].into_iter().chain(&grid.waterlines) {
+        let pen = if plane.name == grid.design_waterline.name { &DESIGN_WATERLINE } else { &WATERLINE };
         for (k, curve) in plane.curves.iter().enumerate() {
-            placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), &WATERLINE));
-            owners.push((k < plane.on_side).then_some((plane, &WATERLINE)));
+            placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), pen));
+            owners.push((k < plane.on_side).then_some((plane, pen)));
         }
     }
     for plane in &grid.diagonals {
@@ -174,20 +187,27 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
         deck.push([fore, 0.0]);
     }
     placer.add_curve(&view.draw(canvas, deck, &OUTLINE));
+    placer.add_curve(&[[frame.left, view.origin[1]], [frame.right, view.origin[1]]]);
     let inside = frame.grown(-0.5 * BEYOND);
+    // The design waterline comes first in the list and has the first choice of places.
     for (k, owner) in owners.iter().enumerate() {
         let Some((plane, pen)) = owner else { continue };
         let style = TextStyle::new(text_size, Anchor::Middle).coloured(pen.colour);
         let part = 0.08 + 0.035 * (k % 5) as f64;
-        placer.name_curve(canvas, k, &plane.name, &style, Preference { part, crossings: 2, beside: false }, &inside);
-        placer.name_curve(
-            canvas,
-            k,
-            &plane.name,
-            &style,
-            Preference { part: 1.0 - part, crossings: 2, beside: false },
-            &inside,
-        );
+        if *pen == &DIAGONAL {
+            name_twice(canvas, &mut placer, k, &plane.name, &style, part, &inside);
+            continue;
+        }
+        let clear = Preference { part, crossings: 0, beside: false };
+        // On the curve, or else with a leader on the side of the waterlines, or anywhere.
+        let upper = Rectangle { bottom: view.origin[1], ..inside };
+        let named = placer.name_curve(canvas, k, &plane.name, &style, clear, &inside)
+            || placer.name_by_leader(canvas, k, &plane.name, &style, &THREAD, &upper)
+            || placer.name_by_leader(canvas, k, &plane.name, &style, &THREAD, &inside);
+        if !named {
+            let preference = Preference { crossings: 4, ..clear };
+            placer.name_curve(canvas, k, &plane.name, &style, preference, &inside);
+        }
     }
     canvas.end_group();
 }

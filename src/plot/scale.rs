@@ -1,19 +1,19 @@
 //! Scales: of drawings, of the curves of a diagram sheet, and of axes.
 
-/// Scales of drawings, 1 : n, that a scale rule has (ISO 5455 and the lofting practice of 1:25 and 1:250).
-pub const DRAWING_SCALES: [u32; 8] = [20, 25, 50, 100, 200, 250, 500, 1000];
+/// Scales of drawings, 1 : n, that a scale rule has: those of ISO 5455 and the steps between them that drawing offices use.
+pub const DRAWING_SCALES: [u32; 16] = [20, 25, 30, 40, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000];
+
+/// Every scale that a drawing can have, from the largest: [`DRAWING_SCALES`] and steps of 1, 2, 5 on both sides.
+pub(super) fn drawing_scales() -> impl Iterator<Item = u32> {
+    let large = [1500, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
+    [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(large)
+}
 
 /// The largest scale of [`DRAWING_SCALES`] at which `extent` [m] fits into `room` [mm]; past 1:1000 the list goes on with
-/// 2000, 5000, ..., and below 1:20 with 10, 5, 2, 1.
+/// 1500, 2000, 5000, ..., and below 1:20 with 10, 5, 2, 1.
 pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
     let needed = 1000.0 * extent / room;
-    let small = [1, 2, 5, 10].into_iter();
-    let large = [2000, 5000, 10_000, 20_000, 50_000, 100_000].into_iter();
-    small
-        .chain(DRAWING_SCALES)
-        .chain(large)
-        .find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9))
-        .unwrap_or(1_000_000)
+    drawing_scales().find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9)).unwrap_or(1_000_000)
 }
 
 /// First member of `mantissas` times a power of ten that is not below `value`; `mantissas` rise from 1 to 10.
@@ -78,9 +78,10 @@ mod tests {
     #[test]
     fn a_scale_of_the_list_that_just_fits_is_taken() {
         assert_eq!(drawing_scale(40.0, 400.0), 100);
-        assert_eq!(drawing_scale(40.1, 400.0), 200);
-        assert_eq!(drawing_scale(110.0, 400.0), 500);
-        assert_eq!(drawing_scale(450.0, 400.0), 2000);
+        assert_eq!(drawing_scale(40.1, 400.0), 125);
+        assert_eq!(drawing_scale(110.0, 400.0), 300);
+        assert_eq!(drawing_scale(250.0, 400.0), 750);
+        assert_eq!(drawing_scale(650.0, 400.0), 2000);
     }
 
     #[test]

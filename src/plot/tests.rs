@@ -1,5 +1,10 @@
 //! The figures of hulls of several kinds: what stands on them and where.
 
+use super::canvas::Canvas;
+use super::lines_grid::LinesGrid;
+use super::profile::{self, LongStyle};
+use super::scale::drawing_scale;
+use super::view::View;
 use super::{Figure, FigureInputs, PlotError, Svg};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, CurvesOfForm};
@@ -35,6 +40,7 @@ fn hulls() -> Vec<Hull> {
         ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]),
         ship("bulk carrier", ShipType::BulkCarrier, [180.0, 30.0, 11.0, 16.0, 0.82]),
         ship("fishing vessel", ShipType::Fishing, [23.0, 7.0, 2.9, 4.0, 0.52]),
+        ship("shallow yacht", ShipType::Yacht, [10.0, 3.0, 0.6, 1.6, 0.40]),
     ]
 }
 
@@ -69,6 +75,57 @@ fn text_keeps_apart_and_on_the_sheet() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// The name of a station or of several: `19½`, `3 – 5`, `-½ to ½`.
+fn names_stations(text: &str) -> bool {
+    text.chars().all(|c| c.is_ascii_digit() || "-½– to".contains(c)) && text.chars().any(|c| !c.is_alphabetic())
+}
+
+#[test]
+fn names_of_stations_stand_clear_of_all_other_text() {
+    for hull in &hulls() {
+        let canvas = with_inputs(hull, |inputs| Figure::Lines.compose(inputs)).unwrap();
+        let texts = canvas.texts();
+        let stations = texts.iter().enumerate().filter(|(_, text)| names_stations(&text.content));
+        assert!(stations.clone().count() > 40, "{}", hull.name());
+        for (k, station) in stations {
+            let place = station.place.grown(0.15);
+            let other = texts.iter().enumerate().find(|(m, other)| *m != k && place.overlaps(&other.place));
+            assert!(other.is_none(), "{}: {station:?} at {other:?}", hull.name());
+        }
+    }
+}
+
+#[test]
+fn every_waterline_is_named_in_the_half_breadth_plan() {
+    for hull in hulls().iter().filter(|hull| hull.name() != "box") {
+        let grid = LinesGrid::new(hull, 1e-3);
+        let scale = drawing_scale(grid.length[1] - grid.length[0], 350.0);
+        let mut canvas = Canvas::new(420.0, 297.0);
+        let style = LongStyle { text_size: 3.0, narrow: false };
+        profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([40.0, 150.0], scale), style);
+        for plane in grid.waterlines.iter().chain([&grid.design_waterline]).filter(|plane| plane.on_side > 0) {
+            let named = canvas.texts().iter().any(|text| text.content == plane.name);
+            assert!(named, "{}: {} bears no name", hull.name(), plane.name);
+        }
+        let document = canvas.finish("half-breadths");
+        assert!(
+            document.contains("stroke-width=\"0.55\" stroke-dasharray"),
+            "{}: the DWL looks as others",
+            hull.name()
+        );
+    }
+}
+
+#[test]
+fn lines_plans_bear_a_table_and_the_length_overall() {
+    for hull in &hulls() {
+        let canvas = with_inputs(hull, |inputs| Figure::Lines.compose(inputs)).unwrap();
+        for part in ["HALF-BREADTHS [m]", "deck at side", "L_OA ", "BODY PLAN   1 : ", "DWL"] {
+            assert!(canvas.texts().iter().any(|text| text.content.starts_with(part)), "{}: {part}", hull.name());
+        }
+    }
+}
+
 #[test]
 fn figures_bear_the_names_of_their_lines() {
     let hull = ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]);
@@ -78,13 +135,13 @@ fn figures_bear_the_names_of_their_lines() {
             &[
                 "frigate",
                 "LINES PLAN",
-                "PROFILE   1 : 500",
+                "PROFILE   1 : 300",
                 "BODY PLAN   1 : 100",
                 "AP",
                 "FP",
                 "DWL  4.40 m",
                 "WL 1  1.00 m",
-                "VI  6.0 m",
+                "VI",
                 "D1",
                 "½",
                 "19½",

@@ -36,8 +36,8 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
     let left_column = [
         format!("scale 1 : {}{body}", scales.long),
-        format!("L_PP {:.2} m    B {:.2} m", p.length_between_perpendiculars, p.breadth),
-        format!("T {:.2} m    D {:.2} m", p.draught, p.depth),
+        format!("L_OA {:.2} m    L_PP {:.2} m", grid.length[1] - grid.length[0], p.length_between_perpendiculars),
+        format!("B {:.2} m    T {:.2} m    D {:.2} m", p.breadth, p.draught, p.depth),
         format!(
             "{}    {}",
             coefficient("C_B", design.block_coefficient),
@@ -79,16 +79,20 @@ fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
 const ROW: f64 = 3.5;
 /// Width of a column of the table [mm].
 const COLUMN: f64 = 8.6;
+/// Waterlines past which a table may leave out every second of them.
+const MANY: usize = 10;
 /// Width of its first column [mm].
 const FIRST_COLUMN: f64 = 22.0;
 
-/// Width with every second station, and height [mm].
+/// Width with every second station, and height with every second waterline where there are many [mm].
 pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
-    [FIRST_COLUMN + COLUMN * every_second(grid).len() as f64, table_height(grid)]
+    let rows = if grid.waterlines.len() > MANY { thinned(grid).len() } else { waterlines(grid).len() };
+    [FIRST_COLUMN + COLUMN * every_second(grid).len() as f64, table_height(rows)]
 }
 
-fn table_height(grid: &LinesGrid) -> f64 {
-    ROW * (grid.waterlines.len() + 3) as f64 + 4.0
+/// Height of the table with so many waterlines [mm].
+fn table_height(rows: usize) -> f64 {
+    ROW * (rows + 2) as f64 + 4.0
 }
 
 fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
@@ -99,17 +103,19 @@ fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
     whole_stations(grid).into_iter().step_by(2).collect()
 }
 
-/// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; nothing when
-/// the waterlines do not fit.
+/// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; of all
+/// waterlines, or of every second of them and the design waterline.
 pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
     let hull = inputs.hull;
-    let planes = waterlines(grid);
-    let height = table_height(grid);
+    let fits = |planes: &Vec<&GridPlane>| table_height(planes.len()) <= room.height() + 1e-9;
+    let Some(planes) = [waterlines(grid), thinned(grid)].into_iter().find(fits) else { return };
+    let height = table_height(planes.len());
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
     let width = |count: usize| FIRST_COLUMN + COLUMN * count as f64;
-    let stations =
-        [all, whole_stations(grid), every_second(grid)].into_iter().find(|list| width(list.len()) <= room.width());
-    let Some(stations) = stations.filter(|_| height <= room.height()) else { return };
+    let stations = [all, whole_stations(grid), every_second(grid)]
+        .into_iter()
+        .find(|list| width(list.len()) <= room.width() + 1e-9);
+    let Some(stations) = stations else { return };
     let (left, top) = (room.left, room.bottom - height + 4.0);
     let right = left + width(stations.len());
     let style = TextStyle::new(2.0, Anchor::End);
@@ -145,6 +151,14 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
 /// The waterlines with the design waterline among them, from the base line up.
 fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
     let mut planes: Vec<_> = grid.waterlines.iter().chain([&grid.design_waterline]).collect();
+    planes.sort_by(|a, b| a.at.total_cmp(&b.at));
+    planes
+}
+
+/// Every second of the whole waterlines, with the design waterline among them.
+fn thinned(grid: &LinesGrid) -> Vec<&GridPlane> {
+    let whole = grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).step_by(2);
+    let mut planes: Vec<_> = whole.chain([&grid.design_waterline]).collect();
     planes.sort_by(|a, b| a.at.total_cmp(&b.at));
     planes
 }

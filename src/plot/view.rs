@@ -15,11 +15,13 @@ pub(super) const OUTLINE: Pen = Pen::new(0.5, "#000000");
 /// Grid.
 pub(super) const GRID: Pen = Pen::new(0.13, "#8a8a8a");
 /// From a name to its curve.
-pub(super) const THREAD: Pen = Pen::new(0.1, "#000000");
+pub(super) const THREAD: Pen = Pen::new(0.15, "#000000");
 /// Centre line and base line.
 pub(super) const BASE: Pen = Pen::new(0.25, "#000000");
 /// Design waterline.
 pub(super) const DESIGN: Pen = Pen::new(0.25, "#000000").dashed(&[6.0, 1.0, 0.8, 1.0]);
+/// The design waterline in the half-breadth plan.
+pub(super) const DESIGN_WATERLINE: Pen = Pen::new(0.55, "#0b3d78").dashed(&[6.0, 1.0, 0.8, 1.0]);
 /// Planes of diagonals where they stand edgewise.
 pub(super) const DIAGONAL_PLANE: Pen = Pen::new(0.18, "#00553c").dashed(&[3.0, 0.8]);
 
