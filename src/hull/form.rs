@@ -44,6 +44,20 @@ pub enum HullError {
         /// Index in v.
         column: usize,
     },
+    /// A half-breadth of the net that has nothing to do with the breadth.
+    #[error(
+        "half-breadths of the net, row {row}, column {column}: {value} m; with B {breadth} m it must be between -B and 10 B"
+    )]
+    Breadths {
+        /// Index in u.
+        row: usize,
+        /// Index in v.
+        column: usize,
+        /// The value \[m\].
+        value: f64,
+        /// B \[m\].
+        breadth: f64,
+    },
     /// The deck at side does not rise in x, or lies outside the surface.
     #[error("deck at side, point {index}: {problem}")]
     Deck {
@@ -68,7 +82,8 @@ impl Hull {
     /// Takes the surface (control points x, y, z in metres) and the deck at side (control points x, z; x rises).
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, z depends on u or does not rise with v, x does not rise with u, or
+    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z depends on u or does not
+    /// rise with v, x does not rise with u, or
     /// the deck does not rise in x or leaves the range of heights of the surface.
     pub fn new(
         name: &str,
@@ -87,7 +102,10 @@ impl Hull {
         let [rows, columns] = surface.shape();
         for row in 0..rows {
             for column in 0..columns {
-                let [x, _, z] = surface.point(row, column);
+                let [x, y, z] = surface.point(row, column);
+                if !(-p.breadth..=10.0 * p.breadth).contains(&y) {
+                    return Err(HullError::Breadths { row, column, value: y, breadth: p.breadth });
+                }
                 if z.to_bits() != surface.point(0, column)[2].to_bits() {
                     return Err(HullError::Heights { row, column, problem: "z differs along a waterline" });
                 }
@@ -288,5 +306,15 @@ mod tests {
         let surface = BsplineSurface::new(line(), line(), points).unwrap();
         let error = Hull::new("x", *wedge().particulars(), surface, deck).unwrap_err();
         assert!(matches!(error, HullError::Heights { .. }), "{error}");
+    }
+
+    #[test]
+    fn half_breadths_belong_to_the_breadth() {
+        let line = || KnotVector::uniform(1, 1).unwrap();
+        let points = vec![[0.0, 0.0, 0.0], [0.0, 2.0, 2.0], [10.0, 0.0, 0.0], [10.0, 4.3e9, 2.0]];
+        let deck = BsplineCurve::new(line(), vec![[0.0, 2.0], [10.0, 2.0]]).unwrap();
+        let surface = BsplineSurface::new(line(), line(), points).unwrap();
+        let error = Hull::new("x", *wedge().particulars(), surface, deck).unwrap_err();
+        assert!(matches!(error, HullError::Breadths { row: 1, column: 1, .. }), "{error}");
     }
 }
