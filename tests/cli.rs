@@ -370,3 +370,21 @@ fn a_reader_that_stops_early_is_no_error() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
 }
+
+#[test]
+fn what_is_too_much_is_refused() {
+    let path = folder("too-much");
+    fs::create_dir_all(&path).unwrap();
+    let hull = path.join("wigley");
+    let hull = hull.to_str().unwrap();
+    assert_eq!(program(&["generate", &config("wigley.toml"), "--no-figures", "-o", hull]).status.code(), Some(0));
+    let output = program(&["offsets", hull, "--stations", "0:100:0.02", "--waterlines", "0:6:0.002"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cells"), "{}", stderr(&output));
+    let named = path.join("named.toml");
+    fs::write(&named, "[project]\nname = \"a\\u0001b\"\nfamily = \"box\"\n[dimensions]\nLpp = 10\nB = 2\nT = 1\n")
+        .unwrap();
+    let output = program(&["generate", named.to_str().unwrap(), "-o", path.join("named").to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(stderr(&output).contains("control character"), "{}", stderr(&output));
+}

@@ -41,7 +41,7 @@ fn notation(word: &str) -> Result<Notation, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
     let buttocks = arguments.buttocks.as_ref().map_or(&[][..], |list| &list.0);
-    let table = offsets(&source.hull, &arguments.stations.0, &arguments.waterlines.0, buttocks);
+    let table = offsets(&source.hull, &arguments.stations.0, &arguments.waterlines.0, buttocks)?;
     let mut text = offsets_csv(&table, arguments.notation, false);
     if arguments.buttocks.is_some() {
         text.push('\n');

@@ -207,6 +207,12 @@ fn stem(file: &str) -> &str {
 fn interpret(document: &mut Document<'_>) -> Design {
     document.integer("schema");
     let name = document.text("project.name").filter(|name| !name.trim().is_empty());
+    if let (Some(text), Some((_, span, _))) = (&name, document.raw("project.name"))
+        && text.chars().any(|c| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'))
+    {
+        let message = "the name has a control character".to_owned();
+        document.problem("E123", "project.name", &span, message, "write the name on one line of plain text".to_owned());
+    }
     let family_word = match document.entry("project.family") {
         Some(_) => document.word("project.family"),
         None => Some(FAMILIES[0]),

@@ -16,7 +16,7 @@ use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
 const FORMAT: &str = "loftsman-hull";
 const VERSION: u64 = 1;
 /// Files longer than this are not read \[bytes\].
-pub const LARGEST_HULL_FILE: usize = 256 << 20;
+pub const LARGEST_HULL_FILE: usize = 64 << 20;
 /// The most control points in one direction.
 const MOST_POINTS: usize = 4000;
 

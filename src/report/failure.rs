@@ -12,6 +12,8 @@ pub enum Failure {
     Input(Vec<Diagnostic>),
     /// A design that cannot be built: every reason.
     Infeasible(Vec<Diagnostic>),
+    /// A command that asks for what no command gives.
+    Usage(String),
     /// A check that did not pass.
     Check(String),
     /// Files that are there already.
@@ -30,11 +32,12 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Exit code: 1 internal, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.
+    /// Exit code: 1 internal, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Internal(_) => 1,
+            Self::Usage(_) => 2,
             Self::Input(_) => 3,
             Self::Infeasible(_) => 4,
             Self::Check(_) => 5,
@@ -52,7 +55,7 @@ impl fmt::Display for Failure {
                 }
                 Ok(())
             }
-            Self::Check(message) => write!(f, "{message}"),
+            Self::Usage(message) | Self::Check(message) => write!(f, "{message}"),
             Self::Exists(paths) => {
                 let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
                 write!(f, "E601 there already: {}. Use --force to overwrite, or -o for another place", names.join(", "))

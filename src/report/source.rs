@@ -1,6 +1,7 @@
 //! What a job starts from: a design file, or a hull.
 
 use std::fs;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
@@ -19,8 +20,19 @@ pub struct Source {
     pub conventions: Conventions,
 }
 
+/// No input is longer than this \[bytes\]; the readers have limits of their own.
+const LARGEST_INPUT: u64 = exchange::LARGEST_HULL_FILE as u64;
+
 fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| Failure::FileSystem { act: "read", path: path.to_owned(), error })
+    let failure = |error| Failure::FileSystem { act: "read", path: path.to_owned(), error };
+    let mut bytes = Vec::new();
+    // One byte more than may be read tells a file that is too long, also one without an end.
+    fs::File::open(path).and_then(|file| file.take(LARGEST_INPUT + 1).read_to_end(&mut bytes)).map_err(failure)?;
+    if bytes.len() as u64 > LARGEST_INPUT {
+        let message = format!("the file has more than {LARGEST_INPUT} bytes; no design or hull is so long");
+        return Err(Failure::Input(vec![diagnostic("E129", path, None, None, message)]));
+    }
+    Ok(bytes)
 }
 
 fn diagnostic(
@@ -114,11 +126,25 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
     }
 }
 
+/// The most cells of one table of offsets.
+const MOST_CELLS: usize = 1_000_000;
+
 /// The offsets of a hull at any stations, waterlines and buttocks \[m\].
-#[must_use]
-pub fn offsets(hull: &Hull, stations: &[f64], waterlines: &[f64], buttocks: &[f64]) -> OffsetTable {
+///
+/// # Errors
+/// [`Failure::Usage`] when the table would have more than a million cells.
+pub fn offsets(hull: &Hull, stations: &[f64], waterlines: &[f64], buttocks: &[f64]) -> Result<OffsetTable, Failure> {
+    let cells = stations.len() * (waterlines.len() + buttocks.len());
+    if cells > MOST_CELLS {
+        return Err(Failure::Usage(format!(
+            "{} stations with {} waterlines and {} buttocks make {cells} cells; a table has at most {MOST_CELLS}",
+            stations.len(),
+            waterlines.len(),
+            buttocks.len()
+        )));
+    }
     let stations: Vec<OffsetStation> = stations.iter().map(|&x| OffsetStation { name: format!("{x}"), x }).collect();
-    OffsetTable::from_hull(hull, &stations, waterlines, buttocks)
+    Ok(OffsetTable::from_hull(hull, &stations, waterlines, buttocks))
 }
 
 /// The section of a hull by a plane, within 1e-9 m of both.
