@@ -227,12 +227,12 @@ fn name_stations(
     for (at, planes) in groups {
         let (first, last) = (planes[0], planes[planes.len() - 1]);
         let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
-        // From the deck up, straight over the end of the section before aside of it.
-        let aside = [0.0, 0.9, -0.9, 1.8, -1.8, 2.7, -2.7, 3.6, -3.6];
-        let places: Vec<_> = (0..8)
-            .flat_map(|row| aside.map(|dx| (row, dx)))
-            .map(|(row, dx)| [at[0] + dx * text_size, at[1] - (0.9 + 0.7 * f64::from(row)) * text_size])
-            .collect();
+        // From the deck up and aside, the nearest first.
+        let mut shifts: Vec<[f64; 2]> =
+            (0..15).flat_map(|row| (-4..=4).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)])).collect();
+        shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
+        let place = |[dx, dy]: [f64; 2]| [at[0] + dx * text_size, at[1] - (0.9 + dy) * text_size];
+        let places: Vec<_> = shifts.into_iter().map(place).collect();
         placer.name_off_curves(canvas, &name, &style, &places, &room, (at, &THREAD));
     }
 }

@@ -147,7 +147,7 @@ impl LabelPlacer {
             .map(|k| (std::f64::consts::PI * (f64::from(k) + 0.5) / 6.0).sin_cos())
             .map(|(s, c)| [c, s])
             .collect();
-        let mut best: Option<(f64, [[f64; 2]; 2], [f64; 2], Rectangle)> = None;
+        let mut best: Option<Led> = None;
         for k in 1..PLACES {
             let Some(on) = path.point(k as f64 / PLACES as f64) else { continue };
             for [dx, dy] in &directions {
@@ -212,7 +212,7 @@ impl LabelPlacer {
                 || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
                     && !self.leaders.iter().any(|&other| meet(thread, other));
             let free = window.contains(&place) && self.is_free(&apart);
-            free.then(|| ((!clear, self.crossings(&place, None), k), at, apart))
+            free.then(|| ((self.crossings(&place, None), !clear, k), at, apart))
         });
         let Some(((.., k), at, place)) = free.min_by_key(|(order, ..)| *order) else { return false };
         self.take(place);
@@ -272,6 +272,9 @@ impl LabelPlacer {
         None
     }
 }
+
+/// Cost, leader, position and place of a name with a leader.
+type Led = (f64, [[f64; 2]; 2], [f64; 2], Rectangle);
 
 /// Length of a polyline [mm].
 pub(super) fn length(points: &[[f64; 2]]) -> f64 {

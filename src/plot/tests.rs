@@ -136,7 +136,7 @@ fn figures_bear_the_names_of_their_lines() {
                 "frigate",
                 "LINES PLAN",
                 "PROFILE   1 : 300",
-                "BODY PLAN   1 : 100",
+                "BODY PLAN   1 : 125",
                 "AP",
                 "FP",
                 "DWL  4.40 m",

@@ -100,7 +100,8 @@ fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
 }
 
 fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
-    whole_stations(grid).into_iter().step_by(2).collect()
+    let even = |plane: &&GridPlane| (plane.at / grid.station_spacing).round() as i64 % 2 == 0;
+    whole_stations(grid).into_iter().filter(even).collect()
 }
 
 /// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; of all
@@ -157,7 +158,8 @@ fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
 
 /// Every second of the whole waterlines, with the design waterline among them.
 fn thinned(grid: &LinesGrid) -> Vec<&GridPlane> {
-    let whole = grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).step_by(2);
+    let even = |plane: &&GridPlane| (plane.at / grid.waterline_spacing).round() as i64 % 2 == 0;
+    let whole = grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).filter(even);
     let mut planes: Vec<_> = whole.chain([&grid.design_waterline]).collect();
     planes.sort_by(|a, b| a.at.total_cmp(&b.at));
     planes
