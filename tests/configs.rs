@@ -88,3 +88,11 @@ fn the_example_of_the_raw_generator_is_read() {
     assert!((outputs.design_row.draught - 7.25).abs() < 1e-12);
     assert!((outputs.design_row.waterplane_area / 1159.0 - 1.0).abs() < 0.02, "{}", outputs.design_row.waterplane_area);
 }
+
+#[test]
+fn the_published_schema_is_that_of_the_program() {
+    let published =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/configs/design.schema.json")).unwrap();
+    let published: serde_json::Value = serde_json::from_str(&published).unwrap();
+    assert_eq!(published, loftsman::config::design_schema(), "run `loftsman schema > configs/design.schema.json`");
+}
