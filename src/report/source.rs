@@ -101,7 +101,12 @@ pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
 /// # Errors
 /// [`Failure::Infeasible`] with every reason.
 pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
-    design.family.generate(&design.name).map_err(|reasons| Failure::Infeasible(design.diagnose_all(&reasons)))
+    design.family.generate(&design.name).map_err(|reasons| {
+        // A value outside its own range is no wish that could be had elsewhere: the input is wrong.
+        let out_of_range = reasons.iter().any(|reason| reason.code == "E101");
+        let messages = design.diagnose_all(&reasons);
+        if out_of_range { Failure::Input(messages) } else { Failure::Infeasible(messages) }
+    })
 }
 
 /// The hull of a `hull.json`, of a folder that holds one, or of a design file.
