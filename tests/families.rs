@@ -157,6 +157,24 @@ fn examples_hit_their_coefficients_and_are_ships() {
 }
 
 #[test]
+fn a_hard_chine_is_a_knuckle() {
+    // So low a coefficient leaves no room for a bilge: floor and side meet at a chine, a triple knot.
+    let wishes = Wishes {
+        breadth: Some(3.0),
+        draught: Some(0.6),
+        depth: Some(1.6),
+        block_coefficient: Some(0.40),
+        midship_coefficient: Some(MidshipWish::Value(0.549)),
+        ..wishes(ShipType::Yacht, 10.0)
+    };
+    let generated = cosh::generate("chine", &wishes).unwrap_or_else(|e| panic!("{e:?}"));
+    check_targets("chine", &generated);
+    check_shape("chine", &generated.hull);
+    let radius = generated.values.iter().find(|v| v.key == "bilge_radius").unwrap().value;
+    assert!(radius < 1e-6, "{radius}");
+}
+
+#[test]
 fn wishes_for_the_ends_are_met() {
     let base = Wishes {
         breadth: Some(32.2),

@@ -151,7 +151,7 @@ impl MidshipSection {
         let (sin, cos) = self.deadrise.sin_cos();
         if girth < floor {
             (self.keel + girth * cos, girth * sin)
-        } else if girth <= floor + bilge {
+        } else if bilge > 0.0 && girth <= floor + bilge {
             let angle = self.deadrise + (girth - floor) / self.radius;
             let (y, z) = self.bilge_centre();
             // 1 - cos by the half angle: exact where the bilge leaves a flat bottom.
