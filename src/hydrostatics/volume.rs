@@ -20,6 +20,10 @@ const DECK_NODES: usize = 16;
 const NODES_ALONG: usize = 48;
 const NODES_UP: usize = 24;
 
+/// Nodes a span in v beyond those that make the moments exact: off a flat of bottom, where dz/dv starts from 0, the wetted
+/// surface of a bulk carrier is wrong by 1.4e-8 without and by 1.4e-9 with them.
+const SKIN_NODES: usize = 3;
+
 /// Integrals over the body below one draught, both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Body {
@@ -99,10 +103,10 @@ pub(super) fn node_at<const N: usize>(hull: &Hull, span: usize, v: f64, weight: 
     Node { first, value, slope, weight, z: sum(&value), rise: sum(&slope) }
 }
 
-/// Number of nodes in v on every span: volume moments are of degree 4q - 1.
+/// Number of nodes in v on every span: volume moments are of degree 4q - 1, the wetted surface wants more.
 fn count_up(hull: &Hull) -> usize {
     let knots = hull.surface().v();
-    (2 * knots.degree()).max(NODES_UP.div_ceil(knots.spans().len()))
+    (2 * knots.degree() + SKIN_NODES).max(NODES_UP.div_ceil(knots.spans().len()))
 }
 
 /// Number of nodes in u on every span: the moment about x = 0 is of degree 3p - 1.
