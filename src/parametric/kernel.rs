@@ -24,6 +24,16 @@ pub(super) enum Kernel {
     S,
 }
 
+impl Kernel {
+    /// n of the function c_n that the kernel is made of: f = 1 - t^n c_n(mu t^2) / c_n(mu), fullness 1 - c_(n+1) / c_n.
+    fn order(self) -> usize {
+        match self {
+            Self::J => 2,
+            Self::S => 3,
+        }
+    }
+}
+
 /// Lowest fullness of either kernel: zero slope at the end.
 pub(super) const LOWEST_FULLNESS: f64 = 0.5;
 /// Highest fullness that is tabulated.
@@ -72,8 +82,7 @@ pub(super) struct Shape {
 impl Shape {
     /// The kernel at shape number `mu`.
     pub(super) fn new(kernel: Kernel, mu: f64) -> Self {
-        let c = entire(mu);
-        Self { kernel, mu, scale: if kernel == Kernel::J { c[2] } else { c[3] } }
+        Self { kernel, mu, scale: entire(mu)[kernel.order()] }
     }
 
     /// The kernel whose integral over [0, 1] is `fullness`, clamped to the tabulated range.
@@ -149,9 +158,9 @@ fn shape_number(kernel: Kernel, fullness: f64) -> f64 {
     let (low, high) = (table[index], table[index + 1]);
     let mut mu = low + (high - low) * (place - index as f64);
     for _ in 0..4 {
-        let shape = Shape::new(kernel, mu);
-        let error = shape.fullness() - fullness;
-        let next = (mu - error / fullness_slope(kernel, mu)).clamp(low, high);
+        let c = entire(mu);
+        let error = 1.0 - c[kernel.order() + 1] / c[kernel.order()] - fullness;
+        let next = (mu - error / fullness_slope(kernel, mu, &c)).clamp(low, high);
         if (next - mu).abs() <= 1e-15 * mu.abs() {
             break;
         }
@@ -161,8 +170,8 @@ fn shape_number(kernel: Kernel, fullness: f64) -> f64 {
 }
 
 /// d(fullness)/d(mu), from d c_n / d w = (c_(n-1) - n c_n) / (2 w) or its series near 0.
-fn fullness_slope(kernel: Kernel, mu: f64) -> f64 {
-    let c = entire(mu);
+/// `c` is [`entire`] at mu.
+fn fullness_slope(kernel: Kernel, mu: f64, c: &[f64; 6]) -> f64 {
     let slope = |n: usize| {
         if mu.abs() > 0.5 {
             (c[n - 1] - n as f64 * c[n]) / (2.0 * mu)
@@ -180,7 +189,7 @@ fn fullness_slope(kernel: Kernel, mu: f64) -> f64 {
         }
     };
     // phi = 1 - c_(n+1) / c_n with n = 2 (J) or 3 (S).
-    let n = if kernel == Kernel::J { 2 } else { 3 };
+    let n = kernel.order();
     -(slope(n + 1) * c[n] - c[n + 1] * slope(n)) / (c[n] * c[n])
 }
 

@@ -112,6 +112,11 @@ struct Level {
 }
 
 impl Level {
+    /// The girths at which functions are asked for.
+    fn girths(&self) -> &[f64] {
+        if self.condition.order == 0 { &self.girths[..1] } else { &self.girths }
+    }
+
     fn combine(&self, at: impl Fn(usize) -> f64) -> f64 {
         if self.condition.order == 0 {
             return at(0);
@@ -167,24 +172,27 @@ pub(super) fn interpolate(
     let v = girth_knots(form, top)?;
     let girth = form.section.girth_at(top);
     let levels = levels(form, &v, girth);
-    let across = Collocation::with_conditions(&v, &levels.iter().map(|l| l.condition).collect::<Vec<_>>())?;
-    let in_v = |value: &dyn Fn(f64) -> f64| {
-        let mut values: Vec<f64> =
-            levels.iter().map(|level| level.data(|g| value(form.section.at_girth(g).1))).collect();
+    let mut in_v: Vec<Condition> = levels.iter().map(|level| level.condition).collect();
+    let across = Collocation::with_conditions(&v, &in_v)?;
+    let data = |value: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        levels.iter().map(|level| level.data(|g| value(form.section.at_girth(g).1))).collect()
+    };
+    let net = |value: &dyn Fn(f64) -> f64| {
+        let mut values = data(value);
         across.solve(&mut values);
         values
     };
-    let mut z = in_v(&|z| z);
-    (z[0], z[v.basis_count() - 1]) = (0.0, top);
-    if form.section.deadrise <= 0.0 {
+    let mut z = data(&|z| z);
+    if form.section.deadrise > 0.0 {
+        across.solve(&mut z);
+    } else {
         // The bilge leaves the flat of bottom with dz/dv = 0.
-        let mut conditions: Vec<Condition> = levels.iter().map(|level| level.condition).collect();
-        conditions[1] = Condition { site: 0.0, order: 1 };
-        z = levels.iter().map(|level| level.data(|g| form.section.at_girth(g).1)).collect();
+        in_v[1] = Condition { site: 0.0, order: 1 };
         z[1] = 0.0;
-        Collocation::with_conditions(&v, &conditions)?.solve(&mut z);
-        (z[0], z[1], z[v.basis_count() - 1]) = (0.0, 0.0, top);
+        Collocation::with_conditions(&v, &in_v)?.solve(&mut z);
+        z[1] = 0.0;
     }
+    (z[0], z[v.basis_count() - 1]) = (0.0, top);
 
     // Lengths: the shortest waterline rules the linear part.
     let (aft, fore) = (form.stern.at(0.0), form.stem.at(0.0));
@@ -221,16 +229,8 @@ pub(super) fn interpolate(
         }
     }
     let along = Collocation::with_conditions(&u, &conditions)?;
-    let at_sites = |value: &dyn Fn(f64) -> f64| {
-        let sites = loft::sites(&u);
-        let mut values: Vec<f64> = sites.iter().map(|&t| value(t)).collect();
-        Collocation::new(&u, &sites).map(|c| {
-            c.solve_strided(&mut values, 0, 1);
-            values
-        })
-    };
-    let (run_net, entrance_net, line) = (at_sites(&run)?, at_sites(&entrance)?, u.greville());
-    let (stern_net, stem_net) = (in_v(&|z| form.stern.at(z) - aft), in_v(&|z| form.stem.at(z) - fore));
+    let (run_net, entrance_net, line) = (loft::interpolate(&u, run)?, loft::interpolate(&u, entrance)?, u.greville());
+    let (stern_net, stem_net) = (net(&|z| form.stern.at(z) - aft), net(&|z| form.stem.at(z) - fore));
     let (rows, columns) = (u.basis_count(), v.basis_count());
     let mut x = vec![0.0; rows * columns];
     for i in 0..rows {
@@ -241,10 +241,14 @@ pub(super) fn interpolate(
     }
     let mut y = vec![0.0; rows * columns];
     for (j, level) in levels.iter().enumerate() {
-        let waterlines = level.girths.map(|g| {
-            let (_, z) = form.section.at_girth(g);
-            (form.stern.at(z) - aft, form.stem.at(z) - fore, form.waterline(z))
-        });
+        let waterlines: Vec<_> = level
+            .girths()
+            .iter()
+            .map(|&g| {
+                let (_, z) = form.section.at_girth(g);
+                (form.stern.at(z) - aft, form.stem.at(z) - fore, form.waterline(z))
+            })
+            .collect();
         for (i, condition) in conditions.iter().enumerate() {
             let t = condition.site;
             let at = |k: usize| {
