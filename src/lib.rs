@@ -76,6 +76,7 @@
 pub mod cli;
 pub mod config;
 pub mod exchange;
+pub mod fairing;
 pub mod hull;
 pub mod hydrostatics;
 pub mod numeric;

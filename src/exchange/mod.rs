@@ -9,6 +9,7 @@ mod number;
 mod offsets;
 mod section;
 mod summary;
+mod table;
 
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
@@ -17,3 +18,4 @@ pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use offsets::{heights_csv, offsets_csv};
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
+pub use table::{ReadTable, Severity, TableProblem, read_table};

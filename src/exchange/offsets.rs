@@ -21,7 +21,7 @@ pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> St
     let mut text = line(&head);
     for station in &table.stations {
         let mut row = vec![one(station.station.x)];
-        row.extend(station.half_breadths.iter().map(|&y| write(notation, y)));
+        row.extend(station.half_breadths.iter().map(|y| write(notation, y.value())));
         text.push_str(&line(&row));
     }
     if endings {
@@ -45,7 +45,7 @@ pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
     let mut text = line(&head);
     for station in &table.stations {
         let mut row = vec![one(station.station.x)];
-        row.extend(station.heights.iter().map(|&z| write(notation, z)));
+        row.extend(station.heights.iter().map(|z| write(notation, z.value())));
         let last = [station.keel_height, station.flat_of_bottom, station.deck_height, station.deck_half_breadth];
         row.extend(last.map(|value| write(notation, value)));
         text.push_str(&line(&row));
@@ -56,17 +56,17 @@ pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hull::{OffsetStation, StationOffsets};
+    use crate::hull::{Cell, StationOffsets};
 
     fn table() -> OffsetTable {
+        let cells = |values: Vec<Option<f64>>| values.into_iter().map(Cell::from).collect();
         let station = |x: f64, half_breadths, heights| StationOffsets {
-            station: OffsetStation { name: "1".into(), x },
-            half_breadths,
-            heights,
+            half_breadths: cells(half_breadths),
+            heights: cells(heights),
             keel_height: Some(0.0),
-            flat_of_bottom: None,
             deck_height: Some(3.5),
             deck_half_breadth: Some(2.0),
+            ..StationOffsets::new("1", x)
         };
         OffsetTable {
             waterlines: vec![0.5, 1.0],
@@ -76,6 +76,7 @@ mod tests {
                 station(5.0, vec![Some(1.5), Some(2.0)], vec![None]),
             ],
             endings: vec![[Some(0.2), Some(9.0)], [None, Some(9.5)]],
+            ..OffsetTable::default()
         }
     }
 

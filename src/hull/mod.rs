@@ -3,6 +3,8 @@
 //! Frame (right-handed): x forward from the aft perpendicular AP, y to port, z up from the moulded base line; metres.
 
 mod area;
+mod cell;
+mod fit;
 mod form;
 mod functional;
 mod immersion;
@@ -12,6 +14,10 @@ mod section;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
+pub use cell::{
+    Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
+};
+pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

@@ -3,6 +3,7 @@
 //! Half-breadths are values of the surface, exact to 1e-12 m. Heights are found on the station's section, which keeps
 //! 1e-11 m from the surface, and are exact to that over the slope of the section.
 
+use super::cell::{Cell, FeatureLine, OutlinePoint, StatedParticulars, TableForm, TransomPlane};
 use super::form::Hull;
 use super::section::{Cut, Face, Section, curve_sign_changes};
 use crate::spline::BsplineCurve;
@@ -21,42 +22,90 @@ pub struct OffsetStation {
 pub struct StationOffsets {
     /// The station.
     pub station: OffsetStation,
-    /// Half-breadth at each waterline of the table \[m\]; none beyond the ends of the waterline and above the deck.
-    pub half_breadths: Vec<Option<f64>>,
-    /// Height at each buttock of the table \[m\]: the lowest point of the body there; none where the body is narrower.
-    pub heights: Vec<Option<f64>>,
+    /// Half-breadth at each waterline of the table \[m\]; absent beyond the ends of the waterline and above the deck.
+    pub half_breadths: Vec<Cell>,
+    /// Height at each buttock of the table \[m\]: the lowest point of the body there; absent where the body is narrower.
+    pub heights: Vec<Cell>,
     /// Height of the lowest point on the centreplane: keel line, stem or stern profile \[m\].
     pub keel_height: Option<f64>,
     /// Half-breadth of the flat of bottom \[m\]; 0 where the keel is a line.
     pub flat_of_bottom: Option<f64>,
-    /// Height of the deck at side \[m\].
+    /// Height at which the flat of side begins \[m\].
+    pub flat_of_side: Option<f64>,
+    /// Height of the deck at side, or of the upper edge of the section \[m\].
     pub deck_height: Option<f64>,
     /// Half-breadth at the deck at side \[m\].
     pub deck_half_breadth: Option<f64>,
+    /// Height of the deck on the centreline \[m\].
+    pub deck_centre_height: Option<f64>,
+    /// The section as points from keel to deck, for tables that give sections instead of a grid; one list a branch (a bulb
+    /// and the flare above it are two).
+    pub outlines: Vec<Vec<OutlinePoint>>,
+}
+
+impl StationOffsets {
+    /// A station without any offsets.
+    #[must_use]
+    pub fn new(name: impl Into<String>, x: f64) -> Self {
+        Self {
+            station: OffsetStation { name: name.into(), x },
+            half_breadths: Vec::new(),
+            heights: Vec::new(),
+            keel_height: None,
+            flat_of_bottom: None,
+            flat_of_side: None,
+            deck_height: None,
+            deck_half_breadth: None,
+            deck_centre_height: None,
+            outlines: Vec::new(),
+        }
+    }
 }
 
 /// Offsets of a hull. Lengths from AP forward, heights above the base line, half-breadths from the centreplane, in metres.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Stations rise in x, waterlines in z, buttocks in y, whatever the order they were written in; `form` remembers that.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct OffsetTable {
+    /// Name of the ship; empty when the table has none.
+    pub name: String,
+    /// Main dimensions that the table states.
+    pub stated: StatedParticulars,
     /// Heights of the waterlines \[m\].
     pub waterlines: Vec<f64>,
     /// Distances of the buttocks from the centreplane \[m\].
     pub buttocks: Vec<f64>,
     /// The stations with their offsets.
     pub stations: Vec<StationOffsets>,
-    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none outside the surface and above the deck there.
+    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none where the table does not give them, outside
+    /// the surface and above the deck there. As many as waterlines.
     pub endings: Vec<[Option<f64>; 2]>,
+    /// Knuckles and tangent lines.
+    pub lines: Vec<FeatureLine>,
+    /// The plane of the transom.
+    pub transom: Option<TransomPlane>,
+    /// How the table was written.
+    pub form: TableForm,
 }
 
 impl OffsetTable {
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
     pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {
+        let p = hull.particulars();
         Self {
+            name: hull.name().to_owned(),
+            stated: StatedParticulars {
+                length_between_perpendiculars: Some(p.length_between_perpendiculars),
+                breadth: Some(p.breadth),
+                draught: Some(p.draught),
+                depth: Some(p.depth),
+            },
             waterlines: waterlines.to_vec(),
             buttocks: buttocks.to_vec(),
             stations: stations.iter().map(|station| lift(hull, station, waterlines, buttocks)).collect(),
             endings: waterlines.iter().map(|&z| ends(hull, z)).collect(),
+            ..Self::default()
         }
     }
 
@@ -79,20 +128,23 @@ fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f6
     let x = station.x;
     let deck = hull.deck_height(x);
     let slack = 1e-12 * (hull.top() - hull.bottom());
-    let half_breadths =
-        waterlines.iter().map(|&z| if z <= deck + slack { hull.half_breadth(x, z) } else { None }).collect();
+    let half_breadths = waterlines
+        .iter()
+        .map(|&z| Cell::from(if z <= deck + slack { hull.half_breadth(x, z) } else { None }))
+        .collect();
     let keel_height = lowest(hull, x).filter(|&z| z <= deck + slack);
     let section = hull.section(Cut::Station { x }, 0.0);
-    let heights = buttocks.iter().map(|&y| if y <= 0.0 { keel_height } else { height_at(&section, y) }).collect();
+    let heights =
+        buttocks.iter().map(|&y| Cell::from(if y <= 0.0 { keel_height } else { height_at(&section, y) })).collect();
     let on_deck = keel_height.and_then(|_| hull.half_breadth(x, deck.min(hull.top())));
     StationOffsets {
-        station: station.clone(),
         half_breadths,
         heights,
         keel_height,
         flat_of_bottom: hull.half_breadth(x, hull.bottom()),
         deck_height: on_deck.map(|_| deck),
         deck_half_breadth: on_deck,
+        ..StationOffsets::new(station.name.clone(), x)
     }
 }
 
@@ -260,16 +312,16 @@ mod tests {
         assert_eq!(table.stations.len(), 26);
         for column in &table.stations {
             let x = column.station.x;
-            for (&z, y) in table.waterlines.iter().zip(&column.half_breadths) {
+            for (&z, y) in table.waterlines.iter().zip(column.half_breadths.iter().map(Cell::value)) {
                 let inside = x <= 100.0 + 0.3 * z + 1e-12 && z <= 9.0 + x / 103.0 + 1e-12;
                 assert_eq!(y.is_some(), inside, "{x} {z}");
                 if let Some(y) = y {
                     assert!((y - breadth(x, z)).abs() < 1e-12, "{x} {z} {y}");
                 }
             }
-            for (&y, z) in table.buttocks.iter().zip(&column.heights) {
+            for (&y, z) in table.buttocks.iter().zip(column.heights.iter().map(Cell::value)) {
                 match z {
-                    Some(z) if *z > 0.0 => assert!((breadth(x, *z) - y).abs() < 1e-10, "{x} {y} {z}"),
+                    Some(z) if z > 0.0 => assert!((breadth(x, z) - y).abs() < 1e-10, "{x} {y} {z}"),
                     Some(_) => assert!(breadth(x, 0.0) >= y),
                     None => assert!(breadth(x, 9.0 + x / 103.0) < y + 1e-9, "{x} {y}"),
                 }
