@@ -41,6 +41,8 @@ pub(super) struct Body {
     pub(super) ends: f64,
     /// Area of the transom projected along x [m^2].
     pub(super) transom: f64,
+    /// Area of the bottom across the keel line [m^2]; not set on level hulls, whose bottom is the same at every draught.
+    pub(super) bottom: f64,
     /// Area of the profile [m^2].
     pub(super) lateral: f64,
     /// Its moment about x = 0 [m^3].
@@ -75,9 +77,9 @@ pub(super) struct Node<const N: usize> {
     pub(super) slope: [f64; N],
     /// Weight of the rule.
     pub(super) weight: f64,
-    /// z.
+    /// z on a level hull, else 0.
     pub(super) z: f64,
-    /// dz/dv.
+    /// dz/dv on a level hull, else 0.
     pub(super) rise: f64,
 }
 
@@ -94,11 +96,13 @@ pub(super) fn nodes<const N: usize>(hull: &Hull, span: usize, end: f64, count: u
 /// The node at `v` in `span`.
 pub(super) fn node_at<const N: usize>(hull: &Hull, span: usize, v: f64, weight: f64) -> Node<N> {
     let first = span + 1 - N;
-    let heights = &hull.heights().points()[first..=span];
     let rows = hull.surface().v().basis_derivatives::<2>(span, v);
     let (mut value, mut slope) = ([0.0; N], [0.0; N]);
     value.copy_from_slice(&rows[0][..N]);
     slope.copy_from_slice(&rows[1][..N]);
+    let Some(heights) = hull.heights().map(|heights| &heights.points()[first..=span]) else {
+        return Node { first, value, slope, weight, z: 0.0, rise: 0.0 };
+    };
     let sum = |row: &[f64; N]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
     Node { first, value, slope, weight, z: sum(&value), rise: sum(&slope) }
 }
