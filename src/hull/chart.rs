@@ -100,13 +100,6 @@ pub(super) fn is_cut_by_deck(hull: &Hull) -> bool {
     })
 }
 
-/// The parameter u at which x(u, v) is `x`, the nearer end where the line `v` does not reach so far.
-pub(super) fn nearest_length_parameter(hull: &Hull, x: f64, v: f64) -> f64 {
-    let surface = hull.surface();
-    let (a, b) = surface.u().domain();
-    hull.length_parameter(x, v).unwrap_or(if x < surface.eval(a, v)[0] { a } else { b })
-}
-
 /// v of the point at height `z` on the station at `x`, continued along the profiles; none above and below its ends.
 pub(super) fn height_parameter_along(hull: &Hull, x: f64, z: f64) -> Option<f64> {
     let surface = hull.surface();
@@ -116,7 +109,7 @@ pub(super) fn height_parameter_along(hull: &Hull, x: f64, z: f64) -> Option<f64>
     }
     let height = |v: f64| {
         let u = hull.length_parameter(x, v);
-        let at = surface.tangents(u.unwrap_or_else(|| nearest_length_parameter(hull, x, v)), v);
+        let at = surface.tangents(u.unwrap_or_else(|| hull.nearest_length_parameter(x, v)), v);
         let inside = u.is_some() && at.du[0] > 0.0;
         (at.point[2], at.dv[2] - if inside { at.du[2] * at.dv[0] / at.du[0] } else { 0.0 })
     };
@@ -127,7 +120,7 @@ pub(super) fn height_parameter_along(hull: &Hull, x: f64, z: f64) -> Option<f64>
 pub(super) fn end_along(hull: &Hull, x: f64, z: f64) -> f64 {
     let (a, b) = hull.surface().v().domain();
     height_parameter_along(hull, x, z).unwrap_or_else(|| {
-        let u = nearest_length_parameter(hull, x, a);
+        let u = hull.nearest_length_parameter(x, a);
         if z <= hull.surface().eval(u, a)[2] { a } else { b }
     })
 }

@@ -19,6 +19,9 @@ use super::chart;
 use super::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
 
+/// A net that falls by less than this part of its largest coordinate does not fall.
+const ROUNDING: f64 = 1e-13;
+
 /// Why data do not make a hull.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HullError {
@@ -132,6 +135,9 @@ impl Hull {
         }
         let [rows, columns] = surface.shape();
         let (mut level, mut upright) = (true, true);
+        // A line that shrinks to a point has coordinates that are equal to rounding only.
+        let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
+        let noise = [ROUNDING * largest(0), ROUNDING * largest(2)];
         for row in 0..rows {
             for column in 0..columns {
                 let [x, y, z] = surface.point(row, column);
@@ -140,10 +146,10 @@ impl Hull {
                 }
                 level &= z.to_bits() == surface.point(0, column)[2].to_bits();
                 upright &= x.to_bits() == surface.point(row, 0)[0].to_bits();
-                if column > 0 && z < surface.point(row, column - 1)[2] {
+                if column > 0 && z < surface.point(row, column - 1)[2] - noise[1] {
                     return Err(HullError::Heights { row, column, problem: "z falls from bottom to top" });
                 }
-                if row > 0 && x < surface.point(row - 1, column)[0] {
+                if row > 0 && x < surface.point(row - 1, column)[0] - noise[0] {
                     return Err(HullError::Lengths { row, column });
                 }
             }
@@ -271,6 +277,12 @@ impl Hull {
             let d = self.surface.derivatives::<2>(u, v);
             (d[0][0][0], d[1][0][0])
         })
+    }
+
+    /// The parameter u at which x(u, v) is `x`, or the nearer end where the line `v` does not reach so far.
+    pub(crate) fn nearest_length_parameter(&self, x: f64, v: f64) -> f64 {
+        let (a, b) = self.surface.u().domain();
+        self.length_parameter(x, v).unwrap_or(if x < self.surface.eval(a, v)[0] { a } else { b })
     }
 
     /// The half-breadth at (x, z) \[m\]; none where the surface does not reach.

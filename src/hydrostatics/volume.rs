@@ -41,7 +41,7 @@ pub(super) struct Body {
     pub(super) ends: f64,
     /// Area of the transom projected along x [m^2].
     pub(super) transom: f64,
-    /// Area of the bottom across the keel line [m^2]; not set on level hulls, whose bottom is the same at every draught.
+    /// Area of the bottom across the keel line [m^2]; set apart on level hulls, whose bottom is the same at every draught.
     pub(super) bottom: f64,
     /// Area of the profile [m^2].
     pub(super) lateral: f64,
@@ -108,13 +108,13 @@ pub(super) fn node_at<const N: usize>(hull: &Hull, span: usize, v: f64, weight: 
 }
 
 /// Number of nodes in v on every span: volume moments are of degree 4q - 1, the wetted surface wants more.
-fn count_up(hull: &Hull) -> usize {
+pub(super) fn count_up(hull: &Hull) -> usize {
     let knots = hull.surface().v();
     (2 * knots.degree() + SKIN_NODES).max(NODES_UP.div_ceil(knots.spans().len()))
 }
 
 /// Number of nodes in u on every span: the moment about x = 0 is of degree 3p - 1.
-fn count_along(hull: &Hull) -> usize {
+pub(super) fn count_along(hull: &Hull) -> usize {
     let knots = hull.surface().u();
     (3 * knots.degree()).div_ceil(2).max(NODES_ALONG.div_ceil(knots.spans().len()))
 }
@@ -273,6 +273,7 @@ fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &Line) -> Bod
         side: 2.0 * node.weight * line.skin,
         ends: 2.0 * node.weight * (breadth_aft * length_aft + breadth_fore * length_fore),
         transom: 2.0 * height * breadth_aft,
+        bottom: 0.0,
         lateral: height * length,
         lateral_x: height * length * 0.5 * (stern + stem),
         lateral_z: height * length * node.z,
