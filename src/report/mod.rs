@@ -13,4 +13,4 @@ pub use files::{OutputFile, write_all, write_run};
 pub use generate::{Outputs, generate_outputs};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
-pub use source::{Source, offsets, read_design, read_source, sections_of};
+pub use source::{Source, offsets, read_design, read_source, read_table_file, sections_of};
