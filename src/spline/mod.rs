@@ -15,6 +15,7 @@ mod curve;
 mod evaluate;
 mod fit;
 mod gram;
+mod grid;
 mod knots;
 mod least_squares;
 mod parametrize;
@@ -23,6 +24,7 @@ mod powers;
 mod refine;
 mod surface;
 mod table;
+mod vertices;
 
 pub use bezier::{BezierCurve, BezierPatch};
 pub use curvature::SurfaceCurvature;
