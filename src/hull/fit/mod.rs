@@ -1,10 +1,15 @@
 //! From a table of offsets to a hull.
 
 mod method;
+mod methods;
 
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
-pub use method::FitMethod;
+use crate::spline::SplineError;
+pub use method::{
+    FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
+    UniformBicubic,
+};
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,9 +59,18 @@ pub enum FitError {
         /// What is needed.
         least: usize,
     },
+    /// The settings of the method are wrong, or do not go with the table: every problem.
+    #[error(transparent)]
+    Settings(#[from] SettingProblems),
     /// The surface is no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
+}
+
+impl From<SplineError> for FitError {
+    fn from(error: SplineError) -> Self {
+        Self::Hull(HullError::from(error))
+    }
 }
 
 impl Hull {
@@ -65,7 +79,15 @@ impl Hull {
     /// # Errors
     /// [`FitError`] when the table has too few offsets, or they make no hull.
     pub fn fit(table: &OffsetTable, method: &FitMethod) -> Result<Fitted, FitError> {
-        let _ = method;
-        Err(FitError::TooFew { stations: table.stations.len(), waterlines: table.waterlines.len(), least: 2 })
+        match method {
+            FitMethod::Graded => {
+                Err(FitError::TooFew { stations: table.stations.len(), waterlines: table.waterlines.len(), least: 2 })
+            }
+            FitMethod::Bilinear => methods::bilinear(table),
+            FitMethod::LeastSquares(settings) => methods::least_squares(table, settings),
+            FitMethod::UniformBicubic(settings) => methods::uniform_bicubic(table, settings),
+            FitMethod::QuadraticNet(settings) => methods::quadratic_net(table, settings),
+            FitMethod::ParametricStations(settings) => methods::parametric_stations(table, settings),
+        }
     }
 }
