@@ -18,7 +18,7 @@ pub use cell::{
     Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
 };
 pub use fit::{
-    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, NetKnots, ParametricStations, QuadraticNet,
+    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations, QuadraticNet,
     SettingProblem, SettingProblems, UniformBicubic,
 };
 pub use form::{Hull, HullError};

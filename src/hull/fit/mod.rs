@@ -2,6 +2,7 @@
 
 mod method;
 mod methods;
+mod misfit;
 
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
@@ -10,6 +11,7 @@ pub use method::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
     UniformBicubic,
 };
+pub use misfit::Misfit;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
