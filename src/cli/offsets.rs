@@ -35,7 +35,7 @@ pub(super) struct Arguments {
 
 fn notation(word: &str) -> Result<Notation, String> {
     let known = Notation::ALL.map(Notation::as_str).join(", ");
-    Notation::ALL.into_iter().find(|notation| notation.as_str() == word).ok_or(format!("known are {known}"))
+    Notation::from_word(word).ok_or(format!("known are {known}"))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {

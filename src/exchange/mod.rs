@@ -20,4 +20,6 @@ pub use offsets::{heights_csv, offsets_csv};
 pub use residuals::residuals_csv;
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
-pub use table::{ReadTable, Severity, TableProblem, read_table};
+pub use table::{
+    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, ReadTable, Severity, TableProblem, read_table,
+};

@@ -9,11 +9,11 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
-use super::source::{read_bytes, utf8};
+use super::source::{read_bytes, read_table_file, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
-    ManifestEntry, Particulars, conventions_json, hydrostatics_csv, offsets_csv, read_table, residuals_csv, row_json,
-    write_hull,
+    self, ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv,
+    row_json, write_hull,
 };
 use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
@@ -27,7 +27,7 @@ pub struct FitJob {
     /// The method.
     pub method: MethodFile,
     /// What was detected and assumed when the table was read.
-    pub reading: Vec<String>,
+    pub reading: Vec<TableProblem>,
     /// File of the table.
     table_file: PathBuf,
     /// The files that were read; the first is the one that the command named.
@@ -118,20 +118,7 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     let bytes = read_bytes(&table_file)?;
     // The file that the command named comes first.
     inputs.insert(if is_method(path) { inputs.len() } else { 0 }, entry(&table_file, &bytes));
-    let read = read_table(&table_file.display().to_string(), &bytes).map_err(|problems| {
-        let messages = problems.into_iter().map(|p| Diagnostic {
-            severity: Severity::Error,
-            code: p.code,
-            file: p.file,
-            line: p.row,
-            column: p.column,
-            key: String::new(),
-            message: if p.found.is_empty() { p.message } else { format!("'{}': {}", p.found, p.message) },
-            help: p.remedy,
-        });
-        Failure::Input(messages.collect())
-    })?;
-    let mut table = read.table;
+    let (mut table, notes) = read_table_file(&table_file)?;
     if table.name.trim().is_empty() {
         table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     }
@@ -140,8 +127,13 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     stated.breadth = over.breadth.or(stated.breadth);
     stated.draught = draught.or(over.draught).or(stated.draught);
     stated.depth = over.depth.or(stated.depth);
-    let reading = read.notes.iter().map(ToString::to_string).collect();
-    Ok(FitJob { table, method, reading, table_file, inputs })
+    Ok(FitJob { table, method, reading: notes, table_file, inputs })
+}
+
+/// A remark about the table without the name of its file.
+fn remark(problem: &TableProblem) -> String {
+    let TableProblem { code, message, remedy, .. } = problem;
+    if remedy.is_empty() { format!("{code} {message}") } else { format!("{code} {message}. {remedy}") }
 }
 
 fn chart_word(chart: Chart) -> &'static str {
@@ -185,7 +177,7 @@ fn summary(job: &FitJob, fitted: &Fitted, row: &Hydrostatics, conventions: &Conv
             "worst": worst,
         },
         "notes": fitted.notes,
-        "reading": job.reading,
+        "reading": job.reading.iter().map(remark).collect::<Vec<_>>(),
         "design": row_json(row),
         "conventions": conventions_json(conventions),
     })
@@ -258,7 +250,8 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
         ),
         2,
     ));
-    for note in fitted.notes.iter().chain(&job.reading) {
+    let warnings = job.reading.iter().filter(|p| p.severity != exchange::Severity::Note).map(remark);
+    for note in fitted.notes.iter().cloned().chain(warnings) {
         page.push_str(&wrapped(&format!("- {note}"), 2));
     }
     page.push('\n');

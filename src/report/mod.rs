@@ -15,4 +15,4 @@ pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
 pub use generate::{Outputs, generate_outputs};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
-pub use source::{Source, offsets, read_design, read_source, sections_of};
+pub use source::{Source, offsets, read_design, read_source, read_table_file, sections_of};

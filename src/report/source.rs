@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use crate::config::{self, Design, Diagnostic, Severity};
-use crate::exchange::{self, HullFile, HullFileError};
+use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::hull::{Cut, Hull, OffsetStation, OffsetTable, Section};
 use crate::hydrostatics::Conventions;
 use crate::parametric::{Family, Generated};
@@ -128,6 +128,32 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
             Err(Failure::Input(vec![diagnostic("E140", &file, Some(line), Some(column), format!("{field}{message}"))]))
         }
         Err(error) => Err(Failure::Input(vec![diagnostic("E141", &file, None, None, error.to_string())])),
+    }
+}
+
+/// The table of offsets of a file, with what should be known about it.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
+pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    let bytes = read_bytes(path)?;
+    let read = exchange::read_table(&path.display().to_string(), &bytes);
+    read.map(|ReadTable { table, notes }| (table, notes))
+        .map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))
+}
+
+/// A problem of a table among the messages about files.
+fn of_table(problem: TableProblem) -> Diagnostic {
+    let quoted = if problem.found.is_empty() { String::new() } else { format!("'{}': ", problem.found) };
+    Diagnostic {
+        severity: if problem.severity == exchange::Severity::Error { Severity::Error } else { Severity::Warning },
+        code: problem.code,
+        file: problem.file,
+        line: problem.row,
+        column: problem.column,
+        key: String::new(),
+        message: format!("{quoted}{}", problem.message),
+        help: problem.remedy,
     }
 }
 
