@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
-fn figure(word: &str) -> Result<Figure, String> {
+pub(super) fn figure(word: &str) -> Result<Figure, String> {
     Figure::ALL
         .into_iter()
         .find(|figure| figure.key() == word.trim())

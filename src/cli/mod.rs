@@ -2,6 +2,7 @@
 //! returned by a library function.
 
 mod convert;
+mod fit;
 mod generate;
 mod hydro;
 mod new;
@@ -33,9 +34,11 @@ const EXIT_CODES: &str = "Lists: 1:9:1 (from:to:step, both ends), 1,2.5,4 or 0,5
 enum Command {
     /// Generate a hull from a design file: hull, offsets, hydrostatics, summary, figures
     Generate(generate::Arguments),
+    /// Fit a hull to a table of offsets: hull, residuals, hydrostatics, figures
+    Fit(fit::Arguments),
     /// Print a commented design file; without a name, list the names
     New(new::Arguments),
-    /// Print the JSON Schema of the design file
+    /// Print the JSON Schema of the design file or of the method file
     Schema(schema::Arguments),
     /// Hydrostatic table of a hull at any draughts
     Hydro(hydro::Arguments),
@@ -73,6 +76,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let done = match &cli.command {
         Command::Generate(arguments) => generate::run(arguments),
+        Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),

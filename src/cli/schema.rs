@@ -1,15 +1,17 @@
-//! `loftsman schema [design]`
+//! `loftsman schema [design|method]`
 
 use clap::{Args, ValueEnum};
 
 use super::stream;
-use crate::config::design_schema;
+use crate::config::{design_schema, method_schema};
 use crate::report::Failure;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum File {
     /// The design file of `generate`
     Design,
+    /// The method file of `fit`
+    Method,
 }
 
 #[derive(Debug, Args)]
@@ -22,5 +24,6 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.file {
         File::Design => stream::data(&stream::json(&design_schema())?),
+        File::Method => stream::data(&stream::json(&method_schema())?),
     }
 }

@@ -54,6 +54,10 @@ pub(super) struct Entry {
 pub(super) struct Document<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
+    /// The keys that such a file has.
+    keys: &'static [Key],
+    /// What such a file is, "a design".
+    pub(super) noun: &'static str,
     pub(super) entries: Vec<Entry>,
     /// Tables that the file opens, by their path in lower case, with the byte where their name stands.
     pub(super) tables: Vec<(String, usize)>,
@@ -96,12 +100,18 @@ pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>)
 }
 
 impl<'a> Document<'a> {
-    /// Reads a text; whatever is wrong with it stands in `problems`.
+    /// Reads the text of a design; whatever is wrong with it stands in `problems`.
     pub(super) fn read(file: &'a str, text: &'a str) -> Self {
-        let mut document = Self { file, text, entries: Vec::new(), tables: Vec::new(), problems: Vec::new() };
+        Self::with_keys(file, text, KEYS, "a design")
+    }
+
+    /// Reads the text of a file with `keys`, which is `noun` in messages.
+    pub(super) fn with_keys(file: &'a str, text: &'a str, keys: &'static [Key], noun: &'static str) -> Self {
+        let (entries, tables, problems) = (Vec::new(), Vec::new(), Vec::new());
+        let mut document = Self { file, text, keys, noun, entries, tables, problems };
         if text.len() > LARGEST {
             document
-                .whole_file("E120", format!("the file has {} bytes; a design file has at most {LARGEST}", text.len()));
+                .whole_file("E120", format!("the file has {} bytes; {noun} file has at most {LARGEST}", text.len()));
             return document;
         }
         let (table, errors) = DeTable::parse_recoverable(text);
@@ -147,8 +157,8 @@ impl<'a> Document<'a> {
         for (name, value) in table {
             let full = if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
             let lower = full.to_lowercase();
-            let is_table = KEYS.iter().any(|k| under(k.table, &lower));
-            let known = KEYS.iter().find(|k| k.path().to_lowercase() == lower);
+            let is_table = self.keys.iter().any(|k| under(k.table, &lower));
+            let known = self.keys.iter().find(|k| k.path().to_lowercase() == lower);
             match (value.get_ref(), known) {
                 (DeValue::Table(inner), None) if is_table => {
                     self.tables.push((lower.clone(), name.span().start));
@@ -184,21 +194,9 @@ impl<'a> Document<'a> {
     }
 
     fn unknown(&mut self, path: &str, name: &str, full: &str, span: &Range<usize>) {
-        let here = KEYS.iter().filter(|k| k.table.to_lowercase() == path).map(|k| k.name);
-        let tables = [
-            "project",
-            "dimensions",
-            "form",
-            "water",
-            "weight",
-            "conventions",
-            "output",
-            "bow",
-            "stern",
-            "deck",
-            "raw",
-        ];
-        let elsewhere = KEYS.iter().find(|k| k.name.eq_ignore_ascii_case(name));
+        let here = self.keys.iter().filter(|k| k.table.to_lowercase() == path).map(|k| k.name);
+        let tables = self.keys.iter().flat_map(|k| k.table.split('.')).filter(|word| !word.is_empty());
+        let elsewhere = self.keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
         let help = if let Some(key) = elsewhere {
             if key.table.is_empty() {
                 format!("{} stands at the top of the file.", key.name)
@@ -207,12 +205,12 @@ impl<'a> Document<'a> {
             }
         } else if let Some(near) = nearest(name, here.clone().chain(tables)) {
             format!("Did you mean {near}?")
-        } else if let Some(near) = nearest(name, KEYS.iter().map(|k| k.name)) {
-            let table = KEYS.iter().find(|k| k.name == near).map_or("", |k| k.table);
+        } else if let Some(near) = nearest(name, self.keys.iter().map(|k| k.name)) {
+            let table = self.keys.iter().find(|k| k.name == near).map_or("", |k| k.table);
             format!("Did you mean {near} of [{table}]?")
         } else {
             let mut names: Vec<String> = here.map(str::to_owned).collect();
-            for key in KEYS.iter().filter(|k| !k.table.is_empty()) {
+            for key in self.keys.iter().filter(|k| !k.table.is_empty()) {
                 let inside = match path {
                     "" => Some(key.table),
                     _ => key.table.strip_prefix(path).and_then(|rest| rest.strip_prefix('.')),
@@ -227,10 +225,10 @@ impl<'a> Document<'a> {
                 format!("Known here: {}.", names.join(", "))
             }
         };
-        self.problem("E121", full, span, format!("{full} is not a key of a design"), help);
+        self.problem("E121", full, span, format!("{full} is not a key of {}", self.noun), help);
     }
 
-    /// The entry of a key, by its path as in [`KEYS`].
+    /// The entry of a key, by its path as in the list of keys.
     pub(super) fn entry(&self, path: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key.path() == path)
     }

@@ -31,6 +31,8 @@ pub enum Kind {
     Interval,
     /// Positions: a list, text in list notation, or a table with from, to, step.
     Positions,
+    /// Plain numbers.
+    Numbers,
     /// Shell plating: a table with thickness or factor.
     Shell,
     /// Names from the list, one or several, or `all`, or `none`.
@@ -98,7 +100,7 @@ pub const FIGURES: [&str; 5] = ["lines", "sections", "sectional-area", "hydrosta
 const COSH: &[&str] = &["cosh"];
 const RAW: &[&str] = &["ucl-cosh"];
 
-const fn key(
+pub(super) const fn key(
     table: &'static str,
     name: &'static str,
     kind: Kind,

@@ -1,10 +1,11 @@
-//! The JSON Schema of the design file (draft 2020-12), made from the one list of keys.
+//! The JSON Schema of the design file and of the method file (draft 2020-12), made from their lists of keys.
 //!
 //! Keys are case-insensitive for the program; an editor sees them in their house spelling.
 
 use serde_json::{Map, Value, json};
 
 use super::keys::{FIGURES, KEYS, Key, Kind};
+use super::method::METHOD_KEYS;
 
 fn number_or_text(examples: &[&str]) -> Value {
     json!({ "type": ["number", "string"], "examples": examples })
@@ -41,6 +42,7 @@ fn value_schema(kind: Kind) -> Value {
                 "additionalProperties": false
             }
         ] }),
+        Kind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
         Kind::Shell => json!({
             "type": "object",
             "properties": { "thickness": { "type": ["number", "string"] }, "factor": { "type": ["number", "string"] } },
@@ -56,11 +58,11 @@ fn value_schema(kind: Kind) -> Value {
     }
 }
 
-/// The schema of one table: its keys and the tables in it.
-fn table_schema(table: &str) -> Value {
+/// The schema of one table of a file with `keys`: its keys and the tables in it.
+fn table_schema(keys: &'static [Key], word: &str, table: &str) -> Value {
     let mut properties = Map::new();
-    for key in KEYS.iter().filter(|key| key.table == table) {
-        properties.insert(key.name.to_owned(), key_schema(key));
+    for key in keys.iter().filter(|key| key.table == table) {
+        properties.insert(key.name.to_owned(), key_schema(key, word));
     }
     let inside = |key: &&Key| -> Option<&'static str> {
         let rest = match table {
@@ -69,23 +71,23 @@ fn table_schema(table: &str) -> Value {
         };
         rest.split('.').next().filter(|word| !word.is_empty())
     };
-    for key in KEYS {
+    for key in keys {
         if let Some(child) = inside(&key)
             && !properties.contains_key(child)
         {
             let path = if table.is_empty() { child.to_owned() } else { format!("{table}.{child}") };
-            properties.insert(child.to_owned(), table_schema(&path));
+            properties.insert(child.to_owned(), table_schema(keys, word, &path));
         }
     }
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
-fn key_schema(key: &Key) -> Value {
+fn key_schema(key: &Key, word: &str) -> Value {
     let mut schema = value_schema(key.kind);
     if let Some(object) = schema.as_object_mut() {
         let mut description = key.description.to_owned();
         if !key.families.is_empty() {
-            description.push_str(&format!(" Family {} only.", key.families.join(", ")));
+            description.push_str(&format!(" {word} {} only.", key.families.join(", ")));
         }
         object.insert("description".into(), Value::String(description));
     }
@@ -95,11 +97,24 @@ fn key_schema(key: &Key) -> Value {
 /// The JSON Schema of the design file.
 #[must_use]
 pub fn design_schema() -> Value {
-    let mut schema = table_schema("");
+    let description =
+        "A ship's hull in numbers. Plain numbers are SI units and degrees; keys may be written in upper or lower case.";
+    file_schema(KEYS, "Family", "loftsman design file", description)
+}
+
+/// The JSON Schema of the method file.
+#[must_use]
+pub fn method_schema() -> Value {
+    let description = "How a table of offsets becomes a surface. Plain numbers are metres; keys may be written in upper or lower case.";
+    file_schema(METHOD_KEYS, "Method", "loftsman method file", description)
+}
+
+fn file_schema(keys: &'static [Key], word: &str, title: &str, description: &str) -> Value {
+    let mut schema = table_schema(keys, word, "");
     if let Some(object) = schema.as_object_mut() {
         object.insert("$schema".into(), json!("https://json-schema.org/draft/2020-12/schema"));
-        object.insert("title".into(), json!("loftsman design file"));
-        object.insert("description".into(), json!("A ship's hull in numbers. Plain numbers are SI units and degrees; keys may be written in upper or lower case."));
+        object.insert("title".into(), json!(title));
+        object.insert("description".into(), json!(description));
     }
     schema
 }
@@ -110,16 +125,17 @@ mod tests {
 
     #[test]
     fn every_key_stands_in_the_schema_with_its_description() {
-        let schema = design_schema();
-        for key in KEYS {
-            let mut at = &schema;
-            for word in key.table.split('.').filter(|w| !w.is_empty()) {
-                at = &at["properties"][word];
-                assert_eq!(at["additionalProperties"], json!(false), "{}", key.path());
+        for (schema, keys) in [(design_schema(), KEYS), (method_schema(), METHOD_KEYS)] {
+            for key in keys {
+                let mut at = &schema;
+                for word in key.table.split('.').filter(|w| !w.is_empty()) {
+                    at = &at["properties"][word];
+                    assert_eq!(at["additionalProperties"], json!(false), "{}", key.path());
+                }
+                let found = at["properties"][key.name]["description"].as_str().unwrap();
+                assert!(found.starts_with(key.description), "{}", key.path());
             }
-            let found = at["properties"][key.name]["description"].as_str().unwrap();
-            assert!(found.starts_with(key.description), "{}", key.path());
+            assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
         }
-        assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
     }
 }

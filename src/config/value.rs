@@ -32,6 +32,7 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::Interval => "two fractions of Lpp from AP, as [0.42, 0.58]".into(),
         Kind::Positions => "{ from = 1, to = 9, step = 1 }, a list of lengths, or \"1:9:1\"".into(),
         Kind::Shell => "{ thickness = \"10 mm\" } or { factor = 1.006 }".into(),
+        Kind::Numbers => "a list of numbers, as [0, 0, 1, 2, 2]".into(),
         Kind::Figures => format!("\"all\", \"none\" or names of {}", FIGURES.join(", ")),
     }
 }
@@ -223,6 +224,23 @@ impl Document<'_> {
         None
     }
 
+    /// Plain numbers of a list; every bad item is reported.
+    pub(super) fn numbers(&mut self, path: &str) -> Option<Vec<f64>> {
+        let (raw, span, kind) = self.raw(path)?;
+        let Raw::Array(items) = &raw else {
+            self.unexpected(path, &raw, &span, kind);
+            return None;
+        };
+        let mut numbers = Vec::with_capacity(items.len());
+        for (item, at) in items {
+            match item {
+                Raw::Number(value) if value.is_finite() => numbers.push(*value),
+                other => self.unexpected(path, other, at, Kind::Number),
+            }
+        }
+        (numbers.len() == items.len()).then_some(numbers)
+    }
+
     /// Positions \[m\] of a list.
     pub(super) fn positions(&mut self, path: &str) -> Option<Vec<f64>> {
         let (raw, span, kind) = self.raw(path)?;
@@ -288,7 +306,7 @@ impl Document<'_> {
                         Some(near) => format!("Did you mean {near}?"),
                         None => format!("Known here: {}.", names.join(", ")),
                     };
-                    self.problem("E121", path, span, format!("{path}.{name} is not a key of a design"), help);
+                    self.problem("E121", path, span, format!("{path}.{name} is not a key of {}", self.noun), help);
                 }
             }
         }

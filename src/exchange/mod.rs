@@ -7,6 +7,7 @@ mod hydrostatics;
 mod manifest;
 mod number;
 mod offsets;
+mod residuals;
 mod section;
 mod summary;
 mod table;
@@ -16,6 +17,7 @@ pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
 pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use offsets::{heights_csv, offsets_csv};
+pub use residuals::residuals_csv;
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{

@@ -19,7 +19,10 @@ pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
 pub(crate) use charted::advance;
-pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
+pub use fit::{
+    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations, QuadraticNet,
+    SettingProblem, SettingProblems, UniformBicubic,
+};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

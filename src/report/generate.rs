@@ -67,7 +67,6 @@ fn stations(design: &Design, hull: &Hull) -> Vec<OffsetStation> {
 /// # Errors
 /// [`Failure::Infeasible`] with every reason; [`Failure::Internal`] when a table or a figure cannot be made.
 pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figure]) -> Result<Outputs, Failure> {
-    let internal = |what: &str, error: &dyn std::fmt::Display| Failure::Internal(format!("{what}: {error}"));
     let generated = build(design)?;
     let hull = generated.hull;
     let particulars = *hull.particulars();
@@ -123,27 +122,15 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         remarks: generated.remarks.iter().map(|r| format!("{} {}", r.code, r.message)).collect(),
     };
 
-    let mut summary_text = serde_json::to_string_pretty(&summary).map_err(|e| internal("summary.json", &e))?;
-    summary_text.push('\n');
     let mut files = vec![
         OutputFile::text("hull.json", write_hull(&hull, &design.conventions).map_err(|e| internal("hull.json", &e))?),
         OutputFile::text("offsets.csv", offsets_csv(&offsets, Notation::Metres, true)),
         OutputFile::text("heights.csv", heights_csv(&offsets, Notation::Metres)),
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
-        OutputFile::text("summary.json", summary_text),
+        json_file("summary.json", &summary)?,
     ];
     let inputs = FigureInputs { hull: &hull, design: &design_row, curves: &table };
-    for figure in figures {
-        let svg = figure.draw(&inputs).map_err(|e| internal(figure.key(), &e))?;
-        // The body plan goes into documents and cutters as it is; the others are looked at.
-        files.push(match figure {
-            Figure::Sections => OutputFile::text("sections.svg", svg.as_str().to_owned()),
-            _ => OutputFile {
-                name: format!("{}.png", figure.key()),
-                contents: svg.to_png(figure.dots_per_inch()).map_err(|e| internal(figure.key(), &e))?,
-            },
-        });
-    }
+    files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };
     let references: Vec<_> = design.reference.iter().cloned().collect();
@@ -151,14 +138,44 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     outputs.files.push(OutputFile::text("report.md", markdown_page(&outputs, &references, &rows)));
     outputs.files.sort_by(|a, b| a.name.cmp(&b.name));
     let name = input.0.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let manifest = manifest_file(ManifestEntry::new(&name, input.1), &outputs.files)?;
+    outputs.files.push(manifest);
+    Ok(outputs)
+}
+
+fn internal(what: &str, error: &dyn std::fmt::Display) -> Failure {
+    Failure::Internal(format!("{what}: {error}"))
+}
+
+/// A file of JSON with a line end.
+pub(super) fn json_file(name: &str, value: &impl serde::Serialize) -> Result<OutputFile, Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| internal(name, &e))?;
+    Ok(OutputFile::text(name, text + "\n"))
+}
+
+/// The figures as files.
+pub(super) fn figure_files(inputs: &FigureInputs<'_>, figures: &[Figure]) -> Result<Vec<OutputFile>, Failure> {
+    let file = |figure: &Figure| {
+        let svg = figure.draw(inputs).map_err(|e| internal(figure.key(), &e))?;
+        // The body plan goes into documents and cutters as it is; the others are looked at.
+        Ok(match figure {
+            Figure::Sections => OutputFile::text("sections.svg", svg.as_str().to_owned()),
+            _ => OutputFile {
+                name: format!("{}.png", figure.key()),
+                contents: svg.to_png(figure.dots_per_inch()).map_err(|e| internal(figure.key(), &e))?,
+            },
+        })
+    };
+    figures.iter().map(file).collect()
+}
+
+/// The manifest of a run that wrote `files`.
+pub(super) fn manifest_file(input: ManifestEntry, files: &[OutputFile]) -> Result<OutputFile, Failure> {
     let manifest = Manifest {
         program: env!("CARGO_PKG_NAME"),
         version: env!("CARGO_PKG_VERSION"),
-        input: ManifestEntry::new(&name, input.1),
-        outputs: outputs.files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
+        input,
+        outputs: files.iter().map(|file| ManifestEntry::new(&file.name, &file.contents)).collect(),
     };
-    let mut manifest_text = serde_json::to_string_pretty(&manifest).map_err(|e| internal("manifest.json", &e))?;
-    manifest_text.push('\n');
-    outputs.files.push(OutputFile::text("manifest.json", manifest_text));
-    Ok(outputs)
+    json_file("manifest.json", &manifest)
 }

@@ -1,8 +1,9 @@
-//! Whole jobs: from a design to the files about it, and what is printed of them.
+//! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
 mod convert;
 mod failure;
 mod files;
+mod fit;
 mod generate;
 mod markdown;
 mod page;
@@ -12,6 +13,7 @@ mod source;
 pub use convert::{Converted, convert_table};
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};
+pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
 pub use generate::{Outputs, generate_outputs};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};

@@ -6,7 +6,7 @@ use crate::hydrostatics::{
     CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
 };
 
-const WIDTH: usize = 80;
+pub(super) const WIDTH: usize = 80;
 
 /// Value of a quantity with its decimals; empty when it is not defined.
 pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
@@ -39,7 +39,7 @@ pub(super) fn unit(key: &str) -> &'static str {
 }
 
 /// Cuts a text at words to lines of at most [`WIDTH`] characters, later lines indented.
-fn wrapped(text: &str, indent: usize) -> String {
+pub(super) fn wrapped(text: &str, indent: usize) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;
@@ -96,6 +96,17 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
         }
         page.push('\n');
     }
+    page.push_str(&quantities(&outputs.design_row, conventions, p.lpp));
+    page.push('\n');
+    page.push_str(&wrapped(&conventions_line(conventions), 2));
+    let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
+    page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
+    page
+}
+
+/// The quantities of a condition that a page shows; `length` is Lpp \[m\].
+pub(super) fn quantities(row: &Hydrostatics, conventions: &Conventions, length: f64) -> String {
+    let mut page = String::new();
     // The other way to say where the centre of buoyancy is.
     let second = if conventions.lcb_reference == LcbReference::Percent { "XCB" } else { "XCBPC" };
     let keys = [
@@ -109,18 +120,14 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
     for keys in keys {
         let cells = keys.map(|key| {
             let (shown, unit) = match key {
-                "LCB" => (lcb(&outputs.design_row, conventions, p.lpp), conventions.lcb_reference.unit()),
-                _ => (value(&outputs.design_row, key), unit(key)),
+                "LCB" => (lcb(row, conventions, length), conventions.lcb_reference.unit()),
+                _ => (value(row, key), unit(key)),
             };
             format!("{key:<8}{shown:>11} {unit:<7}")
         });
         page.push_str(cells.join("").trim_end());
         page.push('\n');
     }
-    page.push('\n');
-    page.push_str(&wrapped(&conventions_line(conventions), 2));
-    let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
-    page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
     page
 }
 

@@ -25,7 +25,7 @@ pub struct Source {
 /// No input is longer than this \[bytes\]; the readers have limits of their own.
 const LARGEST_INPUT: u64 = exchange::LARGEST_HULL_FILE as u64;
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let failure = |error| Failure::FileSystem { act: "read", path: path.to_owned(), error };
     let mut bytes = Vec::new();
     // One byte more than may be read tells a file that is too long, also one without an end.
@@ -56,7 +56,7 @@ fn diagnostic(
     }
 }
 
-fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+pub(super) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].iter().filter(|&&b| b == b'\n').count() + 1;

@@ -16,6 +16,7 @@ mod energy;
 mod evaluate;
 mod fit;
 mod gram;
+mod grid;
 mod knots;
 mod least_squares;
 mod parametrize;
@@ -24,6 +25,7 @@ mod powers;
 mod refine;
 mod surface;
 mod table;
+mod vertices;
 
 pub use bezier::{BezierCurve, BezierPatch};
 pub use curvature::SurfaceCurvature;

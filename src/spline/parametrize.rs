@@ -118,6 +118,54 @@ impl KnotVector {
         Self::clamped_around(degree, sites, count, interior)
     }
 
+    /// Knots for interpolation at `sites` between the sites themselves (Silalahi 1999): for n sites t_1 .. t_n and the order
+    /// k = `degree` + 1, the interior knots are x_{k+i} = t_{j+i} + (s/2) (t_{j+i+1} - t_{j+i}), 1 <= i <= n - k, with
+    /// j = k div 2 and s = k mod 2. For even orders they are sites (two at each end left out, for a cubic: the spline has no
+    /// knot there), for odd orders they lie midway between two.
+    ///
+    /// # Errors
+    /// As [`KnotVector::averaged`].
+    pub fn between_sites(degree: usize, sites: &[f64]) -> Result<Self, SplineError> {
+        check_sites(sites)?;
+        let interior = |p: usize| -> Vec<f64> {
+            let (order, half) = (p + 1, 0.5 * ((p + 1) % 2) as f64);
+            (1..=sites.len() - order)
+                .map(|i| {
+                    // t_{j+i}, counted from 1.
+                    let at = order / 2 + i - 1;
+                    sites[at] + half * (sites[at + 1] - sites[at])
+                })
+                .collect()
+        };
+        Self::clamped_around(degree, sites, sites.len(), interior)
+    }
+
+    /// Clamped knots of the same functions as `count` control points have over `knots` that need not be clamped, on the
+    /// part where they make a full basis, \[t_p, t_count\] (counted from 0). Knots behind the last that `count` control
+    /// points reach are left out.
+    ///
+    /// # Errors
+    /// [`SplineError::PointCount`] when there are fewer than `count + degree + 1` knots or `count` is below `degree + 1`;
+    /// [`SplineError::Knot`] when they decrease; and as [`KnotVector::new`].
+    pub fn from_unclamped(degree: usize, knots: &[f64], count: usize) -> Result<Self, SplineError> {
+        if !(1..=super::MAX_DEGREE).contains(&degree) {
+            return Err(SplineError::Degree(degree));
+        }
+        if count < degree + 1 || knots.len() < count + degree + 1 {
+            return Err(SplineError::PointCount { found: knots.len(), expected: count.max(degree + 1) + degree + 1 });
+        }
+        let used = &knots[..count + degree + 1];
+        if let Some(k) = used.windows(2).position(|w| w[0].is_nan() || w[1].is_nan() || w[1] < w[0]) {
+            let problem = "smaller than the knot before it";
+            return Err(SplineError::Knot { index: k + 1, value: used[k + 1], problem });
+        }
+        let (a, b) = (used[degree], used[count]);
+        let mut clamped = vec![a; degree + 1];
+        clamped.extend(used.iter().filter(|&&t| t > a && t < b));
+        clamped.extend(std::iter::repeat_n(b, degree + 1));
+        Self::new(degree, clamped)
+    }
+
     fn clamped_around(
         degree: usize,
         sites: &[f64],
@@ -188,6 +236,39 @@ mod tests {
         let sites: Vec<f64> = (0..7).map(f64::from).collect();
         let k = KnotVector::for_least_squares(2, &sites, 5).unwrap();
         assert!((k.knots()[3] - 4.0 / 3.0).abs() < 1e-14 && (k.knots()[4] - 11.0 / 3.0).abs() < 1e-14);
+    }
+
+    /// n = 6 sites: order 3 has its knots midway between inner sites, order 4 at the third and the last but two.
+    #[test]
+    fn knots_between_sites() {
+        let sites = [0.0, 1.0, 3.0, 4.0, 6.0, 7.0];
+        let inner = |degree: usize| {
+            let k = KnotVector::between_sites(degree, &sites).unwrap();
+            k.knots()[degree + 1..k.knots().len() - degree - 1].to_vec()
+        };
+        assert_eq!(inner(2), [2.0, 3.5, 5.0]);
+        assert_eq!(inner(3), [3.0, 4.0]);
+        assert_eq!(inner(4), [3.5]);
+        assert!(inner(5).is_empty());
+        assert!(matches!(KnotVector::between_sites(6, &sites), Err(SplineError::PointCount { found: 6, expected: 7 })));
+        assert!(matches!(KnotVector::between_sites(2, &[0.0, 0.0, 1.0]), Err(SplineError::Site { index: 1, .. })));
+    }
+
+    /// The basis over the clamped knots spans what the functions over the knots as they are span.
+    #[test]
+    fn knots_that_are_not_clamped() {
+        let open: Vec<f64> = [3., 3., 3., 6., 7., 7., 9., 10.].to_vec();
+        let k = KnotVector::from_unclamped(2, &open, 4).unwrap();
+        assert_eq!(k.knots(), [3., 3., 3., 6., 7., 7., 7.]);
+        let uniform: Vec<f64> = (0..9).map(f64::from).collect();
+        let k = KnotVector::from_unclamped(3, &uniform, 5).unwrap();
+        assert_eq!(k.knots(), [3., 3., 3., 3., 4., 5., 5., 5., 5.]);
+        assert_eq!(k.basis_count(), 5);
+        let error = |knots: &[f64], count| KnotVector::from_unclamped(2, knots, count).unwrap_err();
+        assert_eq!(error(&open, 6), SplineError::PointCount { found: 8, expected: 9 });
+        assert_eq!(error(&open, 2), SplineError::PointCount { found: 8, expected: 6 });
+        assert!(matches!(error(&[0., 1., 2., 1., 3., 4.], 3), SplineError::Knot { index: 3, .. }));
+        assert!(matches!(KnotVector::from_unclamped(0, &open, 4), Err(SplineError::Degree(0))));
     }
 
     #[test]

@@ -6,6 +6,8 @@
 mod chart;
 mod level;
 mod method;
+mod methods;
+mod misfit;
 mod monotone;
 mod particulars;
 mod rows;
@@ -13,7 +15,12 @@ mod rows;
 use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
-pub use method::FitMethod;
+use crate::spline::SplineError;
+pub use method::{
+    FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
+    UniformBicubic,
+};
+pub use misfit::Misfit;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,9 +70,18 @@ pub enum FitError {
         /// What is needed.
         least: usize,
     },
+    /// The settings of the method are wrong, or do not go with the table: every problem.
+    #[error(transparent)]
+    Settings(#[from] SettingProblems),
     /// The surface is no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
+}
+
+impl From<SplineError> for FitError {
+    fn from(error: SplineError) -> Self {
+        Self::Hull(HullError::from(error))
+    }
 }
 
 impl Hull {
@@ -76,6 +92,11 @@ impl Hull {
     pub fn fit(table: &OffsetTable, method: &FitMethod) -> Result<Fitted, FitError> {
         match method {
             FitMethod::Graded => graded(table),
+            FitMethod::Bilinear => methods::bilinear(table),
+            FitMethod::LeastSquares(settings) => methods::least_squares(table, settings),
+            FitMethod::UniformBicubic(settings) => methods::uniform_bicubic(table, settings),
+            FitMethod::QuadraticNet(settings) => methods::quadratic_net(table, settings),
+            FitMethod::ParametricStations(settings) => methods::parametric_stations(table, settings),
         }
     }
 }

@@ -1,0 +1,264 @@
+//! The job of `fit`: a table and a method in, the hull and every file about it out. Nothing is written here.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::generate::{figure_files, json_file, manifest_file};
+use super::page::{WIDTH, conventions_line, quantities, wrapped};
+use super::source::{read_bytes, read_table_file, utf8};
+use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
+use crate::exchange::{
+    self, ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv,
+    row_json, write_hull,
+};
+use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
+use crate::plot::{Figure, FigureInputs};
+
+/// What is to be fitted, and how.
+#[derive(Debug, Clone)]
+pub struct FitJob {
+    /// The table, with what the method file and the command say of its dimensions.
+    pub table: OffsetTable,
+    /// The method.
+    pub method: MethodFile,
+    /// What was detected and assumed when the table was read.
+    pub reading: Vec<TableProblem>,
+    /// File of the table.
+    table_file: PathBuf,
+    /// The files that were read; the first is the one that the command named.
+    inputs: Vec<ManifestEntry>,
+}
+
+/// What a fit gives.
+#[derive(Debug, Clone)]
+pub struct FitOutputs {
+    /// The hull, its cells and what was assumed.
+    pub fitted: Fitted,
+    /// Hydrostatics at the design draught.
+    pub design_row: Hydrostatics,
+    /// The hydrostatic table.
+    pub table: CurvesOfForm,
+    /// The contents of `fit.json`.
+    pub summary: Value,
+    /// The files, in the order of their names; the manifest is the last.
+    pub files: Vec<OutputFile>,
+}
+
+fn problem(code: &'static str, file: &Path, message: String, help: String) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        code,
+        file: file.display().to_string(),
+        line: None,
+        column: None,
+        key: String::new(),
+        message,
+        help,
+    }
+}
+
+fn entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
+    ManifestEntry::new(&path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(), bytes)
+}
+
+fn is_method(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+fn read_method_file(path: &Path, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFile, Failure> {
+    let bytes = read_bytes(path)?;
+    inputs.push(entry(path, &bytes));
+    let text = utf8(path, bytes)?;
+    config::read_method(&path.display().to_string(), &text).map_err(Failure::Input)
+}
+
+/// The method that a word or a file names.
+fn named_method(word: &str, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFile, Failure> {
+    if let Some(method) = FitMethod::all().into_iter().find(|method| method.as_str().eq_ignore_ascii_case(word)) {
+        return Ok(MethodFile::new(method));
+    }
+    let path = Path::new(word);
+    if !is_method(path) && fs::metadata(path).is_err() {
+        let known = METHODS.join(", ");
+        return Err(Failure::Usage(format!("the method '{word}' is neither a file nor one of {known}")));
+    }
+    read_method_file(path, inputs)
+}
+
+/// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `method` is a word of
+/// [`METHODS`] or a method file; `draught` \[m\] stands over that of the files.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of a file; [`Failure::Usage`].
+pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
+    let mut inputs = Vec::new();
+    let (method, table_file) = if is_method(path) {
+        if let Some(word) = method {
+            let message = format!("{} is a method file already; --method {word} says it twice", path.display());
+            return Err(Failure::Usage(message));
+        }
+        let file = read_method_file(path, &mut inputs)?;
+        let Some(table) = &file.table else {
+            let help =
+                "Write table = \"FILE\" in it, or give the table and the method: fit TABLE --method FILE".to_owned();
+            return Err(Failure::Input(vec![problem("E161", path, "the file names no table".to_owned(), help)]));
+        };
+        let table = path.parent().unwrap_or(Path::new("")).join(table);
+        (file, table)
+    } else {
+        let file =
+            method.map_or_else(|| Ok(MethodFile::new(FitMethod::default())), |word| named_method(word, &mut inputs))?;
+        (file, path.to_owned())
+    };
+    let bytes = read_bytes(&table_file)?;
+    // The file that the command named comes first.
+    inputs.insert(if is_method(path) { inputs.len() } else { 0 }, entry(&table_file, &bytes));
+    let (mut table, notes) = read_table_file(&table_file)?;
+    if table.name.trim().is_empty() {
+        table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    }
+    let (stated, over) = (&mut table.stated, &method.stated);
+    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
+    stated.breadth = over.breadth.or(stated.breadth);
+    stated.draught = draught.or(over.draught).or(stated.draught);
+    stated.depth = over.depth.or(stated.depth);
+    Ok(FitJob { table, method, reading: notes, table_file, inputs })
+}
+
+/// A remark about the table without the name of its file.
+fn remark(problem: &TableProblem) -> String {
+    let TableProblem { code, message, remedy, .. } = problem;
+    if remedy.is_empty() { format!("{code} {message}") } else { format!("{code} {message}. {remedy}") }
+}
+
+fn chart_word(chart: Chart) -> &'static str {
+    match chart {
+        Chart::Level => "level",
+        Chart::Upright => "upright",
+    }
+}
+
+fn refusal(job: &FitJob, error: FitError) -> Failure {
+    let file = &job.table_file;
+    Failure::Input(match error {
+        FitError::Settings(problems) => job.method.diagnose(&problems.0, &file.display().to_string()),
+        FitError::Hull(error) => {
+            let message = format!("the {} surface over this table is no hull: {error}", job.method.method.as_str());
+            vec![problem("E163", file, message, "Another method, or other settings of it, may do".to_owned())]
+        }
+        other => vec![problem("E162", file, other.to_string(), String::new())],
+    })
+}
+
+/// Contents of `fit.json`.
+fn summary(job: &FitJob, fitted: &Fitted, row: &Hydrostatics, conventions: &Conventions) -> Value {
+    let misfit = fitted.misfit();
+    let worst = misfit.worst.and_then(|cell| {
+        let station = &job.table.stations.get(cell.station)?.station;
+        let waterline = job.table.waterlines.get(cell.waterline)?;
+        Some(json!({ "station": station.name, "x": station.x, "waterline": waterline, "residual": cell.residual }))
+    });
+    json!({
+        "name": job.table.name,
+        "method": job.method.method.as_str(),
+        "chart": chart_word(fitted.chart),
+        "inputs": job.inputs,
+        "particulars": Particulars::from(fitted.hull.particulars()),
+        "cells": {
+            "given": misfit.given,
+            "predicted": misfit.predicted,
+            "max": misfit.largest(),
+            "rms": misfit.rms,
+            "worst": worst,
+        },
+        "notes": fitted.notes,
+        "reading": job.reading.iter().map(remark).collect::<Vec<_>>(),
+        "design": row_json(row),
+        "conventions": conventions_json(conventions),
+    })
+}
+
+/// Fits the table and makes every file about the hull; `figures` are drawn.
+///
+/// # Errors
+/// [`Failure::Input`] when the table and the method make no hull, with every reason; [`Failure::Internal`] when a table or a
+/// figure cannot be made.
+pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
+    let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
+    let conventions = Conventions::default();
+    let particulars = fitted.hull.particulars();
+    // All draughts in one pass over the surface.
+    let mut draughts = default_draughts(particulars.draught, particulars.depth);
+    draughts.push(particulars.draught);
+    let mut table = CurvesOfForm::new(&fitted.hull, &draughts, &conventions);
+    let design_row = table.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
+    let summary = summary(job, &fitted, &design_row, &conventions);
+
+    let surface = fitted.surface_table(&job.table);
+    let endings = surface.endings.iter().flatten().any(Option::is_some);
+    let hull = write_hull(&fitted.hull, &conventions).map_err(|e| Failure::Internal(format!("hull.json: {e}")))?;
+    let mut files = vec![
+        OutputFile::text("hull.json", hull),
+        OutputFile::text("offsets.csv", offsets_csv(&surface, job.table.form.notation, endings)),
+        OutputFile::text("residuals.csv", residuals_csv(&job.table, &fitted)),
+        OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
+        json_file("fit.json", &summary)?,
+    ];
+    files.extend(figure_files(&FigureInputs { hull: &fitted.hull, design: &design_row, curves: &table }, figures)?);
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
+    let manifest = manifest_file(input, &files)?;
+    files.push(manifest);
+    Ok(FitOutputs { fitted, design_row, table, summary, files })
+}
+
+/// A length \[m\] that may be as small as rounding.
+fn small(value: f64) -> String {
+    if value < 5e-7 && value > 0.0 { format!("{value:.0e}") } else { format!("{value:.4}") }
+}
+
+/// The page of `fit`, at most 80 columns wide.
+#[must_use]
+pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
+    let fitted = &outputs.fitted;
+    let p = fitted.hull.particulars();
+    let conventions = &outputs.table.conventions;
+    let name: String = job.table.name.chars().take(WIDTH - 40).collect();
+    let mut page = format!("{name} ({}, {} chart)\n", job.method.method.as_str(), chart_word(fitted.chart));
+    let length = p.length_between_perpendiculars;
+    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.breadth, p.draught, p.depth));
+    let misfit = fitted.misfit();
+    let worst = misfit.worst.and_then(|cell| {
+        let station = &job.table.stations.get(cell.station)?.station;
+        let waterline = job.table.waterlines.get(cell.waterline)?;
+        Some(format!(" (station {}, x {} m, waterline {waterline} m)", station.name, station.x))
+    });
+    let predicted =
+        if misfit.predicted > 0 { format!("; {} cells predicted", misfit.predicted) } else { String::new() };
+    page.push_str(&wrapped(
+        &format!(
+            "{} cells, missed by {} m at most{}, {} m RMS{predicted}.",
+            misfit.given,
+            small(misfit.largest()),
+            worst.filter(|_| misfit.largest() >= 5e-7).unwrap_or_default(),
+            small(misfit.rms)
+        ),
+        2,
+    ));
+    let warnings = job.reading.iter().filter(|p| p.severity != exchange::Severity::Note).map(remark);
+    for note in fitted.notes.iter().cloned().chain(warnings) {
+        page.push_str(&wrapped(&format!("- {note}"), 2));
+    }
+    page.push('\n');
+    page.push_str(&quantities(&outputs.design_row, conventions, length));
+    page.push('\n');
+    page.push_str(&wrapped(&conventions_line(conventions), 2));
+    let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
+    page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
+    page
+}
