@@ -11,8 +11,9 @@
 //!
 //! They are exact to rounding: the traced curve, which is within a tolerance of surface and plane, only says where. With u
 //! forward and v upward S_v x S_u points outward, and kappa is positive where the section is convex outward, in whichever
-//! direction it is followed. Curvature is not defined where f_u = f_v = 0 (the surface touches the plane) or S_u and S_v are
-//! parallel.
+//! direction it is followed. On a line of the net (a waterline where z = z(v), a station where x = x(u)) the motion is along
+//! that parameter at unit speed. Curvature is not defined where the motion stands still: where the surface touches the plane,
+//! and where its net is drawn together into a point; a speed below 1e-6 of its size elsewhere counts as none.
 
 use super::profile::{Local, Profile};
 use crate::hull::Branch;
@@ -22,6 +23,8 @@ type Point = [f64; 3];
 
 /// Steps of the search for the parameters of a point.
 const STEPS: usize = 60;
+/// Least speed along the section, in speeds of a regular surface.
+const SLOWEST: f64 = 1e-6;
 /// Points to a span among which that search may start.
 const STARTS: usize = 3;
 
@@ -42,6 +45,8 @@ fn minus(a: Point, b: Point) -> Point {
 pub(super) struct Locator<'a> {
     surface: &'a BsplineSurface<3>,
     starts: Vec<([f64; 2], Point)>,
+    /// Size of the surface over the lengths of its domains: what |S_u| and |S_v| come to \[m\].
+    speeds: [f64; 2],
 }
 
 /// Knots without repetition.
@@ -71,7 +76,18 @@ impl<'a> Locator<'a> {
         let (us, vs) = (places(surface.u()), places(surface.v()));
         let starts =
             us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v])).map(|w| (w, surface.eval(w[0], w[1]))).collect();
-        Self { surface, starts }
+        let extents: Point = std::array::from_fn(|d| {
+            let range = surface
+                .points()
+                .iter()
+                .map(|p| p[d])
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |r, c| [r[0].min(c), r[1].max(c)]);
+            range[1] - range[0]
+        });
+        let (du, dv) = (surface.u().domain(), surface.v().domain());
+        // u runs along the ship, v around its girth.
+        let speeds = [extents[0] / (du.1 - du.0), extents[1].hypot(extents[2]) / (dv.1 - dv.0)];
+        Self { surface, starts, speeds }
     }
 
     /// The parameters of the point of the surface next to `point`, from the nearest start and from `near`.
@@ -119,34 +135,45 @@ impl<'a> Locator<'a> {
         }
         Some((at, dot(gap, gap).sqrt()))
     }
-}
 
-/// Direction along the section, kappa and d(kappa)/ds of the section through (u, v) by the plane with unit normal `n`.
-fn curvature(surface: &BsplineSurface<3>, [u, v]: [f64; 2], n: Point) -> Option<(Point, f64, f64)> {
-    let s = surface.derivatives::<4>(u, v);
-    let g = |i: usize, j: usize| dot(n, s[i][j]);
-    let (a, b) = (-g(0, 1), g(1, 0));
-    let a1 = -(g(1, 1) * a + g(0, 2) * b);
-    let b1 = g(2, 0) * a + g(1, 1) * b;
-    let a2 = -((g(2, 1) * a + g(1, 2) * b) * a + g(1, 1) * a1 + (g(1, 2) * a + g(0, 3) * b) * b + g(0, 2) * b1);
-    let b2 = (g(3, 0) * a + g(2, 1) * b) * a + g(2, 0) * a1 + (g(2, 1) * a + g(1, 2) * b) * b + g(1, 1) * b1;
-    let first: Point = std::array::from_fn(|d| s[1][0][d] * a + s[0][1][d] * b);
-    let second: Point = std::array::from_fn(|d| {
-        s[2][0][d] * a * a + 2.0 * s[1][1][d] * a * b + s[0][2][d] * b * b + s[1][0][d] * a1 + s[0][1][d] * b1
-    });
-    let third: Point = std::array::from_fn(|d| {
-        let cubes = s[3][0][d] * a * a * a + 3.0 * s[2][1][d] * a * a * b + 3.0 * s[1][2][d] * a * b * b + s[0][3][d] * b * b * b;
-        let squares = 3.0 * (s[2][0][d] * a * a1 + s[1][1][d] * (a1 * b + a * b1) + s[0][2][d] * b * b1);
-        cubes + squares + s[1][0][d] * a2 + s[0][1][d] * b2
-    });
-    let speed = dot(first, first).sqrt();
-    let touching = dot(s[1][0], s[1][0]).sqrt() * dot(s[0][1], s[0][1]).sqrt() * 1e-12;
-    if !(speed > touching) {
-        return None;
+    /// Direction along the section, kappa and d(kappa)/ds of the section through (u, v) by the plane with unit normal `n`.
+    fn curvature(&self, [u, v]: [f64; 2], n: Point) -> Option<(Point, f64, f64)> {
+        let s = self.surface.derivatives::<4>(u, v);
+        let g = |i: usize, j: usize| dot(n, s[i][j]);
+        let [along, up] = self.speeds;
+        let (gu, gv) = (g(1, 0), g(0, 1));
+        // Motion in the parameters with its first two derivatives, and the speed of that motion on a regular surface.
+        let ([a, b], [a1, b1], [a2, b2], regular) = if gu.abs() <= 1e-14 * along {
+            ([-(1f64.copysign(if gv.abs() > 0.0 { gv } else { n[2] })), 0.0], [0.0; 2], [0.0; 2], along)
+        } else if gv.abs() <= 1e-14 * up {
+            ([0.0, 1f64.copysign(gu)], [0.0; 2], [0.0; 2], up)
+        } else {
+            let (a, b) = (-gv, gu);
+            let a1 = -(g(1, 1) * a + g(0, 2) * b);
+            let b1 = g(2, 0) * a + g(1, 1) * b;
+            let a2 = (g(2, 1) * a + g(1, 2) * b) * a + g(1, 1) * a1 + (g(1, 2) * a + g(0, 3) * b) * b + g(0, 2) * b1;
+            let b2 = (g(3, 0) * a + g(2, 1) * b) * a + g(2, 0) * a1 + (g(2, 1) * a + g(1, 2) * b) * b + g(1, 1) * b1;
+            ([a, b], [a1, b1], [-a2, b2], along * up)
+        };
+        let first: Point = std::array::from_fn(|d| s[1][0][d] * a + s[0][1][d] * b);
+        let second: Point = std::array::from_fn(|d| {
+            let squares = s[2][0][d] * a * a + 2.0 * s[1][1][d] * a * b + s[0][2][d] * b * b;
+            squares + s[1][0][d] * a1 + s[0][1][d] * b1
+        });
+        let third: Point = std::array::from_fn(|d| {
+            let cubes =
+                s[3][0][d] * a.powi(3) + s[0][3][d] * b.powi(3) + 3.0 * a * b * (s[2][1][d] * a + s[1][2][d] * b);
+            let squares = 3.0 * (s[2][0][d] * a * a1 + s[1][1][d] * (a1 * b + a * b1) + s[0][2][d] * b * b1);
+            cubes + squares + s[1][0][d] * a2 + s[0][1][d] * b2
+        });
+        let speed = dot(first, first).sqrt();
+        if !(speed > SLOWEST * regular) {
+            return None;
+        }
+        let kappa = dot(n, cross(first, second)) / speed.powi(3);
+        let slope = dot(n, cross(first, third)) / speed.powi(4) - 3.0 * kappa * dot(first, second) / speed.powi(3);
+        (kappa.is_finite() && slope.is_finite()).then(|| (first.map(|c| c / speed), kappa, slope))
     }
-    let kappa = dot(n, cross(first, second)) / speed.powi(3);
-    let slope = dot(n, cross(first, third)) / speed.powi(4) - 3.0 * kappa * dot(first, second) / speed.powi(3);
-    (kappa.is_finite() && slope.is_finite()).then(|| (first.map(|c| c / speed), kappa, slope))
 }
 
 /// A section curve with its plane: points in space are `origin` + x `axes[0]` + y `axes[1]`.
@@ -176,7 +203,7 @@ impl Trace {
             let [point, velocity] = branch.curve.derivatives::<2>(t);
             let at = locator.locate(point, near, tolerance)?;
             near = Some(at);
-            let (direction, kappa, slope) = curvature(locator.surface, at, n)?;
+            let (direction, kappa, slope) = locator.curvature(at, n)?;
             let turned = if dot(direction, velocity) < 0.0 { -1.0 } else { 1.0 };
             let point = flat(minus(point, origin));
             Some(Local { point, velocity: flat(velocity), curvature: kappa, slope: turned * slope })

@@ -110,7 +110,8 @@ impl SurfaceMeasures {
     fn take(&mut self, read: &[(&'static str, Read); 4], curvature: &SurfaceCurvature, at: [f64; 3]) {
         let here = |(_, value): &(&'static str, Read)| CurvatureAt { value: value(curvature), at };
         if self.ranges.is_empty() {
-            self.ranges = read.iter().map(|r| CurvatureRange { name: r.0, least: here(r), greatest: here(r) }).collect();
+            self.ranges =
+                read.iter().map(|r| CurvatureRange { name: r.0, least: here(r), greatest: here(r) }).collect();
         }
         for (range, r) in self.ranges.iter_mut().zip(read) {
             let now = here(r);

@@ -132,7 +132,8 @@ fn hermite(r: f64, h: f64, values: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
     let value = p * p * (1.0 + 2.0 * q) * values[0]
         + q * q * (1.0 + 2.0 * p) * values[1]
         + h * p * q * (p * slopes[0] - q * slopes[1]);
-    let slope = 6.0 * p * q * (values[1] - values[0]) / h + p * (p - 2.0 * q) * slopes[0] + q * (q - 2.0 * p) * slopes[1];
+    let slope =
+        6.0 * p * q * (values[1] - values[0]) / h + p * (p - 2.0 * q) * slopes[0] + q * (q - 2.0 * p) * slopes[1];
     (value, slope)
 }
 
@@ -185,7 +186,12 @@ impl Profile {
                     let chord = distance(last.point, l.point);
                     let turn = if last.piece == piece { angle(last.tangent, tangent) } else { 0.0 };
                     // The arc over a chord whose ends differ by `turn` in direction.
-                    last.s + if turn > 1e-4 { chord * 0.5 * turn / (0.5 * turn).sin() } else { chord * (1.0 + turn * turn / 24.0) }
+                    last.s
+                        + if turn > 1e-4 {
+                            chord * 0.5 * turn / (0.5 * turn).sin()
+                        } else {
+                            chord * (1.0 + turn * turn / 24.0)
+                        }
                 });
                 let weight = weight * half * speed;
                 nodes.push(Node { s, point: l.point, tangent, curvature: l.curvature, slope: l.slope, weight, piece });
@@ -203,7 +209,9 @@ impl Profile {
             let (a, b) = (along(pair[0].point), along(pair[1].point));
             let last = k + 2 == self.nodes.len();
             for &mark in marks {
-                let inside = (a <= mark && mark < b) || (b < mark && mark <= a) || (last && (mark - b).abs() < 1e-12 * b.abs().max(1.0));
+                let inside = (a <= mark && mark < b)
+                    || (b < mark && mark <= a)
+                    || (last && (mark - b).abs() < 1e-12 * b.abs().max(1.0));
                 if inside {
                     let r = if (b - a).abs() > 0.0 { ((mark - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
                     found.push((pair[0].s + r * (pair[1].s - pair[0].s), curvature_between(pair, r)));
@@ -382,6 +390,54 @@ fn inflections_of(run: &[Node], tolerance: f64) -> Vec<f64> {
     lobes.iter().skip(1).map(|lobe| lobe.from).collect()
 }
 
+/// Places and values where the curvature turns, cyclic when the curve is closed: `around` is its length then.
+struct Swings {
+    points: Vec<(f64, f64)>,
+    around: Option<f64>,
+}
+
+impl Swings {
+    /// Neighbours of a point; none at the ends of an open curve. The place of a neighbour across the start of a closed curve
+    /// is that of the next or the last round.
+    fn beside(&self, k: usize) -> Option<[(f64, f64); 2]> {
+        let (n, p) = (self.points.len(), &self.points);
+        match self.around {
+            Some(length) if n > 1 => {
+                let (before, after) = (p[(k + n - 1) % n], p[(k + 1) % n]);
+                let before = if k == 0 { (before.0 - length, before.1) } else { before };
+                let after = if k + 1 == n { (after.0 + length, after.1) } else { after };
+                Some([before, after])
+            }
+            None if k > 0 && k + 1 < n => Some([p[k - 1], p[k + 1]]),
+            _ => None,
+        }
+    }
+
+    /// Keeps the points where the direction changes.
+    fn turns(&mut self) {
+        loop {
+            let idle = |k: usize| {
+                let here = self.points[k].1;
+                self.beside(k).is_some_and(|[before, after]| (here - before.1) * (after.1 - here) >= 0.0)
+            };
+            // From the end, so that what follows keeps its place; neighbours are not dropped together.
+            let mut kept: Vec<(f64, f64)> = Vec::with_capacity(self.points.len());
+            let mut dropped = false;
+            for k in 0..self.points.len() {
+                let drop = !dropped && idle(k);
+                if !drop {
+                    kept.push(self.points[k]);
+                }
+                dropped = drop;
+            }
+            if kept.len() == self.points.len() {
+                return;
+            }
+            self.points = kept;
+        }
+    }
+}
+
 fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
     // Every node, and the extrema of the cubics between them.
     let mut points: Vec<(f64, f64)> = vec![(run[0].s, run[0].curvature)];
@@ -394,66 +450,71 @@ fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
         }
         points.push((pair[1].s, pair[1].curvature));
     }
-    // Only where the direction changes.
-    let mut chain: Vec<(f64, f64)> = Vec::new();
-    for point in points {
-        while chain.len() > 1 {
-            let (a, b) = (chain[chain.len() - 2].1, chain[chain.len() - 1].1);
-            if (b - a) * (point.1 - b) >= 0.0 { chain.pop() } else { break };
-        }
-        chain.push(point);
+    let around = closed.then(|| run[run.len() - 1].s - run[0].s);
+    if closed {
+        // The last point is the first one again.
+        points.pop();
     }
+    let mut swings = Swings { points, around };
     loop {
+        swings.turns();
         let mut least: Option<(usize, f64)> = None;
-        for k in 1..chain.len().saturating_sub(1) {
-            let step = (chain[k].1 - chain[k - 1].1).abs().min((chain[k].1 - chain[k + 1].1).abs());
-            let height = step * ((chain[k + 1].0 - chain[k - 1].0) / (2.0 * PI)).powi(2);
+        for k in 0..swings.points.len() {
+            let Some([before, after]) = swings.beside(k) else { continue };
+            let here = swings.points[k].1;
+            let step = (here - before.1).abs().min((here - after.1).abs());
+            let height = step * ((after.0 - before.0) / (2.0 * PI)).powi(2);
             if height < tolerance && least.is_none_or(|(_, h)| height < h) {
                 least = Some((k, height));
             }
         }
+        // Without the least swing its nearer neighbour is no turn either.
         let Some((k, _)) = least else { break };
-        let nearer_before = (chain[k].1 - chain[k - 1].1).abs() <= (chain[k].1 - chain[k + 1].1).abs();
-        let neighbour = if nearer_before { k - 1 } else { k + 1 };
-        if neighbour == 0 || neighbour + 1 == chain.len() {
-            chain.remove(k);
-        } else {
-            chain.drain(k.min(neighbour)..=k.max(neighbour));
-        }
+        swings.points.remove(k);
     }
-    let mut found: Vec<f64> = chain[1..chain.len() - 1].iter().map(|point| point.0).collect();
-    if closed && !found.is_empty() {
-        found.insert(0, chain[0].0);
-    }
-    found
+    let inner = (0..swings.points.len()).filter(|&k| swings.beside(k).is_some());
+    inner.map(|k| swings.points[k].0).collect()
 }
 
 /// Maximal stretches of a run with |kappa| at most `bound`; those that bend too much are searched again with half the bound.
 fn flats_of(run: &[Node], bound: f64, least: f64, tolerance: f64, halvings: u32) -> Vec<Stretch> {
-    let whole = [run[0].s, run[run.len() - 1].s];
-    if whole[1] - whole[0] >= least && departure(run, whole[0], whole[1]) <= tolerance {
-        return vec![Stretch { from: place(run, whole[0]), to: place(run, whole[1]) }];
+    let last = run.len() - 1;
+    if run[last].s - run[0].s >= least && departure(run, run[0].s, run[last].s) <= tolerance {
+        return vec![Stretch { from: place(run, run[0].s), to: place(run, run[last].s) }];
     }
-    let mut found = Vec::new();
-    let mut start: Option<usize> = None;
-    for k in 0..=run.len() {
-        let low = run.get(k).is_some_and(|node| node.curvature.abs() <= bound);
-        match (start, low) {
-            (None, true) => start = Some(k),
-            (Some(first), false) => {
-                start = None;
-                let (from, to) = (run[first].s, run[k - 1].s);
-                if to - from < least {
-                    continue;
-                }
-                if departure(run, from, to) <= tolerance {
-                    found.push(Stretch { from: place(run, from), to: place(run, to) });
-                } else if halvings > 0 {
-                    found.extend(flats_of(&run[first..k], 0.5 * bound, least, tolerance, halvings - 1));
-                }
-            }
-            _ => {}
+    let low = |k: usize| run[k].curvature.abs() <= bound;
+    // Where |kappa| passes the bound between two neighbours.
+    let border = |k: usize| {
+        let pair = &run[k..k + 2];
+        let h = pair[1].s - pair[0].s;
+        if pair[0].piece != pair[1].piece || h <= 0.0 {
+            return pair[0].s;
         }
+        pair[0].s + h * bisect(|r| curvature_between(pair, r).abs() - bound)
+    };
+    let mut found = Vec::new();
+    let mut first = 0;
+    while first <= last {
+        if !low(first) {
+            first += 1;
+            continue;
+        }
+        let mut end = first;
+        while end < last && low(end + 1) {
+            end += 1;
+        }
+        let from = if first > 0 { border(first - 1) } else { run[0].s };
+        let to = if end < last { border(end) } else { run[last].s };
+        if to - from >= least {
+            if departure(run, from, to) <= tolerance {
+                found.push(Stretch { from: place(run, from), to: place(run, to) });
+            } else if halvings > 0 {
+                // With the neighbours above the bound, so that the borders of the next search are found.
+                let part = &run[first.saturating_sub(1)..=(end + 1).min(last)];
+                found.extend(flats_of(part, 0.5 * bound, least, tolerance, halvings - 1));
+            }
+        }
+        first = end + 1;
     }
     found
 }
