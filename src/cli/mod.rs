@@ -3,6 +3,7 @@
 
 mod generate;
 mod hydro;
+mod inspect;
 mod new;
 mod offsets;
 mod schema;
@@ -42,6 +43,8 @@ enum Command {
     Offsets(offsets::Arguments),
     /// The curves in which a plane cuts a hull
     Section(section::Arguments),
+    /// Inflections, curvature, energies and flats of a hull's curves, signs of its net, curvature of its surface
+    Inspect(inspect::Arguments),
     /// Compare the analytic bodies with their closed forms
     SelfTest(self_test::Arguments),
 }
@@ -75,6 +78,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Section(arguments) => section::run(arguments),
+        Command::Inspect(arguments) => inspect::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
     };
     match done {

@@ -3,6 +3,7 @@
 mod failure;
 mod files;
 mod generate;
+mod inspect;
 mod markdown;
 mod page;
 mod self_test;
@@ -11,6 +12,7 @@ mod source;
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};
 pub use generate::{Outputs, generate_outputs};
+pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{Source, offsets, read_design, read_source, sections_of};
