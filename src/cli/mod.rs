@@ -5,6 +5,7 @@ mod convert;
 mod fit;
 mod generate;
 mod hydro;
+mod inspect;
 mod new;
 mod offsets;
 mod schema;
@@ -48,6 +49,8 @@ enum Command {
     Convert(convert::Arguments),
     /// The curves in which a plane cuts a hull
     Section(section::Arguments),
+    /// Inflections, curvature, energies and flats of a hull's curves, signs of its net, curvature of its surface
+    Inspect(inspect::Arguments),
     /// Compare the analytic bodies with their closed forms
     SelfTest(self_test::Arguments),
 }
@@ -83,6 +86,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Offsets(arguments) => offsets::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
         Command::Section(arguments) => section::run(arguments),
+        Command::Inspect(arguments) => inspect::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
     };
     match done {

@@ -53,7 +53,7 @@ fn deviation(text: &str) -> Result<f64, String> {
     }
 }
 
-fn plane(text: &str) -> Result<Cut, String> {
+pub(super) fn plane(text: &str) -> Result<Cut, String> {
     let Lengths(numbers) = lengths(text)?;
     match numbers[..] {
         [a, b, c, offset] if [a, b, c].iter().any(|n| n.abs() > 0.0) => Ok(Cut::Plane { normal: [a, b, c], offset }),

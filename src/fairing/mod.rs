@@ -1,1 +1,3 @@
 //! What is unfair or wrong in a table or a hull: suspects among the offsets, inflections and energies of its curves.
+
+pub mod inspect;

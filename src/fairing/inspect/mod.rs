@@ -1,0 +1,223 @@
+//! Inspection of a hull: what its stations, waterlines, buttocks and diagonals, its net and its surface say about fairness.
+//!
+//! Section curves are [`Hull::section`]'s, connected and in order; their curvature is that of the surface
+//! (`contour.rs`), and what is counted on them is defined in `profile.rs`. One length tells what is seen from what is not:
+//! the tolerance, which is the resolution of the drawing times its scale ([`Resolution`]). A lesser bump does not show on paper.
+//!
+//! Accuracy: curvature to rounding; lengths and energies of a piece to the Clenshaw-Curtis rule of 13 points (1e-10 for
+//! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points.
+//! Cost: one section and about 30 evaluations of third derivatives for each patch that it crosses.
+
+mod contour;
+mod curvature;
+mod polygon;
+mod profile;
+
+pub use curvature::{CurvatureAt, CurvatureRange, SurfaceMeasures};
+pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, net_signs, polygon_signs};
+pub use profile::{Findings, Local, Place, Profile, Stretch};
+
+use crate::hull::{Cut, Face, Hull, default_buttocks, default_stations, default_waterlines};
+use contour::{Locator, Trace};
+
+/// Deviation of the section curves from surface and plane \[m\], in lengths between perpendiculars.
+const SECTION: f64 = 1e-11;
+
+/// What can be seen in a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// The least departure from a batten that is seen on paper \[m\].
+    pub on_paper: f64,
+    /// n of the scale 1 : n.
+    pub scale: f64,
+}
+
+impl Resolution {
+    /// 0.1 mm on a drawing that is at most 2.5 m long: the scale is the largest of 1:10, 25, 50, 100, 200, 500 at which a ship of
+    /// `length` \[m\] fits.
+    #[must_use]
+    pub fn for_length(length: f64) -> Self {
+        let scales = [10.0, 25.0, 50.0, 100.0, 200.0, 500.0];
+        let scale = scales.into_iter().find(|scale| length / scale <= 2.5).unwrap_or(500.0);
+        Self { on_paper: 1e-4, scale }
+    }
+
+    /// The least departure that is seen, on the ship \[m\].
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.on_paper * self.scale
+    }
+}
+
+/// The planes of an inspection.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Planes {
+    /// x of the stations \[m\].
+    pub stations: Vec<f64>,
+    /// z of the waterlines \[m\].
+    pub waterlines: Vec<f64>,
+    /// y of the buttocks \[m\].
+    pub buttocks: Vec<f64>,
+    /// Heights of the diagonals on the centreplane \[m\].
+    pub diagonals: Vec<f64>,
+    /// Angle of the diagonals below the horizontal \[rad\].
+    pub diagonal_angle: f64,
+    /// Other planes.
+    pub others: Vec<Cut>,
+}
+
+impl Planes {
+    /// The stations, waterlines and buttocks of a table of offsets of the hull, and three diagonals: through 0.7, 1 and 1.3 T on
+    /// the centreplane, parallel to the line from there to the bilge, atan(T / (B/2)).
+    #[must_use]
+    pub fn with_defaults(hull: &Hull) -> Self {
+        let p = hull.particulars();
+        let diagonals = [0.7, 1.0, 1.3].map(|part| part * p.draught);
+        Self {
+            stations: default_stations(hull).into_iter().map(|station| station.x).collect(),
+            waterlines: default_waterlines(hull),
+            buttocks: default_buttocks(hull),
+            diagonals: diagonals.into_iter().filter(|&height| height < p.depth).collect(),
+            diagonal_angle: p.draught.atan2(0.5 * p.breadth),
+            others: Vec::new(),
+        }
+    }
+
+    fn cuts(&self) -> Vec<Cut> {
+        let stations = self.stations.iter().map(|&x| Cut::Station { x });
+        let waterlines = self.waterlines.iter().map(|&z| Cut::Waterline { z });
+        let buttocks = self.buttocks.iter().map(|&y| Cut::Buttock { y });
+        let diagonals = self.diagonals.iter().map(|&height| Cut::Diagonal { height, angle: self.diagonal_angle });
+        stations.chain(waterlines).chain(buttocks).chain(diagonals).chain(self.others.iter().copied()).collect()
+    }
+}
+
+/// A flat of a curve in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flat {
+    /// Where it starts \[m\].
+    pub from: [f64; 3],
+    /// Where it ends \[m\].
+    pub to: [f64; 3],
+    /// Its length \[m\].
+    pub length: f64,
+}
+
+/// What is found on one connected curve of one plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveReport {
+    /// The plane.
+    pub cut: Cut,
+    /// Which of the curves of the plane on the side of the hull, from 1.
+    pub branch: usize,
+    /// Length \[m\].
+    pub length: f64,
+    /// int |kappa| ds \[rad\].
+    pub turning: f64,
+    /// Inflections \[m\].
+    pub inflections: Vec<[f64; 3]>,
+    /// Curvature extrema \[m\].
+    pub extrema: Vec<[f64; 3]>,
+    /// kappa where |kappa| is largest \[1/m\], positive where the curve is convex outward.
+    pub largest: CurvatureAt,
+    /// Largest |difference of kappa| between neighbouring ordinates \[1/m\]: stations, or waterlines on stations. None when the
+    /// curve passes fewer than two.
+    pub step: Option<f64>,
+    /// int kappa^2 ds \[1/m\].
+    pub bending: f64,
+    /// int (d(kappa)/ds)^2 ds [1/m^3].
+    pub variation: f64,
+    /// Flats.
+    pub flats: Vec<Flat>,
+    /// Knuckles \[m\].
+    pub knuckles: Vec<[f64; 3]>,
+}
+
+/// What is found on a hull.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inspection {
+    /// The least departure that counts \[m\].
+    pub tolerance: f64,
+    /// Curves: stations, waterlines, buttocks, diagonals, other planes, in the order of [`Planes`].
+    pub curves: Vec<CurveReport>,
+    /// Planes that do not cut the side of the hull, or along which it lies in the plane.
+    pub empty: Vec<Cut>,
+    /// Signs of the control polygon.
+    pub net: Vec<PolygonSigns>,
+    /// Curvature of the surface.
+    pub surface: SurfaceMeasures,
+}
+
+/// The word for the kind of a plane.
+#[must_use]
+pub fn kind(cut: &Cut) -> &'static str {
+    match cut {
+        Cut::Station { .. } => "station",
+        Cut::Waterline { .. } => "waterline",
+        Cut::Buttock { .. } => "buttock",
+        Cut::Diagonal { .. } => "diagonal",
+        Cut::Plane { .. } => "plane",
+    }
+}
+
+impl Inspection {
+    /// Inspects a hull; `tolerance` is the departure that can just be seen \[m\].
+    #[must_use]
+    pub fn new(hull: &Hull, planes: &Planes, tolerance: f64) -> Self {
+        let locator = Locator::new(hull.surface());
+        let (mut curves, mut empty) = (Vec::new(), Vec::new());
+        for cut in planes.cuts() {
+            let found = inspect_plane(hull, &locator, cut, planes, tolerance);
+            if found.is_empty() {
+                empty.push(cut);
+            }
+            curves.extend(found);
+        }
+        let net = net_signs(hull.surface(), ON_CHORD * tolerance);
+        Self { tolerance, curves, empty, net, surface: SurfaceMeasures::of(hull) }
+    }
+}
+
+fn inspect_plane(hull: &Hull, locator: &Locator, cut: Cut, planes: &Planes, tolerance: f64) -> Vec<CurveReport> {
+    let Some((normal, _)) = cut.plane() else { return Vec::new() };
+    let close = SECTION * hull.particulars().length_between_perpendiculars;
+    let section = hull.section(cut, close);
+    let across = matches!(cut, Cut::Station { .. });
+    // What lies on the side; the flats of the body are flat.
+    let branches = section.branches.iter().filter(|branch| branch.face == Face::Side);
+    let mut reports = Vec::new();
+    for (index, branch) in branches.enumerate() {
+        // The traced curve may stand off the surface by its tolerance; a hundred of them is another place.
+        let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close) else { continue };
+        let (axis, offset) = trace.coordinate(if across { 2 } else { 0 });
+        let ordinates = if across { &planes.waterlines } else { &planes.stations };
+        let marks: Vec<f64> = ordinates.iter().map(|mark| mark - offset).collect();
+        let along = trace.profile.curvature_at(axis, &marks);
+        let step = along.windows(2).map(|pair| (pair[1] - pair[0]).abs()).reduce(f64::max);
+        let found = trace.profile.findings(tolerance);
+        let space = |places: &[Place]| places.iter().map(|place| trace.space(place.point)).collect();
+        reports.push(CurveReport {
+            cut,
+            branch: index + 1,
+            length: found.length,
+            turning: found.turning,
+            inflections: space(&found.inflections),
+            extrema: space(&found.extrema),
+            largest: CurvatureAt { value: found.largest.0, at: trace.space(found.largest.1.point) },
+            step,
+            bending: found.bending,
+            variation: found.variation,
+            flats: found
+                .flats
+                .iter()
+                .map(|flat| Flat {
+                    from: trace.space(flat.from.point),
+                    to: trace.space(flat.to.point),
+                    length: flat.to.s - flat.from.s,
+                })
+                .collect(),
+            knuckles: space(&found.knuckles),
+        });
+    }
+    reports
+}
