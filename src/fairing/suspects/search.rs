@@ -1,0 +1,376 @@
+//! The search for suspects: the strongest first, each set aside before the next is looked for, all of them heard again.
+
+use super::grid::{Along, Grid};
+use super::judge::{Judge, Verdict};
+use super::posterior::{Reading, readings};
+use super::reading::{Hypothesis, Writing, repairs};
+use crate::hull::OffsetTable;
+
+/// Least score of a suspect, in standard deviations of a normal law.
+const LEAST_SCORE: f64 = 3.3;
+/// Least probability that a suspect is wrong.
+const LEAST_PROBABILITY: f64 = 0.9;
+/// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
+const SHADOW_SCORE: f64 = 2.5;
+/// Reach of the shadow along the lines.
+const SHADOW: usize = 4;
+/// Most suspects of a table, as a share of its cells; more are no misprints.
+const MOST: f64 = 0.1;
+
+/// What the neighbours of a cell say about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellVerdict {
+    /// What the neighbours predict \[m\].
+    pub expected: f64,
+    /// Standard uncertainty of the prediction \[m\].
+    pub uncertainty: f64,
+    /// Local noise \[m\]: standard deviation of (value - prediction) where nothing is wrong.
+    pub noise: f64,
+    /// (value - prediction) over the local noise, brought to a normal law for the few neighbours that the noise rests on.
+    pub score: f64,
+    /// What the neighbours on the station predict, and its uncertainty \[m\].
+    pub along_station: [f64; 2],
+    /// What the neighbours on the waterline predict, and its uncertainty \[m\].
+    pub along_waterline: [f64; 2],
+}
+
+/// A cell that stands out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suspect {
+    /// `S1` is the most severe.
+    pub id: String,
+    /// Index of the station in the table.
+    pub station: usize,
+    /// Index of the waterline in the table.
+    pub waterline: usize,
+    /// The cell as written.
+    pub written: String,
+    /// Its half-breadth \[m\].
+    pub value: f64,
+    /// What its neighbours say.
+    pub verdict: CellVerdict,
+    /// The hypotheses, most probable first; probabilities sum to one.
+    pub readings: Vec<Reading>,
+    /// Probability that the cell is wrong.
+    pub probability: f64,
+    /// Value of the most probable hypothesis that holds the cell for wrong, in the quantum of the table \[m\].
+    pub proposed: f64,
+    /// The same as it would be written.
+    pub proposed_text: String,
+}
+
+impl Suspect {
+    /// The most probable hypothesis that holds the cell for wrong.
+    #[must_use]
+    pub fn hypothesis(&self) -> Hypothesis {
+        self.readings.iter().map(|r| r.hypothesis).find(|&h| h != Hypothesis::Noise).unwrap_or(Hypothesis::Unexplained)
+    }
+}
+
+/// The suspects of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suspects {
+    /// Noise of the table \[m\]: standard deviation of an offset from a smooth neighbourhood; reading noise and roughness.
+    pub noise: f64,
+    /// The suspects, most severe first.
+    pub suspects: Vec<Suspect>,
+    /// By station and waterline: what the neighbours say once the suspects are set aside; none where too few neighbours speak.
+    pub verdicts: Vec<Vec<Option<CellVerdict>>>,
+}
+
+/// Rounds of search and second hearing.
+const ROUNDS: usize = 3;
+/// Sweeps in which cells that are set aside together get their predictions.
+const SWEEPS: usize = 3;
+/// Distance from the median of the simplest predictions, over its usual size around, from which a cell is set aside before the
+/// search begins.
+const GROSS: f64 = 4.0;
+
+/// Cells that lie far off the median of six predictions by straight lines: between and beyond the neighbours in both
+/// directions. One wrong neighbour spoils two or three of the six only, so that wrong cells side by side do not hide each other.
+fn gross(grid: &Grid, noise: f64, most: usize) -> Vec<usize> {
+    let mut offs: Vec<Option<f64>> = vec![None; grid.len()];
+    for (cell, off) in offs.iter_mut().enumerate().filter(|&(cell, _)| grid.is_given(cell)) {
+        let mut list = Vec::with_capacity(6);
+        for along in Along::BOTH {
+            let at = grid.coordinate(along, cell);
+            for [one, other] in [[-1, 1], [-1, -2], [1, 2]] {
+                if let (Some(a), Some(b)) = (grid.shifted(along, cell, one, 0), grid.shifted(along, cell, other, 0)) {
+                    let (s, t) = (grid.coordinate(along, a), grid.coordinate(along, b));
+                    let share = (at - s) / (t - s);
+                    list.push(grid.value[cell] - grid.value[a] - share * (grid.value[b] - grid.value[a]));
+                }
+            }
+        }
+        *off = median(&mut list).filter(|_| list.len() >= 3);
+    }
+    let mut found = Vec::new();
+    for cell in 0..grid.len() {
+        let Some(off) = offs[cell] else { continue };
+        let mut around: Vec<f64> = (-2..=2)
+            .flat_map(|steps| (-2..=2).map(move |lines| (steps, lines)))
+            .filter(|&place| place != (0, 0))
+            .filter_map(|(steps, lines)| grid.shifted(Along::Station, cell, steps, lines))
+            .filter_map(|n| offs[n].map(f64::abs))
+            .collect();
+        let usual = median(&mut around).map_or(f64::INFINITY, |m| 1.48 * m + noise);
+        if off.abs() > GROSS * usual {
+            found.push((off.abs() / usual, cell));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    found.into_iter().take(most).map(|(_, cell)| cell).collect()
+}
+
+fn median(list: &mut [f64]) -> Option<f64> {
+    list.sort_by(f64::total_cmp);
+    let n = list.len();
+    (n > 0).then(|| 0.5 * (list[(n - 1) / 2] + list[n / 2]))
+}
+
+struct Search<'a> {
+    table: &'a OffsetTable,
+    judge: Judge,
+    written: Vec<f64>,
+    texts: Vec<String>,
+    quantum: f64,
+    verdicts: Vec<Option<Verdict>>,
+}
+
+/// The suspects among the half-breadths of a table; nothing is changed.
+#[must_use]
+pub fn suspects(table: &OffsetTable) -> Suspects {
+    let quantum = table.form.quantum().unwrap_or(1e-4);
+    let writing = Writing { notation: table.form.notation, decimals: table.form.decimals };
+    let grid = Grid::new(table);
+    let texts = table
+        .stations
+        .iter()
+        .flat_map(|station| (0..table.waterlines.len()).map(|j| station.half_breadths.get(j)))
+        .map(|cell| {
+            cell.map_or(String::new(), |cell| match (&cell.written, cell.value()) {
+                (Some(written), _) => written.text.trim().to_owned(),
+                (None, Some(value)) => writing.write(value),
+                (None, None) => String::new(),
+            })
+        })
+        .collect();
+    let written = grid.value.clone();
+    let verdicts = vec![None; written.len()];
+    let mut search = Search { table, judge: Judge::new(grid, quantum), written, texts, quantum, verdicts };
+    let found = search.run();
+    search.conclude(found, writing)
+}
+
+impl Search<'_> {
+    fn hear(&mut self) {
+        for cell in 0..self.written.len() {
+            self.verdicts[cell] = if self.judge.is_masked(cell) { None } else { self.judge.verdict(cell) };
+        }
+    }
+
+    /// Hears again the cells that a change of `cell` reaches.
+    fn hear_around(&mut self, cell: usize) {
+        let (row, column) = self.judge.grid.place(cell);
+        for other in 0..self.written.len() {
+            let (i, j) = self.judge.grid.place(other);
+            let (di, dj) = (i.abs_diff(row), j.abs_diff(column));
+            if di.max(dj) <= 11 && di.min(dj) <= 5 {
+                self.verdicts[other] = if self.judge.is_masked(other) { None } else { self.judge.verdict(other) };
+            }
+        }
+    }
+
+    /// Kinds of neighbours whose text the cell repeats.
+    fn copies(&self, cell: usize) -> Vec<Hypothesis> {
+        // Where the text goes on beyond the neighbour it is a flat of the hull and no copy.
+        let same = |along: Along, step: isize| {
+            let text = |far: isize| self.judge.grid.shifted(along, cell, far * step, 0).map(|other| &self.texts[other]);
+            text(1) == Some(&self.texts[cell]) && text(2) != Some(&self.texts[cell])
+        };
+        let kinds =
+            [(Along::Station, Hypothesis::NeighbouringWaterline), (Along::Waterline, Hypothesis::NeighbouringStation)];
+        kinds
+            .into_iter()
+            .filter(|&(along, _)| [-1, 1].into_iter().any(|step| same(along, step)))
+            .map(|(_, kind)| kind)
+            .collect()
+    }
+
+    fn readings(&self, verdict: &Verdict) -> Vec<Reading> {
+        let cell = verdict.cell;
+        let list = repairs(&self.texts[cell], self.written[cell]);
+        readings(verdict, self.written[cell], &self.texts[cell], &list, &self.copies(cell), self.quantum)
+    }
+
+    /// Whether the verdict makes the cell a suspect.
+    fn stands_out(&self, verdict: &Verdict) -> bool {
+        if verdict.score().abs() < LEAST_SCORE {
+            return false;
+        }
+        let noise =
+            self.readings(verdict).iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability);
+        1.0 - noise >= LEAST_PROBABILITY
+    }
+
+    /// The suspect to set aside next: of those that stand out the one whose yielding takes most energy off its lines, unless
+    /// it lies in the shadow of another.
+    fn next(&self) -> Option<Verdict> {
+        let mut order: Vec<(f64, Verdict)> = self
+            .verdicts
+            .iter()
+            .flatten()
+            .filter(|v| v.score().abs() >= SHADOW_SCORE)
+            .map(|v| (self.judge.energy_drop(v.cell, v.residual), *v))
+            .collect();
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (k, (_, verdict)) in order.iter().enumerate() {
+            let (i, j) = self.judge.grid.place(verdict.cell);
+            let shaded = order[..k].iter().any(|(_, other)| {
+                let (row, column) = self.judge.grid.place(other.cell);
+                (i == row && j.abs_diff(column) <= SHADOW) || (j == column && i.abs_diff(row) <= SHADOW)
+            });
+            if !shaded && self.stands_out(verdict) {
+                return Some(*verdict);
+            }
+        }
+        // In the shadow of what does not stand out.
+        order.iter().map(|(_, v)| *v).find(|v| self.stands_out(v))
+    }
+
+    fn set_aside(&mut self, verdict: &Verdict) {
+        self.judge.set(verdict.cell, self.written[verdict.cell] - verdict.residual, true);
+        self.hear_around(verdict.cell);
+    }
+
+    fn take_back(&mut self, cell: usize) -> Option<Verdict> {
+        self.judge.set(cell, self.written[cell], false);
+        self.judge.verdict(cell)
+    }
+
+    fn run(&mut self) -> Vec<Verdict> {
+        let most = (MOST * self.written.len() as f64).ceil() as usize;
+        let mut found = gross(&self.judge.grid, self.judge.sigma2.sqrt(), most);
+        for &cell in &found {
+            self.judge.set(cell, self.written[cell], true);
+        }
+        for _ in 0..SWEEPS {
+            for &cell in &found {
+                self.impute(cell);
+            }
+        }
+        self.judge.level();
+        self.hear();
+        let mut kept: Vec<Verdict> = Vec::new();
+        for _ in 0..ROUNDS {
+            let before = found.clone();
+            while found.len() < most {
+                let Some(verdict) = self.next() else { break };
+                self.set_aside(&verdict);
+                found.push(verdict.cell);
+            }
+            if found == before && kept.len() == found.len() {
+                break;
+            }
+            kept = self.hear_again(&mut found);
+        }
+        self.judge.level();
+        self.hear();
+        kept
+    }
+
+    /// The prediction stands in for a cell that is set aside.
+    fn impute(&mut self, cell: usize) {
+        if let Some(verdict) = self.judge.verdict(cell) {
+            let value = self.judge.grid.value[cell] - verdict.residual;
+            self.judge.set(cell, value, true);
+        }
+    }
+
+    /// Hears each cell that is set aside again, the weakest first, with the others set aside; those that do not stand out are
+    /// taken back.
+    fn hear_again(&mut self, found: &mut Vec<usize>) -> Vec<Verdict> {
+        let mut kept = Vec::new();
+        for last in [false, true] {
+            let mut heard: Vec<(usize, f64)> = found
+                .iter()
+                .map(|&cell| {
+                    let stand_in = self.judge.grid.value[cell];
+                    let score = self.take_back(cell).map_or(0.0, |v| v.score().abs());
+                    self.judge.set(cell, stand_in, true);
+                    (cell, score)
+                })
+                .collect();
+            heard.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+            kept.clear();
+            let mut changed = false;
+            for (cell, _) in heard {
+                match self.take_back(cell).filter(|verdict| self.stands_out(verdict)) {
+                    Some(verdict) => {
+                        self.judge.set(cell, self.written[cell] - verdict.residual, true);
+                        kept.push(verdict);
+                    }
+                    None => changed = true,
+                }
+            }
+            *found = kept.iter().map(|v: &Verdict| v.cell).collect();
+            if !changed || last {
+                break;
+            }
+        }
+        self.hear();
+        kept
+    }
+
+    fn conclude(self, mut found: Vec<Verdict>, writing: Writing) -> Suspects {
+        let mut all = self.verdicts.clone();
+        for verdict in &found {
+            all[verdict.cell] = Some(*verdict);
+        }
+        found.sort_by(|a, b| b.score().abs().total_cmp(&a.score().abs()).then(a.cell.cmp(&b.cell)));
+        let suspects = found
+            .iter()
+            .enumerate()
+            .map(|(k, verdict)| {
+                let (station, waterline) = self.judge.grid.place(verdict.cell);
+                let readings = self.readings(verdict);
+                let noise = readings.iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability);
+                let best = readings.iter().find(|r| r.hypothesis != Hypothesis::Noise);
+                let expected = self.written[verdict.cell] - verdict.residual;
+                let proposed = best.map_or(expected, |r| r.value);
+                let proposed_text = best.map(|r| r.text.clone()).filter(|t| !t.is_empty());
+                Suspect {
+                    id: format!("S{}", k + 1),
+                    station,
+                    waterline,
+                    written: self.texts[verdict.cell].clone(),
+                    value: self.written[verdict.cell],
+                    verdict: self.words(verdict),
+                    probability: 1.0 - noise,
+                    proposed,
+                    proposed_text: proposed_text.unwrap_or_else(|| writing.write(proposed)),
+                    readings,
+                }
+            })
+            .collect();
+        let width = self.table.waterlines.len().max(1);
+        let verdicts: Vec<Vec<Option<CellVerdict>>> =
+            all.chunks(width).map(|row| row.iter().map(|v| v.as_ref().map(|v| self.words(v))).collect()).collect();
+        Suspects { noise: self.judge.sigma2.sqrt(), suspects, verdicts }
+    }
+
+    fn words(&self, verdict: &Verdict) -> CellVerdict {
+        let value = self.written[verdict.cell];
+        let own = verdict.scale.powi(2) - verdict.uncertainty.powi(2);
+        let [along_station, along_waterline] =
+            verdict.witnesses.map(|w| [value - w.residual, (w.scale2 - own).max(0.1 * w.scale2).sqrt()]);
+        CellVerdict {
+            expected: value - verdict.residual,
+            uncertainty: verdict.uncertainty,
+            noise: verdict.scale,
+            score: verdict.score(),
+            along_station,
+            along_waterline,
+        }
+    }
+}
