@@ -16,7 +16,9 @@
 use super::fields::{Field, Line, Place, Problems, Separator, decimals, lines, plain_number};
 use super::sections::decimals_in_metres;
 use super::{ReadTable, TableProblem};
-use crate::hull::{Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, Written};
+use crate::hull::{
+    Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
+};
 use crate::units::{Notation, parse_length};
 
 /// The separator of a table of cells: the most frequent of tab, semicolon and comma.
@@ -49,14 +51,6 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
         })
     };
     stations && (maxima() || said())
-}
-
-/// Reads a table of fractions whose comment lines give its dimensions.
-///
-/// # Errors
-/// Every problem of the file.
-pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
-    read_with(name, text, &StatedParticulars::default())
 }
 
 /// Reads a table of fractions; `beside` gives dimensions that its comment lines do not.
@@ -328,7 +322,11 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
     let heights: Vec<f64> = waterlines.iter().map(|waterline| waterline.z).collect();
     let endings = vec![[None; 2]; heights.len()];
     // A step of the fraction is so many metres on the widest waterline.
-    let form = TableForm { notation: Notation::Metres, decimals: Some(decimals_in_metres(digits, 0.5 * breadth)) };
+    let form = TableForm {
+        notation: Notation::Metres,
+        decimals: Some(decimals_in_metres(digits, 0.5 * breadth)),
+        ..TableForm::default()
+    };
     Some(OffsetTable { waterlines: heights, stations, endings, form, ..OffsetTable::default() })
 }
 
