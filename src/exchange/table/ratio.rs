@@ -149,20 +149,17 @@ fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mu
 fn product(text: &str) -> Option<f64> {
     let text: String = text.chars().take_while(|c| c.is_ascii_digit() || matches!(c, '.' | '*' | '/')).collect();
     let mut value = 1.0;
-    for factor in text.split_inclusive(['*', '/']).scan('?', |before, part| {
-        let (number, next) = match part.strip_suffix(['*', '/']) {
-            Some(number) => (number, part.chars().last().unwrap_or('?')),
-            None => (part, '?'),
-        };
-        let operator = std::mem::replace(before, next);
-        Some((operator, number))
-    }) {
-        match factor {
-            ('?', "") => {}
-            ('*', number) => value *= plain_number(number)?,
-            ('/', number) => value /= plain_number(number).filter(|v| *v > 0.0)?,
+    let mut rest = text.as_str();
+    while !rest.is_empty() {
+        let (operator, factors) = (rest.chars().next()?, rest.get(1..)?);
+        let end = factors.find(['*', '/']).unwrap_or(factors.len());
+        let (number, after) = factors.split_at(end);
+        match operator {
+            '*' => value *= plain_number(number)?,
+            '/' => value /= plain_number(number).filter(|v| *v > 0.0)?,
             _ => return None,
         }
+        rest = after;
     }
     (value.is_finite() && value > 0.0).then_some(value)
 }
