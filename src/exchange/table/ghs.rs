@@ -140,7 +140,7 @@ fn header(reader: &mut Reader<'_>, problems: &mut Problems) -> Option<f64> {
         let place = Place::row(line.row);
         match line.text.split_once(':') {
             Some(("L", value)) => length = problems.number(Field { text: value.trim(), place }, "the length L"),
-            Some((key, _)) if matches!(key, "W" | "P" | "N" | "O" | "OL" | "OT" | "OV" | "V" | "D" | "C") => {}
+            Some(("W" | "P" | "N" | "O" | "OL" | "OT" | "OV" | "V" | "D" | "C", _)) => {}
             Some((key, _)) => {
                 problems.note("W334", place, format!("the line '{}:' is not used", key.trim()), "");
             }

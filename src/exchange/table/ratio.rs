@@ -16,8 +16,10 @@
 use super::fields::{Field, Line, Place, Problems, Separator, decimals, lines, plain_number};
 use super::sections::decimals_in_metres;
 use super::{ReadTable, TableProblem};
-use crate::hull::{Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, Written};
-use crate::units::{Notation, parse_length};
+use crate::hull::{
+    Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
+};
+use crate::units::parse_length;
 
 /// The separator of a table of cells: the most frequent of tab, semicolon and comma.
 pub(super) fn separator(text: &str) -> char {
@@ -41,14 +43,14 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
     let mut rows = text.lines().filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
     let Some(head) = rows.next().and_then(|line| line.split(mark).next()) else { return false };
     let stations = matches!(head.trim().to_ascii_lowercase().as_str(), "" | "station" | "st" | "stn");
-    let maxima = || rows.last().is_some_and(|line| line.contains(mark) && is_maxima(line));
+    let maxima = rows.next_back().is_some_and(|line| line.contains(mark) && is_maxima(line));
     let said = || {
         comments(text).any(|(_, line)| {
             let line = line.to_ascii_lowercase().replace(' ', "");
             line.contains("y/(b/2)") || line.contains("y/ymax")
         })
     };
-    stations && (maxima() || said())
+    stations && (maxima || said())
 }
 
 /// Reads a table of fractions whose comment lines give its dimensions.
@@ -325,7 +327,11 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
     let heights: Vec<f64> = waterlines.iter().map(|waterline| waterline.z).collect();
     let endings = vec![[None; 2]; heights.len()];
     // A step of the fraction is so many metres on the widest waterline.
-    let form = TableForm { notation: Notation::Metres, decimals: Some(decimals_in_metres(digits, 0.5 * breadth)) };
+    let form = TableForm {
+        layout: TableLayout::Other,
+        decimals: Some(decimals_in_metres(digits, 0.5 * breadth)),
+        ..TableForm::default()
+    };
     Some(OffsetTable { waterlines: heights, stations, endings, form, ..OffsetTable::default() })
 }
 
