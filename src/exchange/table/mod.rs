@@ -70,15 +70,13 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
 /// # Errors
 /// Every problem of both files at once, in the order of rows and columns.
 pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
+    if let Some(read) = formats::read(name, bytes, beside) {
+        return read;
+    }
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
     if let Some((name, text)) = beside {
         beside::read(name, text, &mut settings, &mut problems);
-    }
-    if !problems.any_errors()
-        && let Some(read) = formats::read(name, bytes, &settings.stated)
-    {
-        return read;
     }
     let table = match problems.any_errors() {
         // Without its conventions the table would give misleading problems.

@@ -4,7 +4,6 @@ use super::fields::{Place, Problems};
 use super::outline::{Deck, Halves, branches, deviation, halves};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
-use crate::units::Notation;
 
 /// A section as a file gives it.
 #[derive(Debug, Clone)]
@@ -133,12 +132,7 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
         })
         .collect();
     let decimals = decimals_in_metres(problems.decimals, unit);
-    let form = TableForm {
-        layout: TableLayout::Other,
-        notation: Notation::Metres,
-        decimals: Some(decimals),
-        ..TableForm::default()
-    };
+    let form = TableForm { layout: TableLayout::Other, decimals: Some(decimals), ..TableForm::default() };
     problems.finish(Some(OffsetTable { name, stated, stations, form, ..OffsetTable::default() }))
 }
 
