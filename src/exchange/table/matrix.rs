@@ -194,8 +194,11 @@ fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
 /// Whether a header is a bare word for the positions of lines: `x`, `z [m]`, `height`.
 fn is_positions(field: &Field, stations: bool) -> bool {
     let text = field.trimmed();
-    side_of(text).is_none()
-        && axis_of(text).is_some_and(|axis| if stations { axis == Axis::X } else { axis == Axis::Waterline })
+    let corner = Corner::of(text);
+    // `z\x` too is over the positions of stations, once the table is turned.
+    let crossed = stations && corner.columns.is_some() && [corner.rows, corner.columns].contains(&Some(Axis::X));
+    let named = axis_of(text).is_some_and(|axis| if stations { axis == Axis::X } else { axis == Axis::Waterline });
+    side_of(text).is_none() && (crossed || named)
 }
 
 fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> Option<Block> {
