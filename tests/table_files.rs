@@ -188,7 +188,7 @@ fn a_table_is_converted_and_the_rounding_reported() {
     // Conventions beside the table.
     fs::write(folder.join("boat.toml"), "[table]\nbreadths = \"full\"\n").unwrap();
     let half = convert(&[&path, "--notation", "m", "--layout", "tidy", "-q"]);
-    let expected = "station,x [m],curve,z,y,flag\n0,0,WL,0.5,0.6172,\n0,0,WL,1,1.0000,\n10,10,WL,0.5,1.0000,\n10,10,WL,1,1.5000,\n";
+    let expected = "station,x [m],curve,z,y,flag\n0,0,WL,0.5,0.61720,\n0,0,WL,1,1.00000,\n10,10,WL,0.5,1.00000,\n10,10,WL,1,1.50000,\n";
     assert_eq!(String::from_utf8(half.stdout).unwrap(), expected);
     assert!(half.stderr.is_empty());
     fs::write(folder.join("boat.toml"), "[table]\nbreadth = \"full\"\n").unwrap();

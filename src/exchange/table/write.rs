@@ -101,6 +101,10 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         form.station_heads.clear();
         form.preamble.retain(|line| stays(line, form.separator));
         (form.corner, form.buttock_corner) = (None, None);
+        if form.full_breadths && !renotated {
+            // Half of the last digit is a digit more.
+            form.decimals = form.decimals.map(|digits| digits + 1);
+        }
         (form.full_breadths, form.negative) = (false, false);
         form.waterline_heads.clear();
         form.buttock_heads.clear();
