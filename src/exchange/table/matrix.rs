@@ -34,7 +34,10 @@ pub(super) struct Side {
 /// One matrix, turned so that its lines are stations.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
+    /// Where the headers cross, as far as it says what they are.
     pub(super) corner: Field,
+    /// The first field of the header with the positions; another one than `corner` when names stand in a header above.
+    pub(super) first: Field,
     pub(super) rows: Rows,
     /// Why the rows are what they are, for the note.
     pub(super) reason: &'static str,
@@ -128,8 +131,12 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static st
         return (rows, "by the conventions");
     }
     let corner = Corner::of(fields[0][0].trimmed());
-    if let (Some(rows), Some(_)) = (corner.rows, corner.columns) {
-        return (rows_of(rows), "by the first header");
+    // Beside or below a column or row of names the two headers may stand one field further.
+    let further = [fields[0].get(1), fields.get(1).and_then(|row| row.first())];
+    for corner in further.into_iter().flatten().map(|f| Corner::of(f.trimmed())).chain([corner]) {
+        if let (Some(rows), Some(_)) = (corner.rows, corner.columns) {
+            return (rows_of(rows), "by the first header");
+        }
     }
     let second = fields.get(1).and_then(|row| axis_of(row[0].trimmed()));
     if let (Some(first), Some(second)) = (corner.rows, second)
@@ -187,8 +194,11 @@ fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
 /// Whether a header is a bare word for the positions of lines: `x`, `z [m]`, `height`.
 fn is_positions(field: &Field, stations: bool) -> bool {
     let text = field.trimmed();
-    side_of(text).is_none()
-        && axis_of(text).is_some_and(|axis| if stations { axis == Axis::X } else { axis == Axis::Waterline })
+    let corner = Corner::of(text);
+    // `z\x` too is over the positions of stations, once the table is turned.
+    let crossed = stations && corner.columns.is_some() && [corner.rows, corner.columns].contains(&Some(Axis::X));
+    let named = axis_of(text).is_some_and(|axis| if stations { axis == Axis::X } else { axis == Axis::Waterline });
+    side_of(text).is_none() && (crossed || named)
 }
 
 fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> Option<Block> {
@@ -219,6 +229,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         || heads.iter().skip(left + 1).any(|f| axis_of(&f.text) == Some(Axis::Buttock) && side_of(&f.text).is_none());
     let mut block = Block {
         corner,
+        first: heads[left].clone(),
         rows,
         reason,
         across: if buttocks { Axis::Buttock } else { Axis::Waterline },

@@ -187,7 +187,7 @@ fn matrix(
         if form.decimal_comma { ", decimal commas" } else { "" }
     ));
     let places = first.heads.iter().map(|f| f.row).chain(first.stations.iter().map(|line| line.head.row));
-    let header_row = places.chain([first.corner.row]).filter(|&row| row > 0).min().unwrap_or(1);
+    let header_row = places.chain([first.first.row]).filter(|&row| row > 0).min().unwrap_or(1);
     let preamble = text.lines().take(header_row - 1).map(str::to_owned).collect();
     let mut table = assemble::assemble(blocks, TableForm { preamble, ..form }, settings, problems)?;
     table.name = titles.first().map(|field| field.trimmed().to_owned()).unwrap_or_default();

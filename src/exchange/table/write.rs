@@ -56,6 +56,20 @@ fn usual_decimals(notation: Notation) -> Option<usize> {
     }
 }
 
+/// Whether a line above a table still holds in another notation: prose, a title, and conventions that say nothing of units,
+/// positions and layout.
+fn stays(line: &str, separator: char) -> bool {
+    match line.strip_prefix('#').map(|comment| comment.split_once('=')) {
+        Some(Some((key, _))) => {
+            let key = key.trim();
+            let known = super::settings::KEYS.iter().any(|k| k.eq_ignore_ascii_case(key));
+            !known || ["name", "Lpp", "B", "T", "D"].iter().any(|k| k.eq_ignore_ascii_case(key))
+        }
+        Some(None) => true,
+        None => !line.trim_end_matches(separator).contains(separator),
+    }
+}
+
 /// Writes a table.
 #[must_use]
 pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
@@ -71,12 +85,26 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         form.decimals = usual_decimals(notation);
     }
     if renotated || layout != form.layout {
-        // The headers of the file speak of other units or of another layout; numbers of stations stay numbers.
-        if !matches!(form.origin, Origin::Numbers { .. }) {
-            form.origin = Origin::Lengths;
-            form.station_heads.clear();
+        // The headers of the file speak of other units or of another layout, and its conventions may not go with the new
+        // file: positions become lengths from AP. Station numbers become names.
+        let named = |columns: &[SideLine]| columns.iter().any(|side| side.kind == SideKind::Name);
+        if matches!(form.origin, Origin::Numbers { .. }) {
+            let columns = if table.waterlines.is_empty() { &mut form.buttock_columns } else { &mut form.side_columns };
+            if !named(columns) {
+                let head = "station".to_owned();
+                columns.insert(0, SideLine { kind: SideKind::Name, head, before: true, texts: Vec::new() });
+            }
         }
+        form.origin = Origin::Lengths;
+        // One unit for all, as the new header says.
+        (form.x_notation, form.z_notation) = (notation, notation);
+        form.station_heads.clear();
+        form.preamble.retain(|line| stays(line, form.separator));
         (form.corner, form.buttock_corner) = (None, None);
+        if form.full_breadths && !renotated {
+            // Half of the last digit is a digit more.
+            form.decimals = form.decimals.map(|digits| digits + 1);
+        }
         (form.full_breadths, form.negative) = (false, false);
         form.waterline_heads.clear();
         form.buttock_heads.clear();
