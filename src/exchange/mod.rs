@@ -21,5 +21,6 @@ pub use residuals::residuals_csv;
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{
-    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, ReadTable, Severity, TableProblem, read_table,
+    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, MOST_UNPACKED, ReadTable, Rounding, Severity,
+    TableProblem, TableWriting, WrittenTable, read_table, read_table_with, write_table,
 };

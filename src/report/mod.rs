@@ -1,5 +1,6 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
+mod convert;
 mod failure;
 mod files;
 mod fit;
@@ -9,6 +10,7 @@ mod page;
 mod self_test;
 mod source;
 
+pub use convert::{Converted, convert_table};
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};

@@ -273,7 +273,8 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Re
     for (line, x) in lines.iter().zip(&xs) {
         // The second block gives the same stations, perhaps fewer.
         let at = table.stations.iter().position(|s| (s.station.x - x).abs() < SAME);
-        let cells: Vec<Cell> = line.cells.iter().map(|field| reader.cell(field, half)).collect();
+        let cells = line.cells.iter().map(|field| reader.cell(field, half)).collect();
+        let cells: Vec<Cell> = rising(cells, placed.across_order);
         let mut sides = Vec::new();
         for (side, field) in block.sides.iter().zip(&line.sides) {
             let unit = match side.kind {
@@ -297,7 +298,7 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Re
             *side_value(station, kind) = value;
         }
     }
-    let corner = block.corner.trimmed().to_owned();
+    let corner = block.first.trimmed().to_owned();
     if half {
         table.endings = endings(&block.endings, placed.across_order, across.len(), reader);
         table.waterlines = across;

@@ -1,7 +1,8 @@
 //! Checks of a table as a whole. A cell that is merely suspicious is not an error of reading.
 
-use super::assemble::Reader;
+use super::assemble::{Reader, SAME};
 use super::problem::{Field, Problems};
+use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable};
 
 fn place(cell: &Cell) -> Field {
@@ -40,6 +41,23 @@ pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
     }
 }
 
+/// The endings of the conventions, at the waterlines of the table.
+pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &mut Problems) {
+    for (end, points) in settings.endings.iter().enumerate() {
+        for &[z, x] in points {
+            let Some(at) = table.waterlines.iter().position(|w| (w - z).abs() < SAME) else {
+                let message = format!("[endings] gives x {x} m at the height {z} m, where the table has no waterline");
+                problems.error("E311", message, "Give the profiles at the heights of the waterlines");
+                continue;
+            };
+            if table.endings.is_empty() {
+                table.endings = vec![[None; 2]; table.waterlines.len()];
+            }
+            table.endings[at][end] = Some(x);
+        }
+    }
+}
+
 /// What is wrong with a table, or should be known about it, once its numbers are read.
 pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
     breadths(table, full, problems);
@@ -52,6 +70,13 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     if !table.endings.iter().any(|e| e.iter().any(Option::is_some)) && !table.waterlines.is_empty() {
         let message = "no profiles of stem and stern; the ends of the waterlines will be extrapolated".to_owned();
         problems.warning("W306", message, "Give rows 'stern' and 'stem' below the half-breadths, or [endings]");
+    }
+    if let Some(draught) = table.stated.draught {
+        let below = table.waterlines.iter().filter(|&&z| z <= draught + SAME).count();
+        if (1..6).contains(&below) {
+            let message = format!("only {below} waterlines up to T {draught} m: volumes from this table are coarse");
+            problems.warning("W307", message, "");
+        }
     }
 }
 

@@ -34,7 +34,10 @@ pub(super) struct Side {
 /// One matrix, turned so that its lines are stations.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
+    /// Where the headers cross, as far as it says what they are.
     pub(super) corner: Field,
+    /// The first field of the header with the positions; another one than `corner` when names stand in a header above.
+    pub(super) first: Field,
     pub(super) rows: Rows,
     /// Why the rows are what they are, for the note.
     pub(super) reason: &'static str,
@@ -128,8 +131,12 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static st
         return (rows, "by the conventions");
     }
     let corner = Corner::of(fields[0][0].trimmed());
-    if let (Some(rows), Some(_)) = (corner.rows, corner.columns) {
-        return (rows_of(rows), "by the first header");
+    // Beside or below a column or row of names the two headers may stand one field further.
+    let further = [fields[0].get(1), fields.get(1).and_then(|row| row.first())];
+    for corner in further.into_iter().flatten().map(|f| Corner::of(f.trimmed())).chain([corner]) {
+        if let (Some(rows), Some(_)) = (corner.rows, corner.columns) {
+            return (rows_of(rows), "by the first header");
+        }
     }
     let second = fields.get(1).and_then(|row| axis_of(row[0].trimmed()));
     if let (Some(first), Some(second)) = (corner.rows, second)
@@ -219,6 +226,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         || heads.iter().skip(left + 1).any(|f| axis_of(&f.text) == Some(Axis::Buttock) && side_of(&f.text).is_none());
     let mut block = Block {
         corner,
+        first: heads[left].clone(),
         rows,
         reason,
         across: if buttocks { Axis::Buttock } else { Axis::Waterline },
