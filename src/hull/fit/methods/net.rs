@@ -57,7 +57,8 @@ fn direction(
     let degree = problems.degree(keys.order, settings.orders[side]);
     let knots = settings.knots[side].as_deref();
     let chosen = (3 * lines.len()).div_ceil(4).clamp(degree + 1, lines.len().max(degree + 1));
-    let from_knots = knots.map(|knots| knots.len().saturating_sub(degree + 1));
+    // Too few knots are a problem of the knots, not of the number of control points.
+    let from_knots = knots.map(|knots| knots.len().saturating_sub(degree + 1).max(degree + 1));
     let count = settings.control_points[side].or(from_knots).unwrap_or(chosen);
     if count < degree + 1 || count > lines.len() {
         let message = format!("{count} control points of order {} for {} {}", degree + 1, lines.len(), keys.lines);
@@ -73,6 +74,13 @@ fn direction(
         problems.add(keys.parameters, message, "Give one for each line of the table.");
         return None;
     }
+    let need = format!("{count} control points of order {} need {}.", degree + 1, count + degree + 1);
+    if let Some(knots) = knots
+        && knots.len() < count + degree + 1
+    {
+        problems.add(keys.knots, format!("{} knots", knots.len()), need);
+        return None;
+    }
     let vector = match knots {
         Some(knots) => KnotVector::from_unclamped(degree, knots, count),
         None => KnotVector::for_least_squares(degree, given.unwrap_or(lines), count),
@@ -81,11 +89,7 @@ fn direction(
         Ok(vector) => vector,
         Err(error) => {
             let key = if knots.is_some() { keys.knots } else { keys.parameters };
-            problems.add(
-                key,
-                error.to_string(),
-                format!("{count} control points of order {} need {} knots.", degree + 1, count + degree + 1),
-            );
+            problems.add(key, error.to_string(), need);
             return None;
         }
     };

@@ -57,6 +57,31 @@ fn part(k: usize, parts: usize) -> f64 {
     k as f64 / parts as f64
 }
 
+/// How far a control point may be moved to keep x rising, over the length of its waterline.
+const MOST_MOVED: f64 = 0.01;
+
+/// Makes x of one column of a net rise from its first to its last point, both kept. At a round end, where the waterline stands
+/// across, interpolation lets the point next to the end fall back by its own error. Gives the largest movement \[m\]; a net
+/// that falls further than [`MOST_MOVED`] stays as it is, to be refused.
+fn rising(net: &mut [[f64; 3]], column: usize, columns: usize) -> f64 {
+    let mut xs: Vec<f64> = net.iter().skip(column).step_by(columns).map(|p| p[0]).collect();
+    let (first, last) = (xs[0], xs[xs.len() - 1]);
+    if first > last {
+        return 0.0;
+    }
+    let (mut moved, mut before) = (0.0f64, first);
+    for x in &mut xs {
+        let to = x.clamp(before, last);
+        moved = moved.max((to - *x).abs());
+        (*x, before) = (to, to);
+    }
+    if moved > MOST_MOVED * (last - first) {
+        return 0.0;
+    }
+    net.iter_mut().skip(column).step_by(columns).zip(xs).for_each(|(point, x)| point[0] = x);
+    moved
+}
+
 /// The surface of the method.
 pub(super) fn surface(
     table: &OffsetTable,
@@ -110,12 +135,16 @@ pub(super) fn surface(
         grid.extend((0..=up).map(|k| column.eval(part(k, up))));
     }
     let through = BsplineSurface::through_grid([degree; 2], rule, up + 1, &grid)?;
+    let mut net = through.points().to_vec();
+    let moved = (0..=up).map(|column| rising(&mut net, column, up + 1)).fold(0.0, f64::max);
+    if moved > 0.0 {
+        matrix.notes.push(format!(
+            "round ends: control points that fell back behind the one before them were moved to it, by {moved:.4} m at most"
+        ));
+    }
     // Heights belong to v alone; equal data give control heights that are equal but for rounding.
-    let net = (0..through.points().len())
-        .map(|k| {
-            let [x, y, _] = through.points()[k];
-            [x, y, through.points()[k % (up + 1)][2]]
-        })
-        .collect();
+    for k in up + 1..net.len() {
+        net[k][2] = net[k - up - 1][2];
+    }
     Ok(BsplineSurface::new(through.u().clone(), through.v().clone(), net)?)
 }
