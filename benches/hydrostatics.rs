@@ -2,7 +2,8 @@
 //!
 //! `wigley`: Wigley-like half-breadths between a raked stem and a raked stern, x(u, v) non-linear in u and dependent on v in
 //! the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length. `frigate`: a generated ship
-//! of 31 x 19 control points, whose lines slant at the ends.
+//! of 31 x 19 control points, whose lines slant at the ends. `canoe` and `canoe-mixed`: a rockered keel, z(u, v), with upright
+//! stations and with lines that rake.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use loftsman::hull::{Hull, PrincipalParticulars};
@@ -31,14 +32,37 @@ fn hull(slanting: bool) -> Hull {
     Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 
+/// A canoe body: a rockered keel, stations or (`mixed`) lines that rake with the ends, y like a square root over the keel.
+fn canoe(mixed: bool) -> Hull {
+    let (u, v) = (KnotVector::uniform(3, 21).unwrap(), KnotVector::uniform(3, 11).unwrap());
+    let (length, breadth, depth) = (100.0, 16.0, 10.0);
+    let mut points = Vec::new();
+    for &s in &u.greville() {
+        for &t in &v.greville() {
+            let xi = 2.0 * s - 1.0;
+            let keel = 5.0 * xi * xi;
+            let rake = if mixed { 4.0 * t * xi } else { 0.0 };
+            points.push([length * s + rake, 0.5 * breadth * (1.0 - xi * xi) * t, keel + (depth - keel) * t * t]);
+        }
+    }
+    let line = KnotVector::uniform(1, 1).unwrap();
+    let deck = BsplineCurve::new(line, vec![[-10.0, depth], [110.0, depth]]).unwrap();
+    let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: 6.0, depth };
+    Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+}
+
 fn tables(criterion: &mut Criterion) {
     let wishes = Wishes { ship_type: Some(ShipType::Frigate), length: 100.0, ..Wishes::default() };
     let frigate = cosh::generate("frigate", &wishes).unwrap().hull;
     let depth = frigate.particulars().depth;
     let mut group = criterion.benchmark_group("hydrostatics");
-    for (name, hull, top) in
-        [("wigley", hull(false), 10.0), ("slanting", hull(true), 10.0), ("frigate", frigate, depth)]
-    {
+    for (name, hull, top) in [
+        ("wigley", hull(false), 10.0),
+        ("slanting", hull(true), 10.0),
+        ("frigate", frigate, depth),
+        ("canoe", canoe(false), 10.0),
+        ("canoe-mixed", canoe(true), 10.0),
+    ] {
         for count in [40, 80] {
             let draughts: Vec<f64> = (1..=count).map(|k| top * f64::from(k) / f64::from(count + 1)).collect();
             group.bench_with_input(BenchmarkId::new(name, count), &draughts, |bench, draughts| {

@@ -1,8 +1,10 @@
 //! Hulls whose heights depend on both parameters: rockered keels, chines, re-parametrised bodies, against closed forms and
 //! quadrature of the formulas of the bodies.
 
+use loftsman::exchange::{read_hull, write_hull};
 use loftsman::hull::{Cut, Face, Functional, Hull, HullError, OffsetTable, PrincipalParticulars};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
+use loftsman::plot::{Figure, FigureInputs};
 use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use proptest::prelude::*;
 
@@ -404,6 +406,62 @@ fn the_sheer_line_may_be_the_upper_edge() {
         10.0 * 8.0 / 3.0 * (1.0 - xi * xi) * height * share.powf(1.5)
     });
     near(partly.displacement_volume, part, 1e-8, "volume with the deck partly immersed");
+}
+
+#[test]
+fn files_and_figures_of_a_canoe_body() {
+    let hull = canoe([5, 4]);
+    let conventions = Conventions::default();
+    let text = write_hull(&hull, &conventions).unwrap();
+    let read = read_hull(&text).unwrap();
+    assert_eq!(read.hull, hull);
+    assert_eq!(write_hull(&read.hull, &conventions).unwrap(), text);
+    let design = row(&hull, 2.0);
+    let curves = CurvesOfForm::new(&hull, &[0.4, 2.0, 4.0], &conventions);
+    for figure in Figure::ALL {
+        let drawn = figure.draw(&FigureInputs { hull: &hull, design: &design, curves: &curves }).unwrap();
+        assert!(drawn.as_str().contains("<path"), "{}", figure.key());
+        if let Ok(folder) = std::env::var("LOFTSMAN_PICTURES") {
+            std::fs::write(format!("{folder}/{}.png", figure.key()), drawn.to_png(110.0).unwrap()).unwrap();
+        }
+    }
+    // Waterlines are sections: above the ends of the keel one branch from end to end, below them one between its ends.
+    for z in [1.0, 3.5] {
+        let section = hull.section(Cut::Waterline { z }, 1e-7);
+        assert_eq!(section.branches.len(), 1, "z = {z}");
+        let points = section.branches[0].curve.points();
+        let end = 0.5 * LENGTH * (z / ROCKER).sqrt().min(1.0);
+        near(points[0][0], 0.5 * LENGTH - end, 1e-6, "aft end");
+        near(points[points.len() - 1][0], 0.5 * LENGTH + end, 1e-6, "fore end");
+        for p in section.branches[0].polyline(1e-5) {
+            let y = hull.half_breadth(p[0], z).unwrap_or(0.0);
+            assert!((p[2] - z).abs() < 2e-7 && (y - p[1]).abs() < 2e-3, "{p:?} {y}");
+        }
+    }
+    // Stations, buttocks and offsets lie on the body.
+    let body = |x: f64, z: f64| {
+        let xi = 2.0 * x / LENGTH - 1.0;
+        let keel = ROCKER * xi * xi;
+        0.5 * BREADTH * (1.0 - xi * xi) * ((z - keel) / (DEPTH - keel)).max(0.0).sqrt()
+    };
+    for cut in [Cut::Station { x: 6.0 }, Cut::Buttock { y: 1.5 }, Cut::Diagonal { height: 2.0, angle: 0.5 }] {
+        let branches = hull.section(cut, 1e-7).branches;
+        assert_eq!(branches.len(), 1, "{cut:?}");
+        for p in branches[0].polyline(1e-6) {
+            let keel = ROCKER * (2.0 * p[0] / LENGTH - 1.0).powi(2);
+            // Above the keel, where dy/dz is infinite.
+            assert!(p[2] < keel + 0.02 || (p[1] - body(p[0], p[2])).abs() < 1e-5, "{cut:?} {p:?}");
+        }
+    }
+    let table = OffsetTable::with_defaults(&hull);
+    for station in &table.stations {
+        let xi = 2.0 * station.station.x / LENGTH - 1.0;
+        near(station.keel_height.unwrap(), ROCKER * xi * xi, 1e-9, "keel");
+        for (&z, cell) in table.waterlines.iter().zip(&station.half_breadths) {
+            let y = body(station.station.x, z);
+            assert!((cell.value().unwrap_or(0.0) - y).abs() < 1e-7, "{} {z} {cell:?} {y}", station.station.x);
+        }
+    }
 }
 
 /// A mixed chart bent by `bend`, each within 1.

@@ -280,13 +280,13 @@ impl<'a, const N: usize> Stations<'a, N> {
                 let mut cell = Cell { x: [[0.0; MAX_DEGREE + 1]; N], y: [[0.0; MAX_DEGREE + 1]; N], slanting: false };
                 let mut rises = [[0.0; MAX_DEGREE + 1]; N];
                 for i in 0..=p {
-                    for j in 0..N {
+                    for (j, rise) in rises.iter_mut().enumerate() {
                         let [x, y, z] = surface.point(span - p + i, span_v - q + j);
                         cell.slanting |= x.to_bits() != surface.point(span - p + i, span_v)[0].to_bits();
                         for (k, row) in powers.iter().enumerate().take(p + 1) {
                             cell.x[j][k] += row[i] * x;
                             cell.y[j][k] += row[i] * y;
-                            rises[j][k] += row[i] * z;
+                            rise[k] += row[i] * z;
                         }
                     }
                 }

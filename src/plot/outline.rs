@@ -103,3 +103,31 @@ pub(super) fn overall_length(hull: &Hull) -> [f64; 2] {
     let outline = centreplane(hull);
     outline.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p[0]), b.max(p[0])])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::PrincipalParticulars;
+    use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+
+    #[test]
+    fn the_outline_follows_a_rockered_keel() {
+        // Keel z = 2 (2 u - 1)^2 over 10 m, deck at 3 m.
+        let (u, v) = (KnotVector::uniform(2, 1).unwrap(), KnotVector::uniform(1, 1).unwrap());
+        let keel = [2.0, -2.0, 2.0];
+        let points = (0..3).flat_map(|i| [[5.0 * i as f64, 0.0, keel[i]], [5.0 * i as f64, 1.0, 3.0]]).collect();
+        let line = KnotVector::uniform(1, 1).unwrap();
+        let deck = BsplineCurve::new(line, vec![[-1.0, 3.0], [11.0, 3.0]]).unwrap();
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 2.0, draught: 1.0, depth: 3.0 };
+        let hull = Hull::new("x", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
+        let outline = centreplane(&hull);
+        let lowest = outline.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+        assert!((lowest[0] - 5.0).abs() < 1e-12 && lowest[1].abs() < 1e-12, "{lowest:?}");
+        let on_keel = |p: &&[f64; 2]| (p[1] - 2.0 * (0.2 * p[0] - 1.0).powi(2)).abs() < 1e-12;
+        assert!(outline.iter().filter(on_keel).count() > POINTS_PER_SPAN);
+        // The waterline at 0.5 m leaves through the keel at xi = -1/2 and 1/2.
+        let [aft, fore] = immersed_length(&hull, 0.5);
+        assert!((aft - 2.5).abs() < 1e-9 && (fore - 7.5).abs() < 1e-9, "{aft} {fore}");
+    }
+}
