@@ -8,6 +8,7 @@ mod markdown;
 mod page;
 mod self_test;
 mod source;
+mod validate;
 
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};
@@ -16,3 +17,4 @@ pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{Source, offsets, read_design, read_source, sections_of};
+pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};
