@@ -18,4 +18,7 @@ pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use offsets::{heights_csv, offsets_csv};
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
-pub use table::{ReadTable, Severity, TableProblem, read_table};
+pub use table::{
+    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, MOST_UNPACKED, ReadTable, Rounding, Severity,
+    TableProblem, TableWriting, WrittenTable, read_table, read_table_with, write_table,
+};

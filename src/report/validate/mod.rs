@@ -11,7 +11,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::exchange::read_table;
+use super::source::read_table_file;
+use crate::exchange::Severity;
 use crate::hull::{Chart, FitMethod, Hull, OffsetTable};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
 pub use page::{validation_csv, validation_json, validation_page};
@@ -214,13 +215,10 @@ fn prepared(mut table: OffsetTable, reference: &Reference, notes: &mut Vec<Strin
 }
 
 fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Result<Case, String> {
-    let bytes = fs::read(folder.join(file)).map_err(|error| error.to_string())?;
-    let read = read_table(file, &bytes).map_err(|problems| {
-        let shown: Vec<String> = problems.iter().take(3).map(ToString::to_string).collect();
-        shown.join("; ")
-    })?;
-    let mut notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
-    let table = prepared(read.table, reference, &mut notes);
+    let (table, remarks) = read_table_file(&folder.join(file)).map_err(|failure| failure.to_string())?;
+    let remarks = remarks.iter().filter(|remark| remark.severity == Severity::Warning);
+    let mut notes: Vec<String> = remarks.map(|remark| format!("{}: {}", remark.code, remark.message)).collect();
+    let table = prepared(table, reference, &mut notes);
     let draughts: Vec<f64> = reference.figures.iter().map(|figure| figure.draught).collect();
     let fitted = Hull::fit(&table, &FitMethod::default()).map_err(|error| error.to_string())?;
     notes.extend(fitted.notes.iter().cloned());

@@ -1,0 +1,235 @@
+//! Every message about a table of offsets, provoked.
+
+use loftsman::exchange::{MOST_COLUMNS, Severity, TableProblem, read_table, read_table_with};
+
+fn problems(text: &str) -> Vec<String> {
+    shown(read_table("t.csv", text.as_bytes()).err())
+}
+
+fn beside(text: &str, toml: &str) -> Vec<String> {
+    shown(read_table_with("t.csv", text.as_bytes(), Some(("t.toml", toml))).err())
+}
+
+fn shown(problems: Option<Vec<TableProblem>>) -> Vec<String> {
+    let problems = problems.expect("the table is refused");
+    problems.iter().filter(|p| p.severity == Severity::Error).map(ToString::to_string).collect()
+}
+
+fn notes(text: &str, toml: &str) -> Vec<String> {
+    let read = read_table_with("t.csv", text.as_bytes(), Some(("t.toml", toml)));
+    read.unwrap_or_else(|p| panic!("{}", p[0])).notes.iter().map(ToString::to_string).collect()
+}
+
+#[track_caller]
+fn one(text: &str, message: &str) {
+    assert_eq!(problems(text), [message], "{text}");
+}
+
+/// One of the messages holds every part.
+#[track_caller]
+fn among(messages: &[String], parts: &[&str]) {
+    let found = messages.iter().any(|m| parts.iter().all(|part| m.contains(part)));
+    assert!(found, "{parts:?} in\n{}", messages.join("\n"));
+}
+
+const GOOD: &str = "x [m],0.5,1\n0,1,2\n10,2,3\n";
+
+#[test]
+fn e300_no_table() {
+    among(&problems(""), &["E300 t.csv: the file is empty"]);
+    among(&problems("\n\n,,\n"), &["E300 t.csv: the file is empty"]);
+    among(&problems("a\0b"), &["E300 t.csv: the file is not text"]);
+    among(&problems("hello world\n"), &["E300 t.csv"]);
+    among(&problems("x,1,2\n"), &["E300 t.csv row 1, column 1: 'x': 1 rows of 3 fields are no table of offsets"]);
+    among(&problems("PK\u{3}\u{4}"), &["E300 t.csv: not a workbook that can be read"]);
+}
+
+#[test]
+fn e301_cells_all_at_once() {
+    let text = "x [m],WL 0.5,WL 1\n0,3-11-9,abc\n10,(6.41,2\n20,nan,3.3.3\n";
+    assert_eq!(
+        problems(text),
+        [
+            "E301 t.csv row 2, column 2: '3-11-9': eighths are 0 to 7. Did you mean 3-11-0 or 4-0-1?",
+            "E301 t.csv row 2, column 3: 'abc': not a number, a length or one of - * ? Leave the cell empty where there is no \
+             hull; write ? where the offset is not known.",
+            "E301 t.csv row 3, column 2: '(6.41': the bracket is not closed. Write (6.41).",
+            "E301 t.csv row 4, column 2: 'nan': not a number, a length or one of - * ? Leave the cell empty where there is no \
+             hull; write ? where the offset is not known.",
+            "E301 t.csv row 4, column 3: '3.3.3': not a number, a length or one of - * ? Leave the cell empty where there is no \
+             hull; write ? where the offset is not known.",
+        ]
+    );
+    let tidy = "station,x,curve,z,y,flag\n1,0,WL,1,2,Q\n1,0,WL,,2,\n";
+    among(&problems(tidy), &["E301", "'Q': not a flag"]);
+    among(&problems(tidy), &["E301", "row 3", "a WL without its z"]);
+    among(&problems("STN 0,STN 1\n\"0.5,1\",\"0.5,1\"\nx,\"1.5,2\"\n"), &["E301", "'x': not a pair"]);
+}
+
+#[test]
+fn e303_positions_in_disorder() {
+    one(
+        "x [m],0.5,1.5,1\n0,1,2,3\n10,2,3,3\n",
+        "E303 t.csv row 1, column 4: '1': the positions of the waterlines rise, but 1 m ('1') follows 1.5 m ('1.5'). Correct the \
+         position, or put the lines in order",
+    );
+    among(&problems("x [m],0.5,1\n0,1,2\n20,2,3\n10,2,3\n"), &["E303", "row 4", "stations rise, but 10 m"]);
+}
+
+#[test]
+fn e304_breadths_that_contradict_the_breadth() {
+    let full = "x [m],0.5,1\n0,4,9\n10,9.5,10\n";
+    among(
+        &beside(full, "[table]\nB = 10"),
+        &["E304 t.csv: 3 half-breadths exceed B/2 = 5.00 by up to 5.00 m", "breadths = \"full\""],
+    );
+    let half = "x [m],0.5,1\n0,4,4.5\n10,4.5,5\n";
+    among(&beside(half, "[table]\nB = 10\nbreadths = \"full\""), &["E304", "2.50 m and B/2 is 5.00 m", "\"half\""]);
+    // Merely suspicious: one cell beyond B/2.
+    assert!(read_table_with("t", b"x [m],0.5,1\n0,4,5\n10,4.5,6\n", Some(("t.toml", "[table]\nB = 10"))).is_ok());
+}
+
+#[test]
+fn e305_units_that_contradict_the_numbers() {
+    among(
+        &beside("x,0.5,1\n0,8000,16100\n10,9000,16100\n", "[table]\nunits = \"m\""),
+        &["E305 t.csv: the largest half-breadth is 16100, which looks like millimetres, but the unit is m", "\"mm\""],
+    );
+    among(&beside("x,0.5,1\n0,1.25,2\n10,2,3\n", "[table]\nunits = \"mm\""), &["E305", "looks like metres"]);
+    among(&problems("x [m],500,1000\n0,1,2\n10,2,3\n"), &["E305", "largest height is 1000"]);
+}
+
+#[test]
+fn e306_twice() {
+    among(&problems("x [m],0.5,0.50\n0,1,2\n10,2,3\n"), &["E306 t.csv row 1, column 3", "row 1, column 2 already"]);
+    among(
+        &problems("x [m],0.5,1\n0,1,2\n10,1,2\n10,2,3\n"),
+        &["E306", "a station at 10 m stands in row 3, column 1 already"],
+    );
+    let tidy = "station,x,curve,z,y,flag\n1,0,WL,1,2,\n1,0,WL,1,3,\n";
+    among(&problems(tidy), &["E306 t.csv row 3", "stands in row 2 already"]);
+    among(&problems(&format!("{GOOD}\n{GOOD}")), &["E306", "a second block of half-breadths"]);
+    among(&problems(&format!("{GOOD}\nx\\y [m],1\n0,1\n15,2\n")), &["E306", "15 m that the half-breadths do not have"]);
+}
+
+#[test]
+fn e307_ragged_rows() {
+    assert_eq!(
+        problems("x [m],0.5,1\n0,1\n10,2,3,4\n20,1,2\n"),
+        [
+            "E307 t.csv row 2: the row has 2 fields, the header has 3. Fill up with empty fields where there is no hull",
+            "E307 t.csv row 3: the row has 4 fields, the header has 3. Take away what is too much, or a decimal comma",
+        ]
+    );
+    among(&problems("x [m],0.5,1\n0,\"1,2\n10,2,3\n"), &["E307", "a quotation mark is opened and not closed"]);
+    among(&problems("station,x,curve,z,y,flag\n1,0,WL,1,2\n"), &["E307", "the row has 5 fields, the header has 6"]);
+}
+
+#[test]
+fn e308_decimal_commas() {
+    among(
+        &problems("x [m],1,2,3\n0,0,5,1,5,2,5\n10,0,5,1,5,2,5\n"),
+        &["E308 t.csv row 2", "7", "(4)", "decimal commas between separators that are commas too", "';' or tabs"],
+    );
+    among(&problems("x [m];0.5;1\n0;1,5;2\n10;2.5;3\n"), &["E308 t.csv row 2, column 2: '1,5'", "Did you mean 1.5?"]);
+}
+
+#[test]
+fn e309_signs() {
+    let found = problems("x [m],0.5,1\n0,1,-2\n10,2,3\n");
+    among(&found, &["E309 t.csv row 2, column 3: '-2'", "1 are negative and 3 positive", "station '0'"]);
+    assert!(notes("x [m],0.5,1\n0,-1,-2\n10,-2,-3\n", "").iter().any(|n| n.contains("starboard")));
+}
+
+#[test]
+fn e310_headers() {
+    among(&problems("x [m],0.5,keeel\n0,1,2\n10,2,3\n"), &["E310", "'keeel'", "Did you mean 'keel'?"]);
+    among(&problems("x [m],0.5,foo\n0,1,2\n10,2,3\n"), &["E310 t.csv row 1, column 3", "names no position"]);
+    among(&problems("x [m],0.5,\n0,1,2\n10,2,3\n"), &["E310 t.csv row 2, column 3: '2': an offset without a header"]);
+    among(&problems("x [m],0.5,1\nfoo,1,2\n10,2,3\n"), &["E310 t.csv row 2, column 1: 'foo': the header of a station"]);
+    among(
+        &problems("station,x,curve,z,y,flag\n1,0,WK,1,2,\n"),
+        &["E310", "'WK': not a kind of curve", "Did you mean WL?"],
+    );
+    among(&problems("station,x,curve,z,y,flag\n1,foo,WL,1,2,\n"), &["E310", "no position of a station"]);
+    among(&problems("STN 0,foo\n\"0.5,1\",\"0.5,1\"\n"), &["E310", "'foo': the header of a station"]);
+}
+
+#[test]
+fn e311_conventions() {
+    let all = beside(
+        GOOD,
+        "[tabel]\n[table]\nunit = \"mm\"\nbreadths = \"whole\"\nLpp = -3\nB = \"wide\"\nname = 3\nstations = \"AP\"\n[endings]\nsten = 3\n\
+         stem = 4\n[transom]\nslope = \"a\"\nz = 1\n[[line]]\nkind = \"soft\"\npints = 3\n",
+    );
+    among(&all, &["E311 t.toml row 1", "'tabel'", "Did you mean [table]?"]);
+    among(&all, &["E311 t.toml row 3", "'unit': not a key of the conventions", "Did you mean units?"]);
+    among(&all, &["'breadths': breadths is \"whole\"", "Known are half, full"]);
+    among(&all, &["'Lpp': Lpp is -3", "larger than 0"]);
+    among(&all, &["'B': B: 'wide' is not a number"]);
+    among(&all, &["'name': name is 3, expected a text"]);
+    among(&all, &["stations is \"AP\"", "from AP, from midship, from FP"]);
+    among(&all, &["'sten'", "Did you mean stern?"]);
+    among(&all, &["'stem': expected a list of points of 2 numbers"]);
+    among(&all, &["'slope': expected a number"]);
+    among(&all, &["'z': not a key", "Known are x, slope"]);
+    among(&all, &["'transom': a transom without x"]);
+    among(&all, &["expected knuckle or tangent"]);
+    among(&all, &["'pints'", "Did you mean points?"]);
+    among(&all, &["a line of 0 points"]);
+    among(&beside(GOOD, "[table"), &["E311 t.toml row 1", "not TOML"]);
+    among(&beside(GOOD, "[line]\nname = \"a\"\n"), &["Write [[line]] with two brackets"]);
+    among(&beside(GOOD, "[endings]\nstem = [[0.75, 20]]\n"), &["E311", "0.75 m, where the table has no waterline"]);
+    among(&problems(&format!("# unitts = mm\n{GOOD}")), &["E311 t.csv row 1", "'unitts'", "Did you mean units?"]);
+    among(&problems(&format!("# units = mn\n{GOOD}")), &["units is \"mn\"", "Known are m, mm"]);
+    // A design beside the table, and prose, are no conventions.
+    among(&notes(GOOD, "[dimensions]\nLpp = 3\n"), &["t.toml beside the table has no [table]"]);
+    assert!(read_table("t", format!("# station 0 = AP; y = half\n{GOOD}").as_bytes()).is_ok());
+}
+
+#[test]
+fn e312_too_large() {
+    let wide = "1,".repeat(MOST_COLUMNS + 10);
+    among(&problems(&wide), &["E312", "more than 4000 fields in a row"]);
+    among(&problems(&"1\n".repeat(200_002)), &["E312", "more than 200000 rows"]);
+    among(&problems(&format!("{}\n", "a".repeat(2000))), &["E312", "a field longer than 1000 bytes"]);
+    let huge = vec![b'1'; (16 << 20) + 1];
+    among(&shown(read_table("t.csv", &huge).err()), &["E312", "a table has at most 16777216"]);
+    among(
+        &problems(&format!("x [m],0.5\n0,{}\n", "9".repeat(100))),
+        &["E301", "100 characters; a cell has at most 80"],
+    );
+    // Many errors are counted, not listed.
+    let mut text = String::from("x [m],0.5\n");
+    (0..300).for_each(|i| text += &format!("{i},abc\n"));
+    let found = problems(&text);
+    assert_eq!(found.len(), 101);
+    among(&found, &["E312", "200 more problems are not shown"]);
+}
+
+#[test]
+fn e313_nothing_in_it() {
+    among(&problems("x [m],0.5,1\n0,,\n10,-,*\n"), &["E313 t.csv: the table has no offset at all"]);
+}
+
+#[test]
+fn warnings_and_notes() {
+    among(&notes(GOOD, ""), &["W306", "no profiles of stem and stern"]);
+    among(&notes(GOOD, "[table]\nT = 1\n"), &["W307", "only 2 waterlines up to T 1 m"]);
+    among(&notes("station,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "taken as 1 m apart", "station_spacing"]);
+    among(&notes("x_from_midship_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "x is 0 at midship"]);
+    among(&notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "negative aft of it"]);
+    among(&notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", "[table]\nLpp = 5"), &["N321", "FP, which is 5 m forward"]);
+    among(&notes("station,0.5,1\n0,1,2\n20,2,3\n", "[table]\nLpp = 50\n"), &["20 spaces in L_PP of 50 m"]);
+    among(
+        &notes("station,0.5,1\n0,1,2\n20,2,3\n", "[table]\nLpp = 50\nstations = \"numbers from FP\"\n"),
+        &["station 0 is FP, 50 m forward of AP"],
+    );
+    among(&notes("x [m],1,0.5\n10,1,2\n0,2,3\n", ""), &["stations are written from forward aft"]);
+    among(&notes("x [m],1,0.5\n10,1,2\n0,2,3\n", ""), &["waterlines are written from the deck down"]);
+    among(&notes(GOOD, ""), &["N321", "2 stations and 2 waterlines; rows are stations", "separated by ','"]);
+    among(&notes("x;0,5;1\n0;1;2\n10;2;3\n", ""), &["decimal commas"]);
+    among(&notes("x,0.5,1\n0,1000,2000\n10,2000,3000\n", ""), &["half-breadths up to 3000 are taken as millimetres"]);
+    among(&notes("x,0.5,1\n0,1000,2000\n10,2000,3000\n", ""), &["heights up to 1 are taken as metres"]);
+    among(&notes("x,0.5,1\n0,1,2\n10,2,3\n", ""), &["half-breadths up to 3 are taken as metres"]);
+}

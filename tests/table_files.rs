@@ -1,0 +1,206 @@
+//! Tables of offsets in files: workbooks, conventions beside a table, and the command that converts them.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use loftsman::exchange::{Severity, TableWriting, read_table, write_table};
+use loftsman::hull::{Cell, TableLayout};
+use loftsman::units::Notation;
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
+    })
+}
+
+/// An archive of files that are not compressed; `lie` is added to the sizes that its directory states.
+fn archive(files: &[(&str, String)], lie: u32) -> Vec<u8> {
+    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
+    for (name, contents) in files {
+        let offset = u32::try_from(bytes.len()).unwrap();
+        let (size, length) = (u32::try_from(contents.len()).unwrap(), u16::try_from(name.len()).unwrap());
+        let fields = |lie: u32| {
+            let mut part = vec![20, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+            part.extend(crc32(contents.as_bytes()).to_le_bytes());
+            part.extend(size.to_le_bytes());
+            part.extend((size + lie).to_le_bytes());
+            part.extend(length.to_le_bytes());
+            part.extend([0, 0]);
+            part
+        };
+        bytes.extend(b"PK\x03\x04");
+        bytes.extend(fields(0));
+        bytes.extend(name.as_bytes());
+        bytes.extend(contents.as_bytes());
+        directory.extend(b"PK\x01\x02\x14\x00");
+        directory.extend(fields(lie));
+        directory.extend([0; 10]);
+        directory.extend(offset.to_le_bytes());
+        directory.extend(name.as_bytes());
+    }
+    let (count, start) = (u16::try_from(files.len()).unwrap(), u32::try_from(bytes.len()).unwrap());
+    let length = u32::try_from(directory.len()).unwrap();
+    bytes.extend(directory);
+    bytes.extend(b"PK\x05\x06\0\0\0\0");
+    bytes.extend([count.to_le_bytes(), count.to_le_bytes()].concat());
+    bytes.extend(length.to_le_bytes());
+    bytes.extend(start.to_le_bytes());
+    bytes.extend([0, 0]);
+    bytes
+}
+
+/// A workbook of one sheet with the given cells as XML.
+fn workbook(cells: &str, lie: u32) -> Vec<u8> {
+    let head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>";
+    let main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+    let office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+    let package = "http://schemas.openxmlformats.org/package/2006";
+    let relation = |kind: &str, target: &str| {
+        format!(
+            "{head}<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{office}/{kind}\" \
+             Target=\"{target}\"/></Relationships>"
+        )
+    };
+    archive(
+        &[
+            (
+                "[Content_Types].xml",
+                format!(
+                    "{head}<Types xmlns=\"{package}/content-types\"><Default Extension=\"xml\" ContentType=\"application/xml\"/></Types>"
+                ),
+            ),
+            ("_rels/.rels", relation("officeDocument", "xl/workbook.xml")),
+            (
+                "xl/workbook.xml",
+                format!(
+                    "{head}<workbook xmlns=\"{main}\" xmlns:r=\"{office}\"><sheets><sheet name=\"Offsets\" sheetId=\"1\" \
+                     r:id=\"r1\"/></sheets></workbook>"
+                ),
+            ),
+            ("xl/_rels/workbook.xml.rels", relation("worksheet", "worksheets/sheet1.xml")),
+            (
+                "xl/worksheets/sheet1.xml",
+                format!("{head}<worksheet xmlns=\"{main}\"><sheetData>{cells}</sheetData></worksheet>"),
+            ),
+        ],
+        lie,
+    )
+}
+
+/// Rows of texts as cells; what is a number is one, and empty fields are left out.
+fn sheet(text: &str) -> String {
+    let mut xml = String::new();
+    for (row, line) in text.lines().enumerate() {
+        xml += &format!("<row r=\"{}\">", row + 1);
+        for (column, field) in line.split(',').enumerate().filter(|(_, field)| !field.is_empty()) {
+            let place = format!("{}{}", char::from(b'A' + u8::try_from(column).unwrap()), row + 1);
+            xml += &match field.parse::<f64>() {
+                Ok(number) => format!("<c r=\"{place}\"><v>{number}</v></c>"),
+                Err(_) => format!("<c r=\"{place}\" t=\"inlineStr\"><is><t>{field}</t></is></c>"),
+            };
+        }
+        xml += "</row>";
+    }
+    xml
+}
+
+#[test]
+fn workbooks_hold_both_layouts() {
+    let matrix = "Offsets of a boat,,,\nx [m],0.5,1,1.5\n0,,0.5,(1)\n10,1,2,2.5K\n20,,3-4-5,\n";
+    let plain = read_table("t.csv", matrix.as_bytes()).unwrap().table;
+    let read = read_table("t.xlsx", &workbook(&sheet(matrix), 0)).unwrap();
+    assert_eq!(read.table.name, "Offsets of a boat");
+    assert!(read.notes.iter().any(|n| n.message.contains("sheet 'Offsets'")));
+    let tidy = write_table(&plain, TableWriting { layout: Some(TableLayout::Tidy), notation: None }).text;
+    let tidy = read_table("tidy.xlsx", &workbook(&sheet(&tidy), 0)).unwrap();
+    for table in [&read.table, &tidy.table] {
+        assert_eq!(table.waterlines, plain.waterlines);
+        for (a, b) in table.stations.iter().zip(&plain.stations) {
+            let cells = |cells: &[Cell]| cells.iter().map(|c| (c.entry, c.marks)).collect::<Vec<_>>();
+            assert_eq!(cells(&a.half_breadths), cells(&b.half_breadths));
+        }
+    }
+    let place = read.table.stations[1].half_breadths[1].written.clone().unwrap();
+    assert_eq!((place.row, place.column, place.text.as_str()), (4, 3, "2"));
+}
+
+#[test]
+fn workbooks_that_cannot_be_read() {
+    let message = |bytes: &[u8]| {
+        let problems = read_table("t.xlsx", bytes).unwrap_err();
+        problems
+            .iter()
+            .filter(|p| p.severity == Severity::Error)
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    let date = "<row r=\"1\"><c r=\"A1\" t=\"inlineStr\"><is><t>x</t></is></c><c r=\"B1\"><v>1</v></c></row>\
+                <row r=\"2\"><c r=\"A2\"><v>0</v></c><c r=\"B2\" t=\"d\"><v>2005-03-04T00:00:00</v></c></row>";
+    assert!(message(&workbook(date, 0)).contains("E301 t.xlsx row 2, column 2: the cell is a date"));
+    let far = "<row r=\"1\"><c r=\"XFD1\"><v>1</v></c></row>";
+    assert!(message(&workbook(far, 0)).contains("E312 t.xlsx row 1, column 16384"));
+    let deep = "<row r=\"1048576\"><c r=\"A1048576\"><v>1</v></c></row>";
+    assert!(message(&workbook(deep, 0)).contains("E312 t.xlsx row 1048576, column 1"));
+    assert!(message(&workbook("", 0)).contains("E300 t.xlsx: no sheet of the workbook has cells"));
+    assert!(message(&workbook(&sheet("x,1\n0,2\n"), 300 << 20)).contains("E312 t.xlsx: "));
+    let whole = workbook(&sheet("x,1,2\n0,2,3\n10,3,4\n"), 0);
+    for cut in (0..whole.len()).step_by(7) {
+        // Cut off anywhere it is refused, or whatever was read has no problem.
+        let _ = read_table("t.xlsx", &whole[..cut]);
+    }
+}
+
+/// A folder of its own for a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("table_files_{name}_{}", std::process::id()));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn convert(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).arg("convert").args(arguments).output().unwrap()
+}
+
+#[test]
+fn a_table_is_converted_and_the_rounding_reported() {
+    let folder = folder("convert");
+    let table = folder.join("boat.csv");
+    let text = "x [m],0.500,1\n0,1.2344,2\n10,2,3\n";
+    fs::write(&table, text).unwrap();
+    let path = table.display().to_string();
+    let own = convert(&[&path]);
+    assert_eq!((own.status.code(), String::from_utf8(own.stdout).unwrap().as_str()), (Some(0), text));
+    let said = String::from_utf8(own.stderr).unwrap();
+    assert!(
+        said.contains("rounding: 4 offsets, 4 as they were written; largest change 0.000 mm, RMS 0.000 mm"),
+        "{said}"
+    );
+    let out = folder.join("mm.csv").display().to_string();
+    let mm = convert(&[&path, &out, "--notation", "mm"]);
+    assert_eq!(mm.status.code(), Some(0));
+    assert_eq!(fs::read_to_string(&out).unwrap(), "x\\z [mm],500,1000\n0,1234,2000\n10000,2000,3000\n");
+    let said = String::from_utf8(mm.stderr).unwrap();
+    assert!(said.contains("largest change 0.400 mm, RMS 0.200 mm"), "{said}");
+    assert_eq!(convert(&[&path, &out]).status.code(), Some(6));
+    // Conventions beside the table.
+    fs::write(folder.join("boat.toml"), "[table]\nbreadths = \"full\"\n").unwrap();
+    let half = convert(&[&path, "--notation", "m", "--layout", "tidy", "-q"]);
+    let expected = "station,x [m],curve,z,y,flag\n0,0,WL,0.5,0.6172,\n0,0,WL,1,1.0000,\n10,10,WL,0.5,1.0000,\n10,10,WL,1,1.5000,\n";
+    assert_eq!(String::from_utf8(half.stdout).unwrap(), expected);
+    assert!(half.stderr.is_empty());
+    fs::write(folder.join("boat.toml"), "[table]\nbreadth = \"full\"\n").unwrap();
+    let wrong = convert(&[&path]);
+    let said = String::from_utf8(wrong.stderr).unwrap();
+    assert_eq!(wrong.status.code(), Some(3));
+    assert!(said.contains("E311") && said.contains("boat.toml:2") && said.contains("Did you mean breadths?"), "{said}");
+    fs::write(folder.join("bad.csv"), "x [m],0.5,1\n0,3-11-9,1\n10,1,2\n").unwrap();
+    let bad = convert(&[&folder.join("bad.csv").display().to_string(), "--notation", Notation::Feet.as_str()]);
+    let said = String::from_utf8(bad.stderr).unwrap();
+    assert_eq!(bad.status.code(), Some(3));
+    assert!(said.contains("bad.csv:2 column 2, '3-11-9': eighths are 0 to 7. Did you mean 3-11-0 or 4-0-1?"), "{said}");
+    assert_eq!(convert(&[&path, "--layout", "round"]).status.code(), Some(2));
+    fs::remove_dir_all(&folder).unwrap();
+}
