@@ -6,20 +6,39 @@
 
 mod assemble;
 mod beside;
+mod britfair;
 mod checks;
+mod delftship;
+mod fields;
+mod formats;
+mod freeship;
+mod ghs;
 mod grid;
 mod header;
 mod matrix;
+mod outline;
 mod pairs;
+mod pdstrip;
+mod pias;
+mod points;
 mod problem;
+mod ratio;
 mod scale;
+mod seaway;
+mod sections;
 mod settings;
 mod tidy;
 mod write;
 mod xlsx;
 
+pub use britfair::write as write_britfair;
+pub use freeship::write as write_freeship;
+pub use ghs::write as write_ghs;
 pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
+pub use pdstrip::write as write_pdstrip;
+pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
+pub use ratio::{read_particulars, read_with as read_fractions};
 pub use write::{Rounding, TableWriting, WrittenTable, write_table};
 pub use xlsx::MOST_UNPACKED;
 
@@ -51,6 +70,9 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
 /// # Errors
 /// Every problem of both files at once, in the order of rows and columns.
 pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
+    if let Some(read) = formats::read(name, bytes, beside) {
+        return read;
+    }
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
     if let Some((name, text)) = beside {
