@@ -1,7 +1,16 @@
-//! From a table of offsets to a hull.
+//! From a table of offsets to a hull: a surface through every cell, faithful where the table is silent.
+//!
+//! The default method works on a chart that follows the ship: see `level` for hulls whose waterlines run from profile to
+//! profile. Every cell with a value is met to 1e-9 m unless it is marked doubtful; what had to be assumed is noted.
 
+mod chart;
+mod level;
 mod method;
+mod monotone;
+mod particulars;
+mod rows;
 
+use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
 pub use method::FitMethod;
@@ -65,7 +74,31 @@ impl Hull {
     /// # Errors
     /// [`FitError`] when the table has too few offsets, or they make no hull.
     pub fn fit(table: &OffsetTable, method: &FitMethod) -> Result<Fitted, FitError> {
-        let _ = method;
-        Err(FitError::TooFew { stations: table.stations.len(), waterlines: table.waterlines.len(), least: 2 })
+        match method {
+            FitMethod::Graded => graded(table),
+        }
     }
+}
+
+/// The default method.
+fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
+    let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
+    let cells = residuals(table, &hull);
+    Ok(Fitted { hull, chart: Chart::Level, cells, notes })
+}
+
+/// Every cell with a value or to be predicted, as the surface has it.
+fn residuals(table: &OffsetTable, hull: &Hull) -> Vec<CellResidual> {
+    let mut cells = Vec::new();
+    for (station, column) in table.stations.iter().enumerate() {
+        for (waterline, (cell, &z)) in column.half_breadths.iter().zip(&table.waterlines).enumerate() {
+            if matches!(cell.entry, Entry::Absent) {
+                continue;
+            }
+            let Some(half_breadth) = hull.half_breadth(column.station.x, z) else { continue };
+            let residual = cell.value().map(|y| half_breadth - y);
+            cells.push(CellResidual { station, waterline, half_breadth, residual });
+        }
+    }
+    cells
 }

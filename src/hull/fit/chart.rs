@@ -1,0 +1,169 @@
+//! The level chart: z(v), the profiles x_stern(v) and x_stem(v), and x(u, v) between them.
+//!
+//! x(u, v) = s + (e - s) u + (stern(v) - s) A(u) + (stem(v) - e) F(u), with A = (1 - u/ua)^3 up to ua, F = ((u - uf)/(1 - uf))^3
+//! from uf, 0 beyond. s is the foremost point of the stern profile and e the aftmost one of the stem profile, so that both
+//! cubes only lengthen the shortest waterline: x_u >= e - s > 0, and so for the net. In the middle stations are lines u = constant.
+//! Cubes and line lie in the cubic spline space of u: the net is exact.
+//!
+//! v runs like the girth of the sections (mean over the stations of the chord lengths between waterlines), and dz/dv = 0 at the
+//! bottom where it is flat, so that y(v) is smooth where dy/dz is infinite.
+
+use super::FitError;
+use crate::spline::{Collocation, Condition, Energy, KnotVector, SplineError};
+
+/// Shoulders of the cubes.
+pub(super) const SHOULDERS: [f64; 2] = [0.4, 0.6];
+
+/// x over u between given profiles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Span {
+    /// The foremost point of the stern profile and the aftmost of the stem profile \[m\].
+    pub(super) inner: [f64; 2],
+}
+
+impl Span {
+    /// x and dx/du at `u` on a waterline between `ends`.
+    pub(super) fn x(&self, u: f64, ends: [f64; 2]) -> (f64, f64) {
+        let [s, e] = self.inner;
+        let (a, f) = ((1.0 - u / SHOULDERS[0]).max(0.0), ((u - SHOULDERS[1]) / (1.0 - SHOULDERS[1])).max(0.0));
+        let x = s + (e - s) * u + (ends[0] - s) * a * a * a + (ends[1] - e) * f * f * f;
+        let slope =
+            e - s - 3.0 * (ends[0] - s) * a * a / SHOULDERS[0] + 3.0 * (ends[1] - e) * f * f / (1.0 - SHOULDERS[1]);
+        (x, slope)
+    }
+
+    /// u at `x` on a waterline between `ends`, to rounding.
+    pub(super) fn u(&self, x: f64, ends: [f64; 2]) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut u = ((x - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);
+        for _ in 0..100 {
+            let (value, slope) = self.x(u, ends);
+            if value > x {
+                high = u;
+            } else {
+                low = u;
+            }
+            let newton = u - (value - x) / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - u).abs() <= 2.0 * f64::EPSILON {
+                return next;
+            }
+            u = next;
+        }
+        u
+    }
+}
+
+/// A monotone z(v) over knots that hold one site a waterline.
+#[derive(Debug, Clone)]
+pub(super) struct Heights {
+    /// Knots in v, 0 to 1.
+    pub(super) knots: KnotVector,
+    /// v of each waterline.
+    pub(super) sites: Vec<f64>,
+    /// Control values of z \[m\].
+    pub(super) z: Vec<f64>,
+}
+
+/// Knots through `sites` (0 to 1, rising) for cubics: the sites, `corners` (indices of sites) threefold.
+fn knots_at(sites: &[f64], corners: &[usize]) -> Result<KnotVector, SplineError> {
+    let times: Vec<usize> = (1..sites.len() - 1).map(|k| if corners.contains(&k) { 3 } else { 1 }).collect();
+    KnotVector::from_breakpoints(3, sites, &times)
+}
+
+/// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them; `blunt` where the bottom is flat. Ever
+/// less of the chord lengths and more of the heights until z rises with v.
+pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool) -> Result<Heights, FitError> {
+    const STEPS: u32 = 8;
+    let total: f64 = girths.iter().sum();
+    let rise = z[z.len() - 1] - z[0];
+    for step in 0..=STEPS {
+        let share = f64::from(step) / f64::from(STEPS);
+        let mut sites = vec![0.0];
+        for (k, girth) in girths.iter().enumerate() {
+            let part = (1.0 - share) * girth / total + share * (z[k + 1] - z[k]) / rise;
+            sites.push(sites[k] + part);
+        }
+        let end = sites[sites.len() - 1];
+        sites.iter_mut().for_each(|v| *v /= end);
+        if let Some(last) = sites.last_mut() {
+            *last = 1.0;
+        }
+        let knots = knots_at(&sites, corners).map_err(crate::hull::HullError::from)?;
+        let mut conditions: Vec<Condition> = sites.iter().map(|&site| Condition { site, order: 0 }).collect();
+        let mut data = z.to_vec();
+        if blunt && step < STEPS {
+            conditions.push(Condition { site: 0.0, order: 1 });
+            data.push(0.0);
+        }
+        let Ok(problem) = Energy::new(&knots, 2).interpolation(&conditions) else { continue };
+        let mut control = problem.solve(&data);
+        let last = control.len() - 1;
+        (control[0], control[last]) = (z[0], z[z.len() - 1]);
+        if blunt && step < STEPS {
+            control[1] = control[0];
+        }
+        if control.windows(2).all(|w| w[1] >= w[0]) {
+            return Ok(Heights { knots, sites, z: control });
+        }
+    }
+    // Straight pieces always rise.
+    let mut sites: Vec<f64> = z.iter().map(|z0| (z0 - z[0]) / rise).collect();
+    if let Some(last) = sites.last_mut() {
+        *last = 1.0;
+    }
+    let knots = knots_at(&sites, corners).map_err(crate::hull::HullError::from)?;
+    let control = knots.greville().iter().map(|v| z[0] + rise * v).collect();
+    Ok(Heights { knots, sites, z: control })
+}
+
+/// The net of x (u slowest) for profiles with control values `stern` and `stem` in v.
+pub(super) fn lengths(u: &KnotVector, span: Span, stern: &[f64], stem: &[f64]) -> Result<Vec<f64>, FitError> {
+    let sites = u.greville();
+    let matrix = Collocation::new(u, &sites).map_err(crate::hull::HullError::from)?;
+    // Line and cubes once; a column of the net is their combination.
+    let mut parts = [[span.inner; 1].map(|i| i); 3].map(|_| Vec::new());
+    for &t in &sites {
+        parts[0].push(t);
+        parts[1].push((1.0 - t / SHOULDERS[0]).max(0.0).powi(3));
+        parts[2].push(((t - SHOULDERS[1]) / (1.0 - SHOULDERS[1])).max(0.0).powi(3));
+    }
+    parts.iter_mut().for_each(|p| matrix.solve(p));
+    let [s, e] = span.inner;
+    let mut x = Vec::with_capacity(sites.len() * stern.len());
+    for i in 0..sites.len() {
+        for (aft, fore) in stern.iter().zip(stem) {
+            x.push(s + (e - s) * parts[0][i] + (aft - s) * parts[1][i] + (fore - e) * parts[2][i]);
+        }
+    }
+    Ok(x)
+}
+
+/// Knots in u on which every waterline, with sites `rows` in (0, 1), has at most one site a span; the shoulders are knots.
+pub(super) fn length_knots(rows: &[Vec<f64>]) -> Result<KnotVector, FitError> {
+    let mut gaps: Vec<[f64; 2]> = Vec::new();
+    for row in rows {
+        let ends = || std::iter::once(0.0).chain(row.iter().copied());
+        gaps.extend(ends().zip(row.iter().copied().chain([1.0])).map(|(a, b)| [a, b]));
+    }
+    gaps.sort_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
+    let mut breaks = vec![0.0];
+    for [low, high] in gaps {
+        // A knot in (low, high]; the end of the domain serves the last gaps.
+        if breaks[breaks.len() - 1] <= low && high < 1.0 - 1e-9 {
+            breaks.push(high);
+        }
+    }
+    breaks.push(1.0);
+    for shoulder in SHOULDERS {
+        let place = breaks.partition_point(|&b| b < shoulder);
+        let near = [place.wrapping_sub(1), place]
+            .into_iter()
+            .any(|k| breaks.get(k).is_some_and(|b| (b - shoulder).abs() < 1e-12));
+        if !near {
+            breaks.insert(place, shoulder);
+        }
+    }
+    let last = breaks.len() - 1;
+    Ok(KnotVector::from_breakpoints(3, &breaks, &vec![1; last - 1]).map_err(crate::hull::HullError::from)?)
+}

@@ -1,0 +1,91 @@
+//! Main dimensions and deck of a fitted hull, from the table or, where it is silent, from its offsets.
+
+use super::FitError;
+use super::rows::Row;
+use crate::hull::{HullError, OffsetTable, PrincipalParticulars};
+use crate::spline::KnotVector;
+
+/// Design draught over the height of the table where none is stated.
+const DRAUGHT_SHARE: f64 = 0.7;
+
+/// L_PP, B, T and D: stated, or L_PP between the ends of the waterline at T, B twice the greatest half-breadth, T seven tenths
+/// of the height, D the top. What was not stated is noted.
+pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
+    let stated = &table.stated;
+    let usable = |value: Option<f64>| value.filter(|v| v.is_finite() && *v > 0.0);
+    let (bottom, top) = (rows[0].z, rows[rows.len() - 1].z);
+    let depth = usable(stated.depth).unwrap_or_else(|| {
+        notes.push(format!("no depth is stated: D = {top:.3} m, the highest waterline"));
+        if top > 0.0 { top } else { top - bottom }
+    });
+    let draught = usable(stated.draught).unwrap_or_else(|| {
+        let guess = bottom.max(0.0) + DRAUGHT_SHARE * (top - bottom.max(0.0));
+        let guess = if guess > 0.0 { guess } else { top - bottom };
+        notes.push(format!("no draught is stated: T = {guess:.3} m, seven tenths of the height"));
+        guess
+    });
+    let breadth = usable(stated.breadth).unwrap_or_else(|| {
+        let half = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
+        notes.push(format!("no breadth is stated: B = {:.3} m, twice the greatest half-breadth", 2.0 * half));
+        2.0 * half
+    });
+    let length = usable(stated.length_between_perpendiculars).unwrap_or_else(|| {
+        // Ends of the waterline at T, between the rows around it.
+        let k = rows.partition_point(|r| r.z < draught).clamp(1, rows.len() - 1);
+        let (a, b) = (&rows[k - 1], &rows[k]);
+        let share = ((draught - a.z) / (b.z - a.z)).clamp(0.0, 1.0);
+        let at = |side: usize| a.ends[side].x + share * (b.ends[side].x - a.ends[side].x);
+        let length = at(1) - at(0);
+        notes.push(format!("no length is stated: L_PP = {length:.3} m, that of the waterline at T"));
+        length
+    });
+    PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth }
+}
+
+/// Knots and control points (x, z) of the deck at side: the heights of the stations where the table gives them, or of their
+/// highest offsets, joined straight, inside the surface; level at the top where every station reaches it.
+#[allow(clippy::type_complexity, reason = "the two parts of one curve, taken apart at once")]
+pub(super) fn deck(
+    table: &OffsetTable,
+    rows: &[Row],
+    notes: &mut Vec<String>,
+) -> Result<(KnotVector, Vec<[f64; 2]>), FitError> {
+    let (bottom, top) = (rows[0].z, rows[rows.len() - 1].z);
+    let last = &rows[rows.len() - 1];
+    let [aft, fore] = [0, 1].map(|side| {
+        let ends = rows.iter().map(|r| r.ends[side].x);
+        if side == 0 { ends.fold(last.ends[0].x, f64::min) } else { ends.fold(last.ends[1].x, f64::max) }
+    });
+    let mut assumed = 0usize;
+    let mut heights: Vec<(f64, f64)> = Vec::new();
+    for station in &table.stations {
+        let highest = station.half_breadths.iter().zip(&table.waterlines).filter(|(c, _)| c.value().is_some());
+        let highest = highest.map(|(_, z)| *z).fold(f64::NEG_INFINITY, f64::max);
+        let z = match station.deck_height {
+            Some(z) if z.is_finite() => z,
+            _ if highest.is_finite() => {
+                assumed += usize::from(highest < top);
+                highest
+            }
+            _ => continue,
+        };
+        heights.push((station.station.x, z.clamp(bottom + 1e-6 * (top - bottom), top)));
+    }
+    heights.sort_by(|a, b| a.0.total_cmp(&b.0));
+    heights.dedup_by(|a, b| a.0 - b.0 <= 1e-9 * (fore - aft));
+    if assumed > 0 {
+        notes.push(format!("the deck at side of {assumed} stations is taken at their highest offset"));
+    }
+    let level = heights.iter().all(|h| h.1 >= top - 1e-9 * (top - bottom));
+    let points: Vec<[f64; 2]> = if level || heights.len() < 2 {
+        vec![[aft, top], [fore, top]]
+    } else {
+        let (first, last) = (heights[0].1, heights[heights.len() - 1].1);
+        let slack = 1e-6 * (fore - aft);
+        let inside = heights.iter().filter(|h| h.0 > aft + slack && h.0 < fore - slack).map(|h| [h.0, h.1]);
+        std::iter::once([aft, first]).chain(inside).chain([[fore, last]]).collect()
+    };
+    let breaks: Vec<f64> = points.iter().map(|p| p[0]).collect();
+    let knots = KnotVector::from_breakpoints(1, &breaks, &vec![1; breaks.len() - 2]).map_err(HullError::from)?;
+    Ok((knots, points))
+}
