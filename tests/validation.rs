@@ -6,7 +6,8 @@ use loftsman::report::{Case, Verdict, validate};
 
 fn summary(case: &Case) -> String {
     let lines = case.comparisons.iter().filter(|c| matches!(c.verdict, Verdict::Exceeded | Verdict::Missing));
-    let lines: Vec<String> = lines.map(|c| format!("{} at {}: {} against {:?}", c.key, c.draught, c.theirs, c.ours)).collect();
+    let lines: Vec<String> =
+        lines.map(|c| format!("{} at {}: {} against {:?}", c.key, c.draught, c.theirs, c.ours)).collect();
     format!("{}: {:?} {}", case.name, case.failure, lines.join("; "))
 }
 
