@@ -90,7 +90,9 @@ fn diagonal_angle(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let hull = read_source(&arguments.hull)?.hull;
+    let source = read_source(&arguments.hull)?;
+    source.notes.iter().for_each(|note| stream::message(note));
+    let hull = source.hull;
     let usual = Planes::with_defaults(&hull);
     let list = |given: &Option<Lengths>, usual: Vec<f64>| given.as_ref().map_or(usual, |list| list.0.clone());
     let planes = Planes {

@@ -12,6 +12,7 @@ mod schema;
 mod section;
 mod self_test;
 mod stream;
+mod validate;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -51,6 +52,8 @@ enum Command {
     Section(section::Arguments),
     /// Inflections, curvature, energies and flats of a hull's curves, signs of its net, curvature of its surface
     Inspect(inspect::Arguments),
+    /// Fit the tables of known hulls and compare with what is published about them
+    Validate(validate::Arguments),
     /// Compare the analytic bodies with their closed forms
     SelfTest(self_test::Arguments),
 }
@@ -87,6 +90,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Convert(arguments) => convert::run(arguments),
         Command::Section(arguments) => section::run(arguments),
         Command::Inspect(arguments) => inspect::run(arguments),
+        Command::Validate(arguments) => validate::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
     };
     match done {

@@ -10,6 +10,7 @@ mod markdown;
 mod page;
 mod self_test;
 mod source;
+mod validate;
 
 pub use convert::{Converted, convert_table};
 pub use failure::Failure;
@@ -20,3 +21,4 @@ pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{Source, offsets, read_design, read_source, read_table_file, sections_of};
+pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};

@@ -1,0 +1,50 @@
+//! Fitted tables against published figures: the tables carried here always, others when they are at hand.
+
+use std::path::{Path, PathBuf};
+
+use loftsman::report::{Case, Verdict, validate};
+
+fn summary(case: &Case) -> String {
+    let lines = case.comparisons.iter().filter(|c| matches!(c.verdict, Verdict::Exceeded | Verdict::Missing));
+    let lines: Vec<String> =
+        lines.map(|c| format!("{} at {}: {} against {:?}", c.key, c.draught, c.theirs, c.ours)).collect();
+    format!("{}: {:?} {}", case.name, case.failure, lines.join("; "))
+}
+
+fn judged(cases: &[Case]) -> usize {
+    let lines = cases.iter().flat_map(|case| &case.comparisons);
+    lines.filter(|c| matches!(c.verdict, Verdict::Within | Verdict::Exceeded)).count()
+}
+
+#[test]
+fn the_tables_carried_here_keep_the_tolerances_of_their_sources() {
+    let cases = validate(&[Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")]).expect("readable references");
+    let names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(names, ["pdstrip_yacht", "s175", "series60_cb060", "series60_cb070", "series60_cb075", "wigley"]);
+    assert!(judged(&cases) >= 15, "{}", judged(&cases));
+    let failed: Vec<String> = cases.iter().filter(|case| !case.passed()).map(summary).collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+    for case in &cases {
+        for c in &case.comparisons {
+            assert!(c.ours.is_some_and(f64::is_finite), "{} {}", case.name, c.key);
+        }
+    }
+}
+
+/// The folder named by LOFTSMAN_DATA, or ../shared/data beside the crate.
+fn other_tables() -> Option<PathBuf> {
+    let named = std::env::var_os("LOFTSMAN_DATA").map(PathBuf::from);
+    let folder = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"));
+    folder.is_dir().then_some(folder)
+}
+
+#[test]
+fn tables_that_may_not_be_carried_keep_their_tolerances() {
+    let Some(folder) = other_tables() else {
+        println!("skipped: no folder LOFTSMAN_DATA and no ../shared/data");
+        return;
+    };
+    let cases = validate(&[folder]).expect("readable references");
+    let failed: Vec<String> = cases.iter().filter(|case| !case.passed()).map(summary).collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
