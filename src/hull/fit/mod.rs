@@ -1,6 +1,7 @@
 //! From a table of offsets to a hull.
 
 mod method;
+mod upright;
 
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
