@@ -1,6 +1,7 @@
 //! Section areas and the sectional-area curve.
 //!
-//! The area of the section at X is 2 int y(u(X, v), v) z_v dv, where u(X, v) solves x(u, v) = X. The integral is cut in v at
+//! The area of the section at X is 2 int y(u(X, v), v) (dz/dv) dv, where u(X, v) solves x(u, v) = X and dz/dv, taken along the
+//! station, is J / x_u: z_v on level and on upright hulls. The integral is cut in v at
 //! the knots, at every point where the station crosses a knot line in u, and where it leaves the hull over the stern or
 //! the stem profile: these points are roots of x(u_k, v) = X, of which all are found, profiles that turn back included, by
 //! subdividing Bernstein polynomials with Descartes' rule of signs (Lane & Riesenfeld 1981). In between the integrand is
@@ -96,11 +97,18 @@ impl Cell<'_> {
         knots.basis(self.span_u, u)
     }
 
+    /// dz/dv along the station at (u, v).
+    fn rise(&self, u: f64, v: f64) -> f64 {
+        let at = self.hull.surface().tangents(u, v);
+        let lean = at.dv[0] * at.du[2];
+        if self.slanting && lean.abs() > 0.0 && at.du[0] > 0.0 { at.dv[2] - lean / at.du[0] } else { at.dv[2] }
+    }
+
     /// The weights for v in [from, to] of a rule of `count` nodes, in t of the changed variable where a profile is near.
     fn rule(&self, ends: (f64, f64), part: (f64, f64), count: usize, start: &mut f64) -> Block {
         let surface = self.hull.surface();
         let (p, q) = (surface.u().degree(), surface.v().degree());
-        let heights = &self.hull.heights().points()[self.span_v - q..=self.span_v];
+        let heights = self.hull.heights().map(|heights| &heights.points()[self.span_v - q..=self.span_v]);
         let width = ends.1 - ends.0;
         let mut block: Block = Default::default();
         for (t, weight) in gauss_legendre(count).on(part.0, part.1) {
@@ -108,8 +116,11 @@ impl Cell<'_> {
                 if self.at_profile { (t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t)) } else { (t, 1.0) };
             let v = ends.0 + width * place;
             let [across, slopes] = surface.v().basis_derivatives::<2>(self.span_v, v);
-            let slope: f64 = slopes.iter().zip(heights).map(|(b, h)| b * h[0]).sum();
             let along = self.along(&across, start);
+            let slope = match heights {
+                Some(heights) => slopes.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>(),
+                None => self.rise(*start, v),
+            };
             let factor = 2.0 * weight * width * stretch * slope;
             for (row, a) in block[..=p].iter_mut().zip(&along) {
                 for (target, b) in row[..=q].iter_mut().zip(&across) {

@@ -1,16 +1,26 @@
 //! The hull: a half-breadth surface over the centreplane.
 //!
-//! S(u, v) = (x(u, v), y(u, v), z(v)), a tensor-product B-spline with one knot vector in u (aft to forward) and one in v
-//! (bottom to top). x and z are fixed functions of the parameters, y is the shape. Waterlines are the lines v = constant.
+//! S(u, v) = (x(u, v), y(u, v), z(u, v)), a tensor-product B-spline with one knot vector in u (aft to forward) and one in v
+//! (bottom to top). x and z are fixed functions of the parameters, the chart of the profile; y is the shape. The chart does
+//! not fold: x rises with u, z with v, and J = x_u z_v - x_v z_u is positive inside, so that (x, z) determines (u, v). Two
+//! pure charts, and anything between:
+//! * level, z = z(v): the lines v = constant are waterlines. Stern and stem may rake and bulge;
+//! * upright, x = x(u): the lines u = constant are stations. Keel, chines and sheer may be lines v = constant.
+//!
 //! The body is {(x, y, z): |y| <= y(x, z)} over the domain of the surface, so that what closes it is implied and plane or
 //! ruled:
-//! * the flat of bottom, at z = z(v_min), where y > 0 on the lowest line;
+//! * the bottom, across the keel line v = v_min where y > 0 there: the flat of bottom of a level hull, else a ruled strip that
+//!   follows the height of the keel line;
 //! * the transom, over the stern profile u = u_min, and a flat bow over the stem profile u = u_max, where y > 0 there;
 //! * the deck, at the height of the deck at side; the surface reaches up to the highest point of the deck and the body
-//!   ends at the deck.
+//!   ends at the deck. Where the upper edge v = v_max is lower than the deck, or is the deck, the body ends there.
 
+use super::chart;
 use super::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
+
+/// A net that falls by less than this part of its largest coordinate does not fall.
+const ROUNDING: f64 = 1e-13;
 
 /// Why data do not make a hull.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,7 +36,7 @@ pub enum HullError {
         /// Its value \[m\].
         value: f64,
     },
-    /// The heights of the net are not one rising sequence, the same in every column.
+    /// The heights of the net do not rise from bottom to top.
     #[error("heights of the net, row {row}, column {column}: {problem}")]
     Heights {
         /// Index in u.
@@ -43,6 +53,23 @@ pub enum HullError {
         row: usize,
         /// Index in v.
         column: usize,
+    },
+    /// The chart of the profile folds: J = x_u z_v - x_v z_u is negative.
+    #[error(
+        "the lines of the net cross in the profile near x = {x} m, z = {z} m (u = {u}, v = {v}): x_u z_v - x_v z_u is \
+         {jacobian} there, and must not be negative; move the keel or the ends apart from the lines above them"
+    )]
+    Folded {
+        /// Parameter along the ship.
+        u: f64,
+        /// Parameter across.
+        v: f64,
+        /// Position of the point \[m\].
+        x: f64,
+        /// Its height \[m\].
+        z: f64,
+        /// J [m^2].
+        jacobian: f64,
     },
     /// A half-breadth of the net that has nothing to do with the breadth.
     #[error(
@@ -75,16 +102,23 @@ pub struct Hull {
     particulars: PrincipalParticulars,
     surface: BsplineSurface<3>,
     deck: BsplineCurve<2>,
-    heights: BsplineCurve<1>,
+    /// z(v) of a level hull.
+    heights: Option<BsplineCurve<1>>,
+    upright: bool,
+    bottom: f64,
+    top: f64,
+    /// Whether the deck at side is somewhere below the upper edge of the surface.
+    cut_by_deck: bool,
 }
 
 impl Hull {
     /// Takes the surface (control points x, y, z in metres) and the deck at side (control points x, z; x rises).
     ///
+    /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
+    ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z depends on u or does not
-    /// rise with v, x does not rise with u, or
-    /// the deck does not rise in x or leaves the range of heights of the surface.
+    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z does not rise with v
+    /// or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
     pub fn new(
         name: &str,
         particulars: PrincipalParticulars,
@@ -100,39 +134,54 @@ impl Hull {
             }
         }
         let [rows, columns] = surface.shape();
+        let (mut level, mut upright) = (true, true);
+        // A line that shrinks to a point has coordinates that are equal to rounding only.
+        let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
+        let noise = [ROUNDING * largest(0), ROUNDING * largest(2)];
         for row in 0..rows {
             for column in 0..columns {
                 let [x, y, z] = surface.point(row, column);
                 if !(-p.breadth..=10.0 * p.breadth).contains(&y) {
                     return Err(HullError::Breadths { row, column, value: y, breadth: p.breadth });
                 }
-                if z.to_bits() != surface.point(0, column)[2].to_bits() {
-                    return Err(HullError::Heights { row, column, problem: "z differs along a waterline" });
-                }
-                if column > 0 && z < surface.point(row, column - 1)[2] {
+                level &= z.to_bits() == surface.point(0, column)[2].to_bits();
+                upright &= x.to_bits() == surface.point(row, 0)[0].to_bits();
+                if column > 0 && z < surface.point(row, column - 1)[2] - noise[1] {
                     return Err(HullError::Heights { row, column, problem: "z falls from bottom to top" });
                 }
-                if row > 0 && x < surface.point(row - 1, column)[0] {
+                if row > 0 && x < surface.point(row - 1, column)[0] - noise[0] {
                     return Err(HullError::Lengths { row, column });
                 }
             }
         }
-        let heights =
-            BsplineCurve::new(surface.v().clone(), (0..columns).map(|column| [surface.point(0, column)[2]]).collect())?;
-        let (bottom, top) = (surface.point(0, 0)[2], surface.point(0, columns - 1)[2]);
+        let heights = if level {
+            let points = (0..columns).map(|column| [surface.point(0, column)[2]]).collect();
+            Some(BsplineCurve::new(surface.v().clone(), points)?)
+        } else {
+            None
+        };
+        let [bottom, top] = chart::heights(&surface, level);
         if top <= bottom {
             return Err(HullError::Heights { row: 0, column: columns - 1, problem: "the hull has no height" });
         }
+        if !level && !upright {
+            chart::unfolded(&surface)?;
+        }
         let slack = 1e-9 * (top - bottom);
+        // Control points of a curved sheer line stand above its highest point.
+        let reach = if level { 0.0 } else { top - bottom };
         for (index, point) in deck.points().iter().enumerate() {
             if index > 0 && point[0] <= deck.points()[index - 1][0] {
                 return Err(HullError::Deck { index, problem: "x does not rise" });
             }
-            if point[1] < bottom - slack || point[1] > top + slack {
+            if point[1] < bottom - slack || point[1] > top + slack + reach {
                 return Err(HullError::Deck { index, problem: "outside the heights of the surface" });
             }
         }
-        Ok(Self { name: name.to_owned(), particulars, surface, deck, heights })
+        let mut hull =
+            Self { name: name.to_owned(), particulars, surface, deck, heights, upright, bottom, top, cut_by_deck: true };
+        hull.cut_by_deck = level || chart::is_cut_by_deck(&hull);
+        Ok(hull)
     }
 
     /// The name.
@@ -153,10 +202,27 @@ impl Hull {
         &self.surface
     }
 
-    /// z(v) \[m\].
+    /// Whether z is a function of v alone, so that the lines v = constant are waterlines.
     #[must_use]
-    pub fn heights(&self) -> &BsplineCurve<1> {
-        &self.heights
+    pub fn is_level(&self) -> bool {
+        self.heights.is_some()
+    }
+
+    /// Whether x is a function of u alone, so that the lines u = constant are stations.
+    #[must_use]
+    pub fn is_upright(&self) -> bool {
+        self.upright
+    }
+
+    /// z(v) of a level hull \[m\].
+    #[must_use]
+    pub fn heights(&self) -> Option<&BsplineCurve<1>> {
+        self.heights.as_ref()
+    }
+
+    /// Whether the deck at side may end the body below the upper edge of the surface.
+    pub(crate) fn is_cut_by_deck(&self) -> bool {
+        self.cut_by_deck
     }
 
     /// The deck at side in the profile: control points (x, z) \[m\], x rising.
@@ -165,25 +231,40 @@ impl Hull {
         &self.deck
     }
 
-    /// Height of the lowest line of the surface \[m\].
+    /// Height of the lowest point of the surface \[m\].
     #[must_use]
     pub fn bottom(&self) -> f64 {
-        self.heights.points()[0][0]
+        self.bottom
     }
 
-    /// Height of the highest line of the surface \[m\].
+    /// Height of the highest point of the surface \[m\].
     #[must_use]
     pub fn top(&self) -> f64 {
-        self.heights.points()[self.heights.points().len() - 1][0]
+        self.top
     }
 
-    /// The parameter v at which z(v) is `z`, to rounding; none outside the heights of the surface.
+    /// The parameter v of the waterline at height `z` of a level hull, to rounding; none outside the heights of the surface
+    /// and on hulls that are not level.
     #[must_use]
     pub fn height_parameter(&self, z: f64) -> Option<f64> {
-        let (a, b) = self.heights.knots().domain();
-        solve_increasing(z, (a, b), (self.bottom(), self.top()), |v| {
-            let [value, slope] = self.heights.derivatives::<2>(v);
+        let heights = self.heights.as_ref()?;
+        solve_increasing(z, heights.knots().domain(), (self.bottom, self.top), |v| {
+            let [value, slope] = heights.derivatives::<2>(v);
             (value[0], slope[0])
+        })
+    }
+
+    /// The parameter v at which z(u, v) is `z` on the line `u`, to rounding; none above and below its ends.
+    #[must_use]
+    pub fn height_parameter_at(&self, u: f64, z: f64) -> Option<f64> {
+        if self.is_level() {
+            return self.height_parameter(z);
+        }
+        let domain = self.surface.v().domain();
+        let ends = (self.surface.eval(u, domain.0)[2], self.surface.eval(u, domain.1)[2]);
+        solve_increasing(z, domain, ends, |v| {
+            let at = self.surface.tangents(u, v);
+            (at.point[2], at.dv[2])
         })
     }
 
@@ -198,17 +279,33 @@ impl Hull {
         })
     }
 
+    /// The parameter u at which x(u, v) is `x`, or the nearer end where the line `v` does not reach so far.
+    pub(crate) fn nearest_length_parameter(&self, x: f64, v: f64) -> f64 {
+        let (a, b) = self.surface.u().domain();
+        self.length_parameter(x, v).unwrap_or(if x < self.surface.eval(a, v)[0] { a } else { b })
+    }
+
     /// The half-breadth at (x, z) \[m\]; none where the surface does not reach.
     #[must_use]
     pub fn half_breadth(&self, x: f64, z: f64) -> Option<f64> {
-        let v = self.height_parameter(z)?;
-        let u = self.length_parameter(x, v)?;
+        let [u, v] = self.parameters(x, z)?;
         Some(self.surface.eval(u, v)[1])
     }
 
-    /// Ends of the waterline at height `z`: x at the stern and at the stem profile \[m\]; none outside the surface.
+    /// The parameters (u, v) of the point (x, z) of the profile, to rounding; none where the surface does not reach.
+    #[must_use]
+    pub fn parameters(&self, x: f64, z: f64) -> Option<[f64; 2]> {
+        let v = if self.is_level() { self.height_parameter(z)? } else { chart::height_parameter_along(self, x, z)? };
+        Some([self.length_parameter(x, v)?, v])
+    }
+
+    /// Ends of the waterline at height `z`: its aftmost and its foremost x \[m\]; none outside the surface. Where a hump of the
+    /// keel or a dip of the sheer parts the waterline, they are the ends of the whole.
     #[must_use]
     pub fn endings(&self, z: f64) -> Option<[f64; 2]> {
+        if !self.is_level() {
+            return chart::endings(self, z);
+        }
         let v = self.height_parameter(z)?;
         let (a, b) = self.surface.u().domain();
         Some([self.surface.eval(a, v)[0], self.surface.eval(b, v)[0]])
@@ -235,7 +332,7 @@ impl Hull {
 }
 
 /// Root of an increasing function by Newton's method inside a bracket that bisection keeps.
-fn solve_increasing(
+pub(super) fn solve_increasing(
     target: f64,
     domain: (f64, f64),
     ends: (f64, f64),

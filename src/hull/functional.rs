@@ -1,22 +1,25 @@
 //! Linear functionals of the half-breadths, as rows over the net.
 //!
-//! With S(u, v) = (x(u, v), y(u, v), z(v)) and both sides counted,
+//! With S(u, v) = (x(u, v), y(u, v), z(u, v)), J = x_u z_v - x_v z_u and both sides counted,
 //!
-//! volume = 2 int int y x_u z_v dv du, moments the same with x or z in the integrand, waterplane area = 2 int y x_u du on
-//! v = v_T, section area = 2 int y(u(X, v), v) z_v dv.
+//! volume = 2 int int y J dv du, moments the same with x or z in the integrand, waterplane area = 2 int y dx on the line
+//! z(u, v) = T, section area = 2 int y dz on the line x(u, v) = X.
 //!
-//! The integrands of volume, waterplane and their moments are piecewise polynomials in (u, v): Gauss-Legendre rules that are
+//! On a level hull, z = z(v), J is x_u z_v, the waterline v = v_T, and
+//! the integrands of volume, waterplane and their moments are piecewise polynomials in (u, v): Gauss-Legendre rules that are
 //! exact for their degree are used on every span and on the part of the last span below the waterline, so that these rows
 //! are exact to rounding. The integrand of a section area is algebraic; see `area`. Where the deck at side is immersed the
-//! body ends at the deck, the integrands in u are smooth but no polynomials, and the relative error is about 1e-10.
+//! body ends at the deck, the integrands in u are smooth but no polynomials, and the relative error is about 1e-10. So it is on
+//! hulls that are not level where the waterline crosses them; see `charted`.
 //!
 //! Rows and values come from one enumeration of weights, [`Functional::row`] storing what [`Functional::value`] sums up.
 
 use super::area::section_weights;
+use super::charted;
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
-use crate::spline::MAX_DEGREE;
+use crate::spline::{BsplineCurve, MAX_DEGREE};
 
 /// Nodes a piece in u where the body ends at the deck.
 const DECK_NODES: usize = 16;
@@ -85,7 +88,7 @@ impl Functional {
 
 /// What a volume is multiplied by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Moment {
+pub(super) enum Moment {
     None,
     Length,
     Height,
@@ -100,7 +103,7 @@ struct NodeV {
 }
 
 /// Gauss nodes, `count` a span, of the v below `end`.
-fn nodes_below(hull: &Hull, end: f64, count: usize) -> Vec<NodeV> {
+fn nodes_below(hull: &Hull, heights: &BsplineCurve<1>, end: f64, count: usize) -> Vec<NodeV> {
     let knots = hull.surface().v();
     let mut nodes = Vec::new();
     for span in knots.spans() {
@@ -109,7 +112,7 @@ fn nodes_below(hull: &Hull, end: f64, count: usize) -> Vec<NodeV> {
             break;
         }
         let first = span - knots.degree();
-        let heights = &hull.heights().points()[first..=span];
+        let heights = &heights.points()[first..=span];
         for (v, weight) in gauss_legendre(count).on(from, to) {
             let [basis, slopes] = knots.basis_derivatives::<2>(span, v);
             let sum = |row: &[f64]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
@@ -120,6 +123,7 @@ fn nodes_below(hull: &Hull, end: f64, count: usize) -> Vec<NodeV> {
 }
 
 fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMut(usize, usize, &[f64])) {
+    let Some(heights) = hull.heights() else { return charted::volume_weights(hull, draught, moment, sink) };
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     let surface = hull.surface();
     let (knots, p, q) = (surface.u(), surface.u().degree(), surface.v().degree());
@@ -127,7 +131,7 @@ fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMu
     // Degrees 2p - 1 (with x: 3p - 1) in u and 3q - 1 (with x or z: 4q - 1) in v.
     let exact_u = if moment == Moment::Length { (3 * p).div_ceil(2) } else { p };
     let count_v = if moment == Moment::None { (3 * q).div_ceil(2) } else { 2 * q };
-    let whole = nodes_below(hull, immersion.waterline(), count_v);
+    let whole = nodes_below(hull, heights, immersion.waterline(), count_v);
     let (mut x, mut slope, mut line) = (vec![0.0; columns], vec![0.0; columns], vec![0.0; columns]);
     let mut scaled = vec![0.0; columns];
     for piece in immersion.pieces() {
@@ -148,7 +152,7 @@ fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMu
             let nodes = match piece.upper {
                 UpperEnd::Waterline => &whole,
                 UpperEnd::Deck => {
-                    clipped = nodes_below(hull, immersion.end(u), count_v);
+                    clipped = nodes_below(hull, heights, immersion.end(u), count_v);
                     &clipped
                 }
             };
@@ -178,6 +182,9 @@ fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMu
 }
 
 fn waterplane_weights(hull: &Hull, draught: f64, with_moment: bool, sink: &mut dyn FnMut(usize, usize, &[f64])) {
+    if !hull.is_level() {
+        return charted::waterplane_weights(hull, draught, with_moment, sink);
+    }
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     if immersion.above() {
         return;
@@ -212,7 +219,7 @@ fn waterplane_weights(hull: &Hull, draught: f64, with_moment: bool, sink: &mut d
 mod tests {
     use super::*;
     use crate::hull::PrincipalParticulars;
-    use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+    use crate::spline::{BsplineSurface, KnotVector};
 
     /// A hull with a raked, bulging stem, a raked stern, a flat of bottom, a transom and a deck with sheer.
     fn hull(sheer: f64) -> Hull {

@@ -1,22 +1,35 @@
 //! The immersed part of the parameter plane below a draught: v from v_min up to the waterline or, where it is lower, the deck.
 //!
-//! On the line u = constant the body ends at v_end(u) = min(v_T, v_deck(u)), v_deck(u) being the lowest v at which
-//! z(v) = deck height at x(u, v). While the deck is dry everywhere, v_end is v_T for every u. Where it is immersed, the plane
-//! is split in u where the deck meets the waterline, a knot line v_k or a knot of the deck, so that v_end(u) is smooth
-//! within each piece.
+//! On the line u = constant the body ends at v_end(u) = min(v_T(u), v_deck(u)), v_T(u) being the v at which z(u, v) is the
+//! draught (v_max where all of the line is immersed) and v_deck(u) the lowest v at which z is the deck height at x(u, v).
+//!
+//! Level hulls: while the deck is dry everywhere, v_end is v_T for every u. Where it is immersed, the plane is split in u
+//! where the deck meets the waterline, a knot line v_k or a knot of the deck, so that v_end(u) is smooth within each piece.
+//!
+//! Other hulls: the plane is split as well where the waterline crosses a knot line v_k, leaves through the keel line or
+//! meets the upper edge, and there are no pieces where nothing is immersed. Where the waterline leaves through the keel line of
+//! a graded chart, v_T(u) is like a square root; rules on such pieces run in t of u = a + (b - a) t^2 (3 - 2t).
 
+use super::chart;
 use super::form::Hull;
-use crate::numeric::bracketed_root;
+use crate::numeric::{bracketed_root, gauss_legendre};
 
 /// Intervals in which a span is searched for points where the deck meets a line v = constant.
 const SAMPLES: usize = 16;
+
+/// Nodes of a rule on a piece whose end is singular, and on any other one that is not polynomial.
+const SINGULAR_NODES: usize = 24;
+const SMOOTH_NODES: usize = 14;
+
+/// A keel line as near to the waterline as this part of the height of the hull makes the end of a piece singular.
+const NEAR_KEEL: f64 = 0.05;
 
 /// What the body ends at, on a piece in u.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum UpperEnd {
     /// The waterline v = v_T (or the top of the surface when the draught is above it).
     Waterline,
-    /// The deck at side.
+    /// The deck at side, or the upper edge of the surface.
     Deck,
 }
 
@@ -31,6 +44,25 @@ pub(crate) struct Piece {
     pub(crate) to: f64,
     /// What closes the body above.
     pub(crate) upper: UpperEnd,
+    /// Whether v_end is singular at an end of the piece.
+    pub(crate) singular: bool,
+    /// Whether v_end is the same for all of it.
+    pub(crate) straight: bool,
+}
+
+impl Piece {
+    /// Nodes and weights in u; at least `exact` of them, which do for the polynomials of a piece with a constant v_end.
+    pub(crate) fn nodes(&self, exact: usize) -> Vec<(f64, f64)> {
+        if self.straight {
+            return gauss_legendre(exact).on(self.from, self.to).collect();
+        }
+        if !self.singular {
+            return gauss_legendre(exact.max(SMOOTH_NODES)).on(self.from, self.to).collect();
+        }
+        let width = self.to - self.from;
+        let rule = gauss_legendre(exact.max(SINGULAR_NODES)).on(0.0, 1.0);
+        rule.map(|(t, w)| (self.from + width * t * t * (3.0 - 2.0 * t), w * width * 6.0 * t * (1.0 - t))).collect()
+    }
 }
 
 /// The body below one draught.
@@ -41,6 +73,8 @@ pub(crate) struct Immersion<'a> {
     waterline: f64,
     above: bool,
     deck_immersed: bool,
+    /// Below this a height is the draught \[m\].
+    slack: f64,
 }
 
 impl<'a> Immersion<'a> {
@@ -51,9 +85,9 @@ impl<'a> Immersion<'a> {
         if draught.is_nan() || draught < hull.bottom() - rounding {
             return None;
         }
-        let (lowest, highest) = hull.heights().knots().domain();
+        let (lowest, highest) = hull.surface().v().domain();
         let above = draught > hull.top() + rounding;
-        let waterline = if draught >= hull.top() {
+        let waterline = if draught >= hull.top() || !hull.is_level() {
             highest
         } else if draught <= hull.bottom() {
             lowest
@@ -62,12 +96,9 @@ impl<'a> Immersion<'a> {
         };
         let lowest_deck = hull.deck().points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
         let slack = 1e-9 * (hull.top() - hull.bottom());
-        let mut immersion =
-            Self { hull, draught: draught.clamp(hull.bottom(), hull.top()), waterline, above, deck_immersed: false };
-        if immersion.draught > lowest_deck + slack {
-            immersion.deck_immersed = true;
-        }
-        Some(immersion)
+        let draught = draught.clamp(hull.bottom(), hull.top());
+        let deck_immersed = hull.is_cut_by_deck() && draught > lowest_deck + slack;
+        Some(Self { hull, draught, waterline, above, deck_immersed, slack })
     }
 
     /// The draught, the top of the surface when it is above that \[m\].
@@ -75,7 +106,7 @@ impl<'a> Immersion<'a> {
         self.draught
     }
 
-    /// v_T, or the upper end of the domain when the draught is above the surface.
+    /// v_T of a level hull, or the upper end of the domain when the draught is above the surface; the upper end of other hulls.
     pub(crate) fn waterline(&self) -> f64 {
         self.waterline
     }
@@ -98,10 +129,13 @@ impl<'a> Immersion<'a> {
 
     /// v_end(u).
     pub(crate) fn end(&self, u: f64) -> f64 {
+        if !self.hull.is_level() {
+            return self.end_at(u);
+        }
         if !self.deck_immersed || self.above_deck(u, self.waterline) <= 0.0 {
             return self.waterline;
         }
-        let (lowest, highest) = self.hull.heights().knots().domain();
+        let (lowest, highest) = self.hull.surface().v().domain();
         if self.above_deck(u, lowest) >= 0.0 {
             return lowest;
         }
@@ -111,6 +145,10 @@ impl<'a> Immersion<'a> {
 
     /// The v at which the section at `x` ends.
     pub(crate) fn section_end(&self, x: f64) -> f64 {
+        if !self.hull.is_level() {
+            let deck = if self.deck_immersed { self.hull.deck_height(x) } else { f64::INFINITY };
+            return chart::end_along(self.hull, x, self.draught.min(deck));
+        }
         if !self.deck_immersed {
             return self.waterline;
         }
@@ -118,11 +156,101 @@ impl<'a> Immersion<'a> {
         if deck >= self.draught {
             return self.waterline;
         }
-        self.hull.height_parameter(deck).unwrap_or(self.hull.heights().knots().domain().0)
+        self.hull.height_parameter(deck).unwrap_or(self.hull.surface().v().domain().0)
     }
 
-    /// The pieces in u, in order; one a span while the deck is dry.
+    /// v_end(u) of a hull that is not level.
+    fn end_at(&self, u: f64) -> f64 {
+        let surface = self.hull.surface();
+        let (lowest, highest) = surface.v().domain();
+        let afloat = if surface.eval(u, highest)[2] <= self.draught + 1e-3 * self.slack {
+            highest
+        } else {
+            self.hull.height_parameter_at(u, self.draught).unwrap_or(lowest)
+        };
+        if !self.deck_immersed || self.above_deck(u, afloat) <= 0.0 {
+            return afloat;
+        }
+        if self.above_deck(u, lowest) >= 0.0 {
+            return lowest;
+        }
+        bracketed_root(|v| self.above_deck(u, v), lowest, afloat, f64::EPSILON * (highest - lowest)).unwrap_or(afloat)
+    }
+
+    /// Where v_end(u) of a hull that is not level is not smooth, besides the knots in u.
+    fn cuts(&self) -> Vec<f64> {
+        let surface = self.hull.surface();
+        let (lowest, _) = surface.v().domain();
+        let breakpoints = surface.v().breakpoints();
+        let mut cuts: Vec<f64> =
+            breakpoints.iter().flat_map(|&v| chart::passages(surface, v, self.draught)).collect();
+        // A keel line that turns close to the waterline.
+        if let Some(keel) = chart::coordinate(&surface.curve_at_v(lowest), 2, self.draught) {
+            let near = NEAR_KEEL * (self.hull.top() - self.hull.bottom());
+            cuts.extend(chart::turns(&keel).into_iter().filter(|&u| keel.eval(u)[0].abs() < near));
+        }
+        if self.deck_immersed {
+            cuts.extend(self.deck_knots());
+            let spans: Vec<[f64; 2]> = surface.u().breakpoints().windows(2).map(|w| [w[0], w[1]]).collect();
+            let over = |u: f64, v: f64| self.above_deck(u, v);
+            let afloat = |u: f64| self.hull.height_parameter_at(u, self.draught);
+            for [from, to] in spans {
+                let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
+                let tolerance = f64::EPSILON * (to - from);
+                for k in 0..SAMPLES {
+                    let ends = (at(k), at(k + 1));
+                    for &v in &breakpoints {
+                        cuts.extend(bracketed_root(|u| over(u, v), ends.0, ends.1, tolerance));
+                    }
+                    if afloat(ends.0).is_some() && afloat(ends.1).is_some() {
+                        let gap = |u: f64| over(u, afloat(u).unwrap_or(lowest));
+                        cuts.extend(bracketed_root(gap, ends.0, ends.1, tolerance));
+                    }
+                }
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        cuts
+    }
+
+    /// The pieces of a hull that is not level.
+    fn pieces_of_chart(&self) -> Vec<Piece> {
+        let surface = self.hull.surface();
+        let knots = surface.u();
+        let (lowest, highest) = surface.v().domain();
+        let near = NEAR_KEEL * (self.hull.top() - self.hull.bottom());
+        let (cuts, mut pieces) = (self.cuts(), Vec::new());
+        for span in knots.spans() {
+            let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
+            let mut low = from;
+            for cut in cuts.iter().copied().filter(|&u| u > from && u < to).chain([to]) {
+                if cut - low <= 1e-13 * (to - from) && cut < to {
+                    continue;
+                }
+                let (a, b) = (low, cut);
+                low = cut;
+                let middle = 0.5 * (a + b);
+                if surface.eval(middle, lowest)[2] > self.draught + self.slack {
+                    continue;
+                }
+                let end = self.end(middle);
+                let afloat = surface.eval(middle, end)[2] >= self.draught - self.slack;
+                let upper = if afloat { UpperEnd::Waterline } else { UpperEnd::Deck };
+                let same = |u: f64| self.end(u).to_bits() == highest.to_bits();
+                let straight = same(middle) && same(0.75 * a + 0.25 * b) && same(0.25 * a + 0.75 * b);
+                let singular =
+                    !straight && [a, b].iter().any(|&u| (surface.eval(u, lowest)[2] - self.draught).abs() < near);
+                pieces.push(Piece { span, from: a, to: b, upper, singular, straight });
+            }
+        }
+        pieces
+    }
+
+    /// The pieces in u, in order; on level hulls one a span while the deck is dry.
     pub(crate) fn pieces(&self) -> Vec<Piece> {
+        if !self.hull.is_level() {
+            return self.pieces_of_chart();
+        }
         let knots = self.hull.surface().u();
         let mut pieces = Vec::new();
         let lines = if self.deck_immersed { self.lines() } else { Vec::new() };
@@ -130,7 +258,8 @@ impl<'a> Immersion<'a> {
         for span in knots.spans() {
             let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
             if !self.deck_immersed {
-                pieces.push(Piece { span, from, to, upper: UpperEnd::Waterline });
+                let upper = UpperEnd::Waterline;
+                pieces.push(Piece { span, from, to, upper, singular: false, straight: true });
                 continue;
             }
             let mut cuts: Vec<f64> = deck_knots.iter().copied().filter(|&u| u > from && u < to).collect();
@@ -154,7 +283,7 @@ impl<'a> Immersion<'a> {
                 }
                 let dry = self.above_deck(0.5 * (low + cut), self.waterline) <= 0.0;
                 let upper = if dry { UpperEnd::Waterline } else { UpperEnd::Deck };
-                pieces.push(Piece { span, from: low, to: cut, upper });
+                pieces.push(Piece { span, from: low, to: cut, upper, singular: false, straight: dry });
                 low = cut;
             }
         }
@@ -176,7 +305,7 @@ impl<'a> Immersion<'a> {
         ends.iter()
             .filter_map(|&t| {
                 let [x, z] = deck.eval(t);
-                self.hull.length_parameter(x, self.hull.height_parameter(z)?)
+                self.hull.parameters(x, z).map(|[u, _]| u)
             })
             .collect()
     }

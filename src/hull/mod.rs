@@ -4,6 +4,8 @@
 
 mod area;
 mod cell;
+mod chart;
+mod charted;
 mod fit;
 mod form;
 mod functional;
@@ -14,6 +16,7 @@ mod section;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
+pub(crate) use charted::advance;
 pub use cell::{
     Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
 };

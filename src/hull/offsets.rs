@@ -4,6 +4,7 @@
 //! 1e-11 m from the surface, and are exact to that over the slope of the section.
 
 use super::cell::{Cell, FeatureLine, OutlinePoint, StatedParticulars, TableForm, TransomPlane};
+use super::chart::{coordinate, turns};
 use super::form::Hull;
 use super::section::{Cut, Face, Section, curve_sign_changes};
 use crate::spline::BsplineCurve;
@@ -136,24 +137,37 @@ fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f6
     let section = hull.section(Cut::Station { x }, 0.0);
     let heights =
         buttocks.iter().map(|&y| Cell::from(if y <= 0.0 { keel_height } else { height_at(&section, y) })).collect();
-    let on_deck = keel_height.and_then(|_| hull.half_breadth(x, deck.min(hull.top())));
+    let on_deck = keel_height.and_then(|_| hull.half_breadth(x, deck.min(upper_edge(hull, x))));
     StationOffsets {
         half_breadths,
         heights,
         keel_height,
-        flat_of_bottom: hull.half_breadth(x, hull.bottom()),
+        flat_of_bottom: keel_point(hull, x).map(|point| point[1]),
         deck_height: on_deck.map(|_| deck),
         deck_half_breadth: on_deck,
         ..StationOffsets::new(station.name.clone(), x)
     }
 }
 
+/// The point of the keel line, the lower edge of the surface, at `x`; none beyond its ends.
+fn keel_point(hull: &Hull, x: f64) -> Option<[f64; 3]> {
+    let v = hull.surface().v().domain().0;
+    Some(hull.surface().eval(hull.length_parameter(x, v)?, v))
+}
+
+/// Height of the upper edge of the surface at `x`; the top of the hull where it does not reach so far.
+fn upper_edge(hull: &Hull, x: f64) -> f64 {
+    let v = hull.surface().v().domain().1;
+    if hull.is_level() {
+        return hull.top();
+    }
+    hull.length_parameter(x, v).map_or(hull.top(), |u| hull.surface().eval(u, v)[2])
+}
+
 /// The lowest height at which the surface reaches `x`.
 fn lowest(hull: &Hull, x: f64) -> Option<f64> {
-    if let Some([aft, forward]) = hull.endings(hull.bottom())
-        && (aft..=forward).contains(&x)
-    {
-        return Some(hull.bottom());
+    if let Some([_, _, z]) = keel_point(hull, x) {
+        return Some(z);
     }
     let (a, b) = hull.surface().u().domain();
     let mut heights: Vec<f64> = Vec::new();
@@ -212,8 +226,7 @@ pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
         let edge = hull.surface().curve_at_u(u);
         let (from, to) = edge.knots().domain();
         // Extremes of the profile: at its ends or where x'(v) changes sign.
-        let slopes = slope(&edge);
-        let turns = slopes.map(|s| curve_sign_changes(&s)).unwrap_or_default();
+        let turns = coordinate(&edge, 0, 0.0).map(|x| turns(&x)).unwrap_or_default();
         turns.into_iter().chain([from, to]).map(|v| edge.eval(v)[0]).fold(start, fold)
     };
     let (aft, forward) = (ends(a, f64::min, f64::INFINITY), ends(b, f64::max, f64::NEG_INFINITY));
@@ -225,23 +238,6 @@ pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
     }
     stations.sort_by(|p, q| p.x.total_cmp(&q.x));
     stations
-}
-
-/// x'(v) of a profile.
-fn slope(edge: &BsplineCurve<3>) -> Option<BsplineCurve<1>> {
-    let (knots, p) = (edge.knots().knots(), edge.knots().degree());
-    if p < 2 {
-        return None;
-    }
-    let points = (0..edge.points().len() - 1)
-        .map(|i| {
-            let width = knots[i + p + 1] - knots[i + 1];
-            let rise = edge.points()[i + 1][0] - edge.points()[i][0];
-            [if width > 0.0 { p as f64 * rise / width } else { 0.0 }]
-        })
-        .collect();
-    let knots = crate::spline::KnotVector::new(p - 1, knots[1..knots.len() - 1].to_vec()).ok()?;
-    BsplineCurve::new(knots, points).ok()
 }
 
 /// Default waterlines \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design draught, up

@@ -54,7 +54,7 @@ pub enum Cut {
 pub enum Face {
     /// The side: the half-breadth surface.
     Side,
-    /// The flat of bottom.
+    /// The bottom across the keel line: the flat of bottom, or a strip that follows the height of the keel.
     Bottom,
     /// The transom, over the stern profile.
     Transom,
@@ -159,7 +159,7 @@ impl Hull {
     /// surface and from the plane at most `tolerance` \[m\], which is taken as 1e-11 m at least. No branch when the plane
     /// misses the hull or is no plane.
     ///
-    /// * A waterline is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
+    /// * A waterline of a level hull is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
     ///   chains of quintics. Branches on flats are exact.
     /// * Where the surface lies in the plane, the branch is the boundary of that part of the surface. The edges of the
     ///   surface count as such: the station at the end of a hull with a transom across is the outline of the transom, the
@@ -177,7 +177,9 @@ impl Hull {
                 branches.push(oriented(Branch { face, curve, closed }, station));
             }
         };
-        if let Cut::Waterline { z } = cut {
+        if let Cut::Waterline { z } = cut
+            && self.is_level()
+        {
             if let Some(v) = self.height_parameter(z) {
                 add(Face::Side, self.surface().curve_at_v(v), false);
             }
@@ -188,6 +190,7 @@ impl Hull {
             let outward = match cut {
                 Cut::Station { x } if x < middle => -1.0,
                 Cut::Buttock { y } if y <= 0.0 => -1.0,
+                Cut::Waterline { z } if z <= self.bottom() => -1.0,
                 _ => 1.0,
             };
             let field = Field::new(self.surface(), normal.map(|c| c * outward), offset * outward);
@@ -201,12 +204,13 @@ impl Hull {
         let least = 1e-12 * self.particulars().breadth;
         let ([u0, u1], [v0, _]) =
             ([self.surface().u().domain().0, self.surface().u().domain().1], [self.surface().v().domain().0, 0.0]);
-        let parallel = matches!(cut, Cut::Waterline { .. });
-        if !parallel {
+        // A waterline does not meet the flat of bottom of a level hull.
+        if !(self.is_level() && matches!(cut, Cut::Waterline { .. })) {
             for curve in cut_face(&self.surface().curve_at_v(v0), normal, offset, least) {
-                // A plane meets the plane of the bottom in a straight line.
+                // A plane meets the plane of the bottom in a straight line, a strip that follows the keel in a curve.
                 let points = curve.points();
-                if let Some(curve) = line(points[0], points[points.len() - 1]) {
+                let met = if self.is_level() { line(points[0], points[points.len() - 1]) } else { Some(curve) };
+                if let Some(curve) = met {
                     add(Face::Bottom, curve, false);
                 }
             }

@@ -1,5 +1,6 @@
 //! Hydrostatics of the upright hull: the quantities of a floating condition, their list, and tables over draughts.
 
+mod charted;
 mod conventions;
 mod draughts;
 mod halves;

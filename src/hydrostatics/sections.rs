@@ -1,6 +1,7 @@
 //! Midship section, largest section and parallel middle body at each of many draughts.
 //!
-//! Areas A(x) below every draught, and their slopes dA/dx = 2 int (y_u / x_u) z_v dv, are taken at stations shared by all
+//! Areas A(x) below every draught, and their slopes dA/dx = 2 int (y_u z_v - y_v z_u) / x_u dv (where z = z(v), 2 int (y_u / x_u)
+//! z_v dv), are taken at stations shared by all
 //! draughts: the knots in u on the highest line, midship, the ends of the hull, and both sides of every corner that a transom or
 //! a flat bow gives to A(x). Between stations A(x) is Hermite's cubic; where it may rise above the largest area so
 //! found, the root of dA/dx is found from exact areas and slopes.
@@ -134,8 +135,7 @@ impl<'a, const N: usize> Table<'a, N> {
             if at.0.to_bits() != piece.from.to_bits() {
                 at = (piece.from, piece.start);
             }
-            let point = self.stations.point(x, piece, node, &mut at.1);
-            [2.0 * node.rise * point.y, 2.0 * node.rise * point.slope]
+            self.stations.point(x, piece, node, &mut at.1).areas()
         });
         Shared { x, expansion, ends: self.stations.ends(x, highest) }
     }
@@ -150,11 +150,10 @@ impl<'a, const N: usize> Table<'a, N> {
             if at.0.to_bits() != piece.from.to_bits() {
                 at = (piece.from, piece.start);
             }
-            let point = self.stations.point(x, piece, node, &mut at.1);
-            [2.0 * node.rise * point.y, 2.0 * node.rise * point.slope]
+            self.stations.point(x, piece, node, &mut at.1).areas()
         });
         let ends: f64 = self.stations.ends(x, end).iter().map(|end| end[1]).sum();
-        Sample { x, area, slope: slope + ends + self.deck(x, end, immersion) }
+        Sample { x, area, slope: slope + ends + self.stations.edges(x, end) + self.deck(x, end, immersion) }
     }
 
     fn sample(&self, shared: &Shared, immersion: &Immersion) -> Sample {
@@ -164,12 +163,15 @@ impl<'a, const N: usize> Table<'a, N> {
         }
         let [area, slope] = shared.expansion.up_to(end);
         let ends: f64 = shared.ends.iter().filter(|e| e[0] < end).map(|e| e[1]).sum();
-        Sample { x, area, slope: slope + ends + self.deck(x, end, immersion) }
+        Sample { x, area, slope: slope + ends + self.stations.edges(x, end) + self.deck(x, end, immersion) }
     }
 
     /// What the rise of the deck adds to the slope of the areas where the section ends at the deck.
     fn deck(&self, x: f64, end: f64, immersion: &Immersion) -> f64 {
         if !immersion.deck_immersed() || end >= immersion.waterline() {
+            return 0.0;
+        }
+        if !self.stations.hull.is_level() && self.stations.hull.deck_height(x) >= immersion.draught() {
             return 0.0;
         }
         let (hull, step) = (self.stations.hull, 1e-5 * self.length);
@@ -292,11 +294,12 @@ impl<'a, const N: usize> Table<'a, N> {
     /// Places below `immersion` where the areas have a corner: the ends of a raked transom or flat bow at the waterline.
     fn corners(&self, immersion: &Immersion) -> Vec<f64> {
         let surface = self.stations.hull.surface();
-        let (domain, end) = (surface.u().domain(), immersion.waterline());
+        let (domain, level) = (surface.u().domain(), self.stations.hull.is_level());
         let top = surface.v().domain().1;
+        let end = |u: f64| if level { immersion.waterline() } else { immersion.end(u) };
         [domain.0, domain.1]
             .into_iter()
-            .map(|u| (surface.eval(u, end), surface.eval(u, top)))
+            .map(|u| (surface.eval(u, end(u)), surface.eval(u, top)))
             .filter(|(at, above)| at[1] > 0.0 && at[0].to_bits() != above[0].to_bits())
             .map(|(at, _)| at[0])
             .collect()

@@ -72,8 +72,19 @@ struct Cell<const N: usize> {
 pub(super) struct Point {
     pub(super) u: f64,
     pub(super) y: f64,
-    /// dy/dx on the waterline.
-    pub(super) slope: f64,
+    /// dz/dv along the station.
+    pub(super) rise: f64,
+    /// dy/dx on the waterline times dz/dv along the station.
+    pub(super) growth: f64,
+}
+
+impl Point {
+    const NONE: Self = Self { u: 0.0, y: 0.0, rise: 0.0, growth: 0.0 };
+
+    /// What adds up over v to the area and to its growth along the hull, both sides.
+    pub(super) fn areas(&self) -> [f64; 2] {
+        [2.0 * self.rise * self.y, 2.0 * self.growth]
+    }
 }
 
 /// What all stations of a hull share.
@@ -83,6 +94,8 @@ pub(super) struct Stations<'a, const N: usize> {
     spans_u: Vec<(f64, f64)>,
     spans_v: Vec<usize>,
     cells: Vec<Cell<N>>,
+    /// z of the cells, as x and y; none on a level hull.
+    heights: Vec<[[f64; MAX_DEGREE + 1]; N]>,
     /// Nodes on whole spans in v, for each of the counts.
     grids: Vec<(usize, Vec<Node<N>>)>,
     transforms: Vec<Transform>,
@@ -172,6 +185,21 @@ fn solve<const N: usize, const P: usize>(cell: &Cell<N>, x: f64, node: &Node<N>,
     [s, y, if along > 1e-300 { rise / along } else { 0.0 }]
 }
 
+/// Derivatives, along and up, of a polynomial of a cell at the local parameter `s` on the line of a node.
+fn slopes<const N: usize>(columns: &[[f64; MAX_DEGREE + 1]; N], node: &Node<N>, s: f64) -> [f64; 2] {
+    let (mut along, mut up) = (0.0, 0.0);
+    for ((column, b), d) in columns.iter().zip(&node.value).zip(&node.slope) {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for &c in column.iter().rev() {
+            slope = slope * s + value;
+            value = value * s + c;
+        }
+        along += b * slope;
+        up += d * value;
+    }
+    [along, up]
+}
+
 /// Integrals over a part of a piece, up to any height within it.
 struct Series<const K: usize> {
     piece: Piece,
@@ -236,6 +264,7 @@ impl<'a, const N: usize> Stations<'a, N> {
         let (knots, p, q) = (surface.u(), surface.u().degree(), N - 1);
         let spans_v = surface.v().spans();
         let mut cells = Vec::with_capacity(knots.spans().len() * spans_v.len());
+        let mut heights = Vec::new();
         let mut spans_u = Vec::new();
         for span in knots.spans() {
             let (from, to) = (knots.knots()[span], knots.knots()[span + 1]);
@@ -249,15 +278,20 @@ impl<'a, const N: usize> Stations<'a, N> {
             }
             for &span_v in &spans_v {
                 let mut cell = Cell { x: [[0.0; MAX_DEGREE + 1]; N], y: [[0.0; MAX_DEGREE + 1]; N], slanting: false };
+                let mut rises = [[0.0; MAX_DEGREE + 1]; N];
                 for i in 0..=p {
                     for j in 0..N {
-                        let [x, y, _] = surface.point(span - p + i, span_v - q + j);
+                        let [x, y, z] = surface.point(span - p + i, span_v - q + j);
                         cell.slanting |= x.to_bits() != surface.point(span - p + i, span_v)[0].to_bits();
                         for (k, row) in powers.iter().enumerate().take(p + 1) {
                             cell.x[j][k] += row[i] * x;
                             cell.y[j][k] += row[i] * y;
+                            rises[j][k] += row[i] * z;
                         }
                     }
+                }
+                if !hull.is_level() {
+                    heights.push(rises);
                 }
                 cells.push(cell);
             }
@@ -288,7 +322,7 @@ impl<'a, const N: usize> Stations<'a, N> {
             .collect();
         let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
         let (scale, size) = (largest(0), largest(1) * (hull.top() - hull.bottom()));
-        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, grids, transforms, flats, scale, size }
+        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, heights, grids, transforms, flats, scale, size }
     }
 
     /// The pieces of the station at `x` below `end`.
@@ -352,8 +386,9 @@ impl<'a, const N: usize> Stations<'a, N> {
 
     /// The point of the station at `x` on the line of a node, searched from the local parameter `start`, which is moved there.
     pub(super) fn point(&self, x: f64, piece: &Piece, node: &Node<N>, start: &mut f64) -> Point {
-        let Place::Inside(k) = piece.place else { return Point { u: 0.0, y: 0.0, slope: 0.0 } };
-        let cell = &self.cells[k * self.spans_v.len() + piece.across];
+        let Place::Inside(k) = piece.place else { return Point::NONE };
+        let number = k * self.spans_v.len() + piece.across;
+        let cell = &self.cells[number];
         let [s, y, slope] = match self.hull.surface().u().degree() {
             1 | 2 => solve::<N, 3>(cell, x, node, *start),
             3 => solve::<N, 4>(cell, x, node, *start),
@@ -362,7 +397,18 @@ impl<'a, const N: usize> Stations<'a, N> {
         };
         *start = s;
         let (from, to) = self.spans_u[k];
-        Point { u: 0.5 * ((1.0 - s) * from + (1.0 + s) * to), y, slope }
+        let u = 0.5 * ((1.0 - s) * from + (1.0 + s) * to);
+        let Some(heights) = self.heights.get(number) else {
+            return Point { u, y, rise: node.rise, growth: node.rise * slope };
+        };
+        let [x_along, x_up] = slopes(&cell.x, node, s);
+        let [y_along, y_up] = slopes(&cell.y, node, s);
+        let [z_along, z_up] = slopes(heights, node, s);
+        if x_along <= 1e-300 {
+            return Point { u, y, rise: z_up, growth: 0.0 };
+        }
+        let lean = if cell.slanting { z_along * x_up / x_along } else { 0.0 };
+        Point { u, y, rise: z_up - lean, growth: (y_along * z_up - y_up * z_along) / x_along }
     }
 
     /// Integrand times dv/dt at the nodes of a part of a piece, and the largest of them.
@@ -479,6 +525,22 @@ impl<'a, const N: usize> Stations<'a, N> {
         Expansion { series, total }
     }
 
+    /// What the slope of the keel line, and of the upper edge where `end` is there, adds to dA/dx at `x`, both sides; nothing on
+    /// level hulls.
+    pub(super) fn edges(&self, x: f64, end: f64) -> f64 {
+        let surface = self.hull.surface();
+        let (low, high) = surface.v().domain();
+        if self.heights.is_empty() || end <= low {
+            return 0.0;
+        }
+        let at = |v: f64| {
+            let Some(u) = self.hull.length_parameter(x, v) else { return 0.0 };
+            let at = surface.tangents(u, v);
+            if at.du[0] > 0.0 { 2.0 * at.point[1] * at.du[2] / at.du[0] } else { 0.0 }
+        };
+        (if end >= high { at(high) } else { 0.0 }) - at(low)
+    }
+
     /// What the moving ends of the section at `x` add to dA/dx, both sides: height v of the end and 2 y z_v / |x_v|, with
     /// the sign of growth.
     pub(super) fn ends(&self, x: f64, end: f64) -> Vec<[f64; 2]> {
@@ -499,9 +561,14 @@ impl<'a, const N: usize> Stations<'a, N> {
             let node = node_at::<N>(self.hull, span, crossing.v, 0.0);
             let points = &surface.points()[row * columns + node.first..row * columns + node.first + N];
             let y: f64 = points.iter().zip(&node.value).map(|(point, b)| b * point[1]).sum();
+            let rise = if self.heights.is_empty() {
+                node.rise
+            } else {
+                points.iter().zip(&node.slope).map(|(point, b)| b * point[2]).sum::<f64>()
+            };
             let rake: f64 = points.iter().zip(&node.slope).map(|(point, b)| b * point[0]).sum();
             if y > 0.0 {
-                ends.push([crossing.v, 2.0 * sign * y * node.rise / rake.abs().max(1e-9 * self.scale)]);
+                ends.push([crossing.v, 2.0 * sign * y * rise / rake.abs().max(1e-9 * self.scale)]);
             }
         }
         ends
@@ -534,10 +601,7 @@ mod tests {
 
     /// Area and slope of the station at `x` up to `end`, from the expansion and from Gauss sums.
     fn both(stations: &Stations<4>, x: f64, end: f64) -> [[f64; 2]; 2] {
-        let integrand = |start: &mut f64, piece: &Piece, node: &Node<4>| {
-            let point = stations.point(x, piece, node, start);
-            [2.0 * node.rise * point.y, 2.0 * node.rise * point.slope]
-        };
+        let integrand = |start: &mut f64, piece: &Piece, node: &Node<4>| stations.point(x, piece, node, start).areas();
         let (mut first, mut second) = (0.0, 0.0);
         let pieces = stations.pieces(x, f64::INFINITY);
         let expansion =

@@ -1,5 +1,6 @@
 //! Curves of form: hydrostatics over a list of draughts, from one pass over the surface.
 
+use super::charted;
 use super::conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
 use super::quantity::Hydrostatics;
 use super::sections::{Sections, sections};
@@ -32,17 +33,16 @@ impl CurvesOfForm {
             .map(|&draught| if draught.is_finite() { Immersion::new(hull, draught) } else { None })
             .collect();
         let midship = 0.5 * hull.particulars().length_between_perpendiculars;
-        let rule = Rule::new(hull);
-        let bottom = bottom_area(hull, &rule);
         let Parts { bodies, sections } = parts(hull, &immersions, midship);
         let mut rows = Vec::with_capacity(draughts.len());
-        for (((&draught, immersion), body), section) in draughts.iter().zip(&immersions).zip(&bodies).zip(&sections) {
+        for (((&draught, immersion), (body, waterplane)), section) in
+            draughts.iter().zip(&immersions).zip(&bodies).zip(&sections)
+        {
             let Some(immersion) = immersion else {
                 rows.push(nothing_immersed(hull, draught, conventions));
                 continue;
             };
-            let waterplane = waterplane(hull, immersion, &rule);
-            let mut row = row(hull, draught, conventions, body, &waterplane, section, bottom);
+            let mut row = row(hull, draught, conventions, body, waterplane, section);
             row.remark = remark(hull, draught, immersion);
             rows.push(row);
         }
@@ -52,7 +52,7 @@ impl CurvesOfForm {
 
 /// What the passes over the surface and along stations give for each draught.
 struct Parts {
-    bodies: Vec<Body>,
+    bodies: Vec<(Body, Waterplane)>,
     sections: Vec<Sections>,
 }
 
@@ -71,7 +71,15 @@ fn parts(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Parts {
 
 fn parts_of<const N: usize>(hull: &Hull, immersions: &[Option<Immersion>], midship: f64) -> Parts {
     let stations = Stations::<N>::new(hull);
-    Parts { bodies: bodies(&stations, immersions, midship), sections: sections(&stations, immersions) }
+    let sections = sections(&stations, immersions);
+    if !hull.is_level() {
+        return Parts { bodies: charted::bodies::<N>(hull, immersions, midship), sections };
+    }
+    let rule = Rule::new(hull);
+    let bottom = bottom_area(hull, &rule);
+    let planes = immersions.iter().map(|i| i.as_ref().map_or_else(Waterplane::default, |i| waterplane(hull, i, &rule)));
+    let whole = bodies(&stations, immersions, midship).into_iter().map(|body| Body { bottom, ..body });
+    Parts { bodies: whole.zip(planes).collect(), sections }
 }
 
 /// The row of a draught below the hull, or of one that is no number.
@@ -116,7 +124,10 @@ fn immersed_deck(hull: &Hull, immersion: &Immersion) -> Vec<[f64; 2]> {
     for piece in immersion.pieces() {
         let at_deck = piece.upper == UpperEnd::Deck;
         if at_deck {
-            let x = |u: f64| hull.surface().eval(u, immersion.waterline())[0];
+            let x = |u: f64| {
+                let end = if hull.is_level() { immersion.waterline() } else { immersion.end(u) };
+                hull.surface().eval(u, end)[0]
+            };
             match ranges.last_mut().filter(|_| open) {
                 Some(range) => range[1] = x(piece.to),
                 None => ranges.push([x(piece.from), x(piece.to)]),
@@ -135,7 +146,6 @@ fn row(
     body: &Body,
     plane: &Waterplane,
     section: &Sections,
-    bottom: f64,
 ) -> Hydrostatics {
     let particulars = hull.particulars();
     let (lpp, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
@@ -151,7 +161,7 @@ fn row(
     let over = |value: f64, divisor: f64| Some(value / divisor).filter(|q| divisor > 0.0 && q.is_finite());
     let volume = body.volume;
     let afloat = |value: Option<f64>| value.filter(|_| volume > 0.0);
-    let surface = body.side + bottom + body.ends;
+    let surface = body.side + body.bottom + body.ends;
     let mass = conventions.density * volume;
     let extreme = match conventions.shell {
         Shell::None => volume,

@@ -41,6 +41,8 @@ pub(super) struct Body {
     pub(super) ends: f64,
     /// Area of the transom projected along x [m^2].
     pub(super) transom: f64,
+    /// Area of the bottom across the keel line [m^2]; set apart on level hulls, whose bottom is the same at every draught.
+    pub(super) bottom: f64,
     /// Area of the profile [m^2].
     pub(super) lateral: f64,
     /// Its moment about x = 0 [m^3].
@@ -75,9 +77,9 @@ pub(super) struct Node<const N: usize> {
     pub(super) slope: [f64; N],
     /// Weight of the rule.
     pub(super) weight: f64,
-    /// z.
+    /// z on a level hull, else 0.
     pub(super) z: f64,
-    /// dz/dv.
+    /// dz/dv on a level hull, else 0.
     pub(super) rise: f64,
 }
 
@@ -94,23 +96,25 @@ pub(super) fn nodes<const N: usize>(hull: &Hull, span: usize, end: f64, count: u
 /// The node at `v` in `span`.
 pub(super) fn node_at<const N: usize>(hull: &Hull, span: usize, v: f64, weight: f64) -> Node<N> {
     let first = span + 1 - N;
-    let heights = &hull.heights().points()[first..=span];
     let rows = hull.surface().v().basis_derivatives::<2>(span, v);
     let (mut value, mut slope) = ([0.0; N], [0.0; N]);
     value.copy_from_slice(&rows[0][..N]);
     slope.copy_from_slice(&rows[1][..N]);
+    let Some(heights) = hull.heights().map(|heights| &heights.points()[first..=span]) else {
+        return Node { first, value, slope, weight, z: 0.0, rise: 0.0 };
+    };
     let sum = |row: &[f64; N]| row.iter().zip(heights).map(|(b, h)| b * h[0]).sum::<f64>();
     Node { first, value, slope, weight, z: sum(&value), rise: sum(&slope) }
 }
 
 /// Number of nodes in v on every span: volume moments are of degree 4q - 1, the wetted surface wants more.
-fn count_up(hull: &Hull) -> usize {
+pub(super) fn count_up(hull: &Hull) -> usize {
     let knots = hull.surface().v();
     (2 * knots.degree() + SKIN_NODES).max(NODES_UP.div_ceil(knots.spans().len()))
 }
 
 /// Number of nodes in u on every span: the moment about x = 0 is of degree 3p - 1.
-fn count_along(hull: &Hull) -> usize {
+pub(super) fn count_along(hull: &Hull) -> usize {
     let knots = hull.surface().u();
     (3 * knots.degree()).div_ceil(2).max(NODES_ALONG.div_ceil(knots.spans().len()))
 }
@@ -269,6 +273,7 @@ fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &Line) -> Bod
         side: 2.0 * node.weight * line.skin,
         ends: 2.0 * node.weight * (breadth_aft * length_aft + breadth_fore * length_fore),
         transom: 2.0 * height * breadth_aft,
+        bottom: 0.0,
         lateral: height * length,
         lateral_x: height * length * 0.5 * (stern + stem),
         lateral_z: height * length * node.z,

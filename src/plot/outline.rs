@@ -66,10 +66,21 @@ pub(super) fn deck_at_side(hull: &Hull) -> Vec<[f64; 3]> {
         .collect()
 }
 
+/// The keel line (x, z) from aft to forward below the deck; on a level hull its ends say all.
+fn keel_line(hull: &Hull) -> Vec<[f64; 2]> {
+    if hull.is_level() {
+        return Vec::new();
+    }
+    let keel = hull.surface().curve_at_v(hull.surface().v().domain().0);
+    let points = parameters(&hull.surface().u().breakpoints()).into_iter().map(|u| keel.eval(u));
+    points.filter(|p| p[2] <= hull.deck_height(p[0])).map(|p| [p[0], p[2]]).collect()
+}
+
 /// The outline on the centreplane (x, z): from the deck at the stern down, along the keel, and up the stem to the deck.
 pub(super) fn centreplane(hull: &Hull) -> Vec<[f64; 2]> {
     let flat = |p: &[f64; 3]| [p[0], p[2]];
     let mut points: Vec<_> = end_profile(hull, false).iter().rev().map(flat).collect();
+    points.extend(keel_line(hull));
     points.extend(end_profile(hull, true).iter().map(flat));
     points
 }

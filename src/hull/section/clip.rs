@@ -15,6 +15,9 @@ pub(super) fn below_deck(
     closed: bool,
     tolerance: f64,
 ) -> Vec<(BsplineCurve<3>, bool)> {
+    if !hull.is_cut_by_deck() {
+        return vec![(curve, closed)];
+    }
     let lowest = hull.deck().points().iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let slack = 1e-12 * (hull.top() - hull.bottom());
     if curve.points().iter().all(|p| p[2] <= lowest + slack) {
