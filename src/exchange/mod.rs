@@ -18,4 +18,7 @@ pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use offsets::{heights_csv, offsets_csv};
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
-pub use table::{ReadTable, Severity, TableProblem, read_table};
+pub use table::{
+    ReadTable, Severity, TableProblem, read_fractions, read_particulars, read_table, write_britfair, write_freeship,
+    write_ghs, write_pdstrip, write_pias,
+};

@@ -1,8 +1,26 @@
 //! Tables of offsets in the layouts of many programs, read into one [`OffsetTable`].
 
+mod britfair;
+mod delftship;
+mod fields;
+mod freeship;
+mod ghs;
+mod outline;
+mod pdstrip;
+mod pias;
+mod points;
 mod problem;
+mod ratio;
+mod seaway;
+mod sections;
 
+pub use britfair::write as write_britfair;
+pub use freeship::write as write_freeship;
+pub use ghs::write as write_ghs;
+pub use pdstrip::write as write_pdstrip;
+pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
+pub use ratio::{read_particulars, read_with as read_fractions};
 
 use crate::hull::OffsetTable;
 
@@ -15,12 +33,32 @@ pub struct ReadTable {
     pub notes: Vec<TableProblem>,
 }
 
+/// Whether a text is in a format, and the table in it.
+type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>);
+
+/// The text formats of other programs, in the order in which they are tried.
+const TEXT_FORMATS: [Format; 9] = [
+    (ghs::recognise, ghs::read),
+    (britfair::recognise, britfair::read),
+    (seaway::recognise, seaway::read),
+    (pdstrip::recognise, pdstrip::read),
+    (delftship::recognise, delftship::read),
+    (pias::recognise, pias::read),
+    (freeship::recognise, freeship::read),
+    (ratio::recognise, ratio::read),
+    (points::recognise, points::read),
+];
+
 /// Reads a table of offsets; the layout is found by the name's extension and the content.
 ///
 /// # Errors
 /// Every problem of the table at once, in the order of rows and columns.
 pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProblem>> {
-    let _ = bytes;
+    if let Ok(text) = std::str::from_utf8(bytes)
+        && let Some((_, read)) = TEXT_FORMATS.iter().find(|(recognise, _)| recognise(name, text))
+    {
+        return read(name, text);
+    }
     Err(vec![TableProblem {
         severity: Severity::Error,
         code: "E300",

@@ -1,0 +1,201 @@
+//! Sections as rows of points: CSV with the columns x, y, z and perhaps station, loop and point, and Maxsurf markers
+//! (`Station`, x or longitudinal position, y or offset, z or height, separated by tabs).
+//!
+//! The head names the columns; a unit after a name is mm, m or ft (`y_m`, `Offset m`, `z [mm]`). Rows of one station, or, without
+//! stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the column `point` or,
+//! without one, of the rows, and turned round when a branch begins above its end.
+
+use super::fields::{Field, Line, Place, Problems, Separator, lines};
+use super::outline::{point, take_off_deck};
+use super::ratio::separator;
+use super::sections::{Body, Origin, Section, refuse_negative, table};
+use super::{ReadTable, TableProblem};
+use crate::hull::{OutlinePoint, StatedParticulars};
+
+/// Points of one section are at one x when they are so near \[m\].
+const SAME_X: f64 = 1e-6;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Column {
+    Station,
+    X,
+    Loop,
+    Point,
+    Y,
+    Z,
+}
+
+/// A column name without its unit, and metres in the unit.
+fn column(name: &str) -> Option<(Column, f64, bool)> {
+    let lower = name.trim().to_ascii_lowercase().replace(['[', ']', '(', ')'], " ");
+    let mut words: Vec<&str> = lower.split([' ', '_']).filter(|word| !word.is_empty()).collect();
+    let unit = match words.last().copied() {
+        Some("m") => Some(1.0),
+        Some("mm") => Some(1e-3),
+        Some("ft") => Some(0.3048),
+        _ => None,
+    };
+    if unit.is_some() && words.len() > 1 {
+        words.pop();
+    }
+    let unit = unit.unwrap_or(1.0);
+    let from_ap = words.ends_with(&["from", "ap"]);
+    if from_ap {
+        words.truncate(words.len() - 2);
+    }
+    let kind = match words.join(" ").trim_end_matches('.') {
+        "station" | "stn" | "st" | "section" => Column::Station,
+        "x" | "long. pos" | "longitudinal pos" | "longitudinal position" | "position" => Column::X,
+        "loop" | "branch" => Column::Loop,
+        "point" => Column::Point,
+        "y" | "offset" | "half-breadth" | "half breadth" => Column::Y,
+        "z" | "height" => Column::Z,
+        _ => return None,
+    };
+    Some((kind, unit, from_ap))
+}
+
+fn head(text: &str) -> Option<(char, Vec<Option<Column>>)> {
+    let line = text.lines().find(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'))?;
+    let mark = separator(line);
+    Some((mark, line.split(mark).map(|name| column(name).map(|(kind, _, _)| kind)).collect()))
+}
+
+/// Whether the head names y and z, and a station or x, or points or loops.
+pub(super) fn recognise(_name: &str, text: &str) -> bool {
+    let Some((_, columns)) = head(text) else { return false };
+    let has = |kind| columns.contains(&Some(kind));
+    let points = has(Column::Point) || has(Column::Loop);
+    let known = columns.iter().all(Option::is_some);
+    (has(Column::X) && has(Column::Y) && has(Column::Z) && (known || points)) || (points && has(Column::Station))
+}
+
+/// A row with its numbers.
+struct Row<'a> {
+    station: Option<&'a str>,
+    x: f64,
+    branch: f64,
+    order: f64,
+    point: OutlinePoint,
+    place: Place,
+}
+
+/// Reads sections given by points.
+///
+/// # Errors
+/// Every problem of the file.
+pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
+    let mut problems = Problems::new(name);
+    let mark = head(text).map_or(',', |(mark, _)| mark);
+    let lines: Vec<Line<'_>> = lines(text, Separator::Exactly(mark))
+        .into_iter()
+        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
+        .collect();
+    let Some((head, lines)) = lines.split_first() else {
+        problems.error("E324", Place::FILE, "", "the file is empty".to_owned(), "");
+        return problems.finish(None);
+    };
+    let mut columns: Vec<(Column, usize, f64)> = Vec::new();
+    let mut origin = Origin::Unknown;
+    for (index, field) in head.fields.iter().enumerate() {
+        let Some((kind, unit, from_ap)) = column(field.text) else {
+            let message = "a column is station, x, loop, point, y or z, perhaps with m, mm or ft".to_owned();
+            problems.error("E326", field.place, field.text, message, "Rename or remove it.");
+            continue;
+        };
+        if columns.iter().any(|(other, _, _)| *other == kind) {
+            let message = "a second column of this kind".to_owned();
+            problems.error("E326", field.place, field.text, message, "Leave one out.");
+        }
+        if from_ap && kind == Column::X {
+            origin = Origin::AfterPerpendicular;
+        }
+        columns.push((kind, index, unit));
+    }
+    for (kind, name) in [(Column::X, "x"), (Column::Y, "y"), (Column::Z, "z")] {
+        if !columns.iter().any(|(other, _, _)| *other == kind) {
+            let message = format!("the head has no column {name}");
+            problems.error("E326", Place::row(head.row), head.text, message, "Points need x, y and z.");
+        }
+    }
+    if problems.has_errors() {
+        return problems.finish(None);
+    }
+    let rows: Vec<Row<'_>> =
+        lines.iter().filter_map(|line| row(line, head.fields.len(), &columns, &mut problems)).collect();
+    let sections = group(&rows, &mut problems);
+    let unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
+    let stated = StatedParticulars::default();
+    table(Body { name: String::new(), stated, sections, origin, unit }, problems)
+}
+
+fn row<'a>(
+    line: &Line<'a>,
+    width: usize,
+    columns: &[(Column, usize, f64)],
+    problems: &mut Problems,
+) -> Option<Row<'a>> {
+    if line.fields.len() != width {
+        let message = format!("{} fields, the head has {width}", line.fields.len());
+        problems.error("E322", Place::row(line.row), line.text, message, "A decimal comma, or a cell missing?");
+        return None;
+    }
+    let field = |kind: Column| -> Option<(Field<'a>, f64)> {
+        let (_, index, unit) = columns.iter().find(|(other, _, _)| *other == kind)?;
+        Some((*line.fields.get(*index)?, *unit))
+    };
+    let mut length = |kind: Column, what: &str| -> Option<f64> {
+        let (field, unit) = field(kind)?;
+        // Digits of x say nothing of those of the offsets.
+        let value = if kind == Column::X { problems.number(field, what) } else { problems.length(field, what) };
+        Some(value? * unit)
+    };
+    let (x, y, z) = (length(Column::X, "x"), length(Column::Y, "y"), length(Column::Z, "z"));
+    let mut number = |kind: Column, what: &str| match field(kind) {
+        Some((field, _)) => problems.number(field, what),
+        None => Some(0.0),
+    };
+    let (branch, order) = (number(Column::Loop, "the loop"), number(Column::Point, "the point"));
+    let station = field(Column::Station).map(|(field, _)| field.text);
+    let place = Place::row(line.row);
+    Some(Row { station, x: x?, branch: branch?, order: order?, point: point(y?, z?), place })
+}
+
+/// Sections of rows that follow each other.
+fn group(rows: &[Row<'_>], problems: &mut Problems) -> Vec<Section> {
+    let same = |a: &Row<'_>, b: &Row<'_>| match (a.station, b.station) {
+        (Some(a), Some(b)) => a == b,
+        _ => (a.x - b.x).abs() <= SAME_X,
+    };
+    let mut sections = Vec::new();
+    for rows in rows.chunk_by(same) {
+        let first = &rows[0];
+        if let Some(other) = rows.iter().find(|row| (row.x - first.x).abs() > SAME_X) {
+            let message = format!(
+                "station {}: x = {} m here and {} m in row {}",
+                first.station.unwrap_or_default(),
+                other.x,
+                first.x,
+                first.place.row.unwrap_or(0)
+            );
+            problems.error("E323", other.place, &other.x.to_string(), message, "A section stands at one x.");
+        }
+        let mut branches: Vec<Vec<OutlinePoint>> = Vec::new();
+        for rows in rows.chunk_by(|a, b| (a.branch - b.branch).abs() < 0.5) {
+            let mut rows: Vec<&Row<'_>> = rows.iter().collect();
+            rows.sort_by(|a, b| a.order.total_cmp(&b.order));
+            let mut points: Vec<OutlinePoint> = rows.iter().map(|row| row.point).collect();
+            if points[0].z > points[points.len() - 1].z {
+                points.reverse();
+            }
+            refuse_negative(&points, first.x, rows[0].place, problems);
+            branches.push(points);
+        }
+        branches.sort_by(|a, b| a[0].z.total_cmp(&b[0].z));
+        let deck = branches.last_mut().and_then(take_off_deck);
+        let name = first.station.map(str::to_owned);
+        sections.push(Section { name, x: first.x, place: first.place, branches, deck });
+    }
+    sections
+}

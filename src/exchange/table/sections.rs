@@ -1,0 +1,179 @@
+//! A table of offsets of sections given as lines of points.
+
+use super::fields::{Place, Problems};
+use super::outline::{Deck, Halves, branches, deviation, halves};
+use super::{ReadTable, TableProblem};
+use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm};
+use crate::units::Notation;
+
+/// A section as a file gives it.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    /// Its name or number; the running number from aft where the file has none.
+    pub(super) name: Option<String>,
+    /// Position, positive forward \[m\].
+    pub(super) x: f64,
+    /// Where it begins in the file.
+    pub(super) place: Place,
+    /// Its branches.
+    pub(super) branches: Vec<Vec<OutlinePoint>>,
+    /// The deck, where the file draws it.
+    pub(super) deck: Option<Deck>,
+}
+
+/// From where a file counts x.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// From the after perpendicular.
+    AfterPerpendicular,
+    /// The file does not say.
+    Unknown,
+}
+
+/// The sections of a hull.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    /// Name of the ship.
+    pub(super) name: String,
+    /// What the file states.
+    pub(super) stated: StatedParticulars,
+    /// The sections in the order of the file.
+    pub(super) sections: Vec<Section>,
+    /// From where x counts.
+    pub(super) origin: Origin,
+    /// Metres in a unit of the file.
+    pub(super) unit: f64,
+}
+
+/// Refuses negative half-breadths of a half section; all of a section in one message.
+pub(super) fn refuse_negative(points: &[OutlinePoint], x: f64, place: Place, problems: &mut Problems) {
+    let negative: Vec<f64> = points.iter().map(|p| p.y).filter(|&y| y < 0.0).collect();
+    if let Some(&least) = negative.iter().min_by(|a, b| a.total_cmp(b)) {
+        let message = format!("section at x = {x}: {} of {} half-breadths are negative", negative.len(), points.len());
+        let remedy = if negative.len() == points.len() {
+            "Give the side with positive y."
+        } else {
+            "This format has half sections: give one side only."
+        };
+        problems.error("E325", place, &format!("{least}"), message, remedy);
+    }
+}
+
+/// The half section of a full section of both sides: starboard, and how far port is from it \[m\]; none when there is no
+/// side with a breadth.
+pub(super) fn starboard_of(points: &[OutlinePoint]) -> Option<(Vec<Vec<OutlinePoint>>, f64)> {
+    let Halves { starboard, port } = halves(points)?;
+    match (starboard.is_empty(), port.is_empty()) {
+        (true, true) => None,
+        (false, true) | (true, false) => {
+            let only = if port.is_empty() { starboard } else { port };
+            let breadth = only.iter().flatten().map(|p| p.y).fold(0.0, f64::max);
+            Some((only, breadth))
+        }
+        (false, false) => {
+            let gap = deviation(&starboard, &port);
+            Some((starboard, gap))
+        }
+    }
+}
+
+/// Says how far the sides of a ship given with both differ; `gaps` are distances \[m\] with x \[m\] as the file counts it.
+pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
+    if let Some((gap, x)) = gaps.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)) {
+        let many = gaps.iter().filter(|(gap, _)| *gap > 1e-3).count();
+        let message = format!(
+            "{} sections give both sides; starboard is taken. The sides differ by up to {gap:.4} m (x = {x:.3} m), in {many} \
+             sections by more than 1 mm",
+            gaps.len()
+        );
+        problems.note("W331", Place::FILE, message, "");
+    }
+}
+
+/// The table of the sections, with every problem found so far and of their order.
+pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec<TableProblem>> {
+    let Body { name, stated, mut sections, origin, unit } = body;
+    check_order(&mut sections, &mut problems);
+    if sections.len() < 2 && !problems.has_errors() {
+        let message = format!("{} sections are no hull", sections.len());
+        problems.error("E328", Place::FILE, "", message, "At least two are needed.");
+    }
+    if problems.has_errors() {
+        return problems.finish(None);
+    }
+    let shift = match origin {
+        Origin::AfterPerpendicular => 0.0,
+        Origin::Unknown => place_after_perpendicular(&sections, &stated, &mut problems),
+    };
+    let stations = sections
+        .into_iter()
+        .enumerate()
+        .map(|(i, section)| {
+            let outlines: Vec<Vec<OutlinePoint>> = section.branches.into_iter().flat_map(branches).collect();
+            let keel = outlines.iter().flatten().filter(|p| p.y.abs() <= 1e-9).map(|p| p.z);
+            let keel_height = keel.min_by(f64::total_cmp);
+            StationOffsets {
+                keel_height,
+                deck_height: section.deck.map(|deck| deck.side.z),
+                deck_half_breadth: section.deck.map(|deck| deck.side.y),
+                deck_centre_height: section.deck.map(|deck| deck.centre_height),
+                outlines,
+                ..StationOffsets::new(section.name.unwrap_or_else(|| i.to_string()), section.x + shift)
+            }
+        })
+        .collect();
+    let decimals = decimals_in_metres(problems.decimals, unit);
+    let form = TableForm { notation: Notation::Metres, decimals: Some(decimals) };
+    problems.finish(Some(OffsetTable { name, stated, stations, form, ..OffsetTable::default() }))
+}
+
+/// Decimals in metres whose step is not below that of `decimals` in units of `unit` \[m\].
+pub(super) fn decimals_in_metres(decimals: usize, unit: f64) -> usize {
+    let step = unit * 10f64.powi(-i32::try_from(decimals).unwrap_or(17));
+    (-step.log10() + 1e-9).floor().clamp(0.0, 17.0) as usize
+}
+
+/// Sections must follow each other; a table written from the bow is turned round.
+fn check_order(sections: &mut [Section], problems: &mut Problems) {
+    let rises = sections.windows(2).filter(|pair| pair[1].x > pair[0].x).count();
+    let falls = sections.windows(2).filter(|pair| pair[1].x < pair[0].x).count();
+    let falling = falls > rises;
+    for pair in sections.windows(2) {
+        let (before, after) = (&pair[0], &pair[1]);
+        let (code, found) = ("E323", format!("{}", after.x));
+        if (after.x - before.x).abs() <= 1e-9 {
+            let message = format!("two sections at x = {} m", after.x);
+            problems.error(code, after.place, &found, message, "Leave one out, or correct x.");
+        } else if (after.x < before.x) != falling {
+            let message = format!("section out of order: x = {} m after {} m", after.x, before.x);
+            problems.error(code, after.place, &found, message, "Sections run from stern to bow or from bow to stern.");
+        }
+    }
+    if falling {
+        sections.reverse();
+    }
+}
+
+/// The distance by which x is moved forward, so that it counts from AP \[m\].
+///
+/// A file whose aftermost section is within a tenth of the length of its origin counts from AP; one whose foremost is, from
+/// FP; one with its middle there, from amidships. Otherwise, and where no length is stated, AP is at the aftermost section.
+fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, problems: &mut Problems) -> f64 {
+    let (Some(first), Some(last)) = (sections.first(), sections.last()) else { return 0.0 };
+    let (aft, forward) = (first.x, last.x);
+    let near = 0.1 * (forward - aft);
+    let (shift, origin) = if aft.abs() <= near {
+        (0.0, "the after perpendicular")
+    } else {
+        match stated.length_between_perpendiculars {
+            Some(length) if forward.abs() <= near => (length, "the forward perpendicular"),
+            Some(length) if (0.5 * (aft + forward)).abs() <= near => (0.5 * length, "amidships"),
+            _ => (-aft, "a point that is not named; the aftermost section is taken as AP"),
+        }
+    };
+    let message = format!(
+        "sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}; moved forward by {shift:.4} m"
+    );
+    problems.note("W330", Place::FILE, message, "");
+    shift
+}
