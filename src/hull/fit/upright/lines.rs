@@ -13,6 +13,9 @@ use crate::spline::{BsplineCurve, KnotVector};
 /// Distance in parts of depth and breadth within which a point of a section is taken as the point of a line.
 const SNAP: f64 = 2e-3;
 
+/// The same for a point that is marked as one of a line.
+const NEAR_MARK: f64 = 2e-2;
+
 /// Distance in parts of depth and breadth within which a line ends on the keel, the centreplane or the upper edge.
 const ENDS_ON: f64 = 2e-2;
 
@@ -68,12 +71,16 @@ pub(super) fn lines(table: &OffsetTable, profiles: &[Profile], size: Size, notes
     result
 }
 
-/// The point of a line of the table at a station; none beyond its ends and on keel or upper edge.
+/// The point of a line of the table at a station: the marked point of the section near it, or any that is very near, else
+/// that of the line. None beyond its ends and on keel or upper edge.
 fn at_station(line: &FeatureLine, profile: &Profile, size: Size) -> Option<SectionPoint> {
     let [y, z] = point_at(&line.points, profile.x)?;
-    let near = profile.points.iter().find(|p| {
-        (p.z - z).abs() <= SNAP * size.depth && p.y.is_some_and(|own| (own - y).abs() <= SNAP * size.breadth)
-    });
+    let distance = |p: &SectionPoint| {
+        let own = p.y.map_or(f64::INFINITY, |own| (own - y).abs() / size.breadth);
+        let reach = if p.mark == Some(line.kind) { NEAR_MARK } else { SNAP };
+        own.max((p.z - z).abs() / size.depth) / reach
+    };
+    let near = profile.points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).filter(|p| distance(p) <= 1.0);
     let point = near.copied().unwrap_or(SectionPoint { z, y: Some(y.max(0.0)), mark: Some(line.kind) });
     (point.z > profile.keel() && point.z < profile.top()).then_some(point)
 }
@@ -172,9 +179,10 @@ fn complete(
     let share = |k: usize, on_centreplane: bool| {
         let (keel, top) = (profiles[k].keel(), profiles[k].top());
         let z = at[k].map_or(keel, |p| p.z);
-        if on_centreplane || z - keel <= ENDS_ON * size.depth {
+        let near = if on_centreplane { 0.5 * (top - keel) } else { ENDS_ON * size.depth };
+        if z - keel <= near {
             0.0
-        } else if top - z <= ENDS_ON * size.depth {
+        } else if top - z <= near {
             1.0
         } else {
             (z - keel) / (top - keel)

@@ -1,5 +1,5 @@
 use super::*;
-use crate::hull::{Cell, Marks, OutlinePoint, StationOffsets};
+use crate::hull::{Cell, FeatureLine, Functional, LineKind, Marks, OutlinePoint, StationOffsets};
 use crate::numeric::gauss_legendre;
 
 /// Volume, its x moment, its z moment of both sides by Gauss-Legendre, below the upper edge.
@@ -54,15 +54,19 @@ fn the_canoe_body_of_an_ellipsoid() {
         let net = Net::new(&table).unwrap();
         let [v, lcb, vcb] = volume(&net.surface);
         let worst = net.cells(&table).iter().filter_map(|c| c.residual).fold(0.0f64, |m, r| m.max(r.abs()));
-        let mut between = 0.0f64;
+        let (mut between, mut at) = (0.0f64, [0.0; 3]);
         for i in 0..200 {
             for j in 0..100 {
                 let p = net.surface.eval((i as f64 + 0.5) / 200.0, (j as f64 + 0.5) / 100.0);
-                let r = 1.0 - (p[0] / 10.0).powi(2) - (1.0 - p[2]).powi(2);
-                between = between.max((p[1] - 2.0 * r.max(0.0).sqrt()).abs());
+                // Distance from the ellipsoid to first order: F / |grad F|.
+                let q = [p[0] / 10.0, p[1] / 2.0, p[2] - 1.0];
+                let f = q.iter().map(|q| q * q).sum::<f64>() - 1.0;
+                let slope = 2.0 * (q[0] / 10.0).hypot(q[1] / 2.0).hypot(q[2]);
+                if (f / slope).abs() > between { at = p; }
+                between = between.max((f / slope).abs());
             }
         }
-        println!("{n} {m}: V {:.2e} lcb {lcb:.2e} kb {:.2e} cells {worst:.1e} between {between:.2e} {:?} {:?}", v / exact - 1.0, vcb - (1.0 - 0.375), net.surface.shape(), net.notes);
+        println!("{n} {m}: V {:.2e} lcb {lcb:.2e} kb {:.2e} cells {worst:.1e} between {between:.2e} {at:?} {:?} {:?}", v / exact - 1.0, vcb - (1.0 - 0.375), net.surface.shape(), net.notes);
     }
 }
 
@@ -176,13 +180,14 @@ fn the_yacht_of_pdstrip() {
     let table = outlines(&text, [0, 2, 3]);
     let net = Net::new(&table).unwrap();
     summary(&net, &table, "yacht");
-    for (k, p) in net.profiles.iter().enumerate() {
+    for (k, p) in net.profiles.iter().enumerate().filter(|(_, p)| p.station.is_some()) {
         for q in &p.points {
             let v = net.v(k, q.z).unwrap();
             let s = net.surface.eval(net.length.sites[k], v);
             assert!((s[1] - q.y.unwrap()).abs() < 1e-9 && (s[2] - q.z).abs() < 1e-9);
         }
     }
+    match fit(&table) { Ok(f) => println!("{:?}", at_draught(&f.hull, 0.9652)), Err(e) => println!("{e}") }
     let half = thinned(&table);
     summary(&Net::new(&half).unwrap(), &half, "yacht_half");
     let Some(text) = data("pdstrip_yacht/offsets.csv") else { return };
@@ -208,12 +213,106 @@ fn grid(text: &str, top: Option<usize>) -> OffsetTable {
     OffsetTable { waterlines, stations, ..OffsetTable::default() }
 }
 
+
+/// Lines of knuckles of the stern trawler: corners of its sections next to the creases of its control net.
+fn knuckles(sections: &OffsetTable, creases: &[(&str, &[[f64; 3]])]) -> Vec<FeatureLine> {
+    creases
+        .iter()
+        .map(|(name, crease)| {
+            let mut points = Vec::new();
+            for station in &sections.stations {
+                let x = station.station.x;
+                let Some(pair) = crease.windows(2).find(|w| w[0][0] <= x && x < w[1][0]) else { continue };
+                let t = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+                let [y, z] = [1, 2].map(|d| pair[0][d] + t * (pair[1][d] - pair[0][d]));
+                let outline = &station.outlines[0];
+                let turn = |k: usize| {
+                    let [a, b, c] = [&outline[k - 1], &outline[k], &outline[k + 1]];
+                    let angle = |p: &OutlinePoint, q: &OutlinePoint| (q.z - p.z).atan2(q.y - p.y);
+                    (angle(b, c) - angle(a, b)).abs()
+                };
+                let near = (1..outline.len() - 1).filter(|&k| (outline[k].y - y).hypot(outline[k].z - z) < 0.4);
+                let Some(k) = near.max_by(|&a, &b| turn(a).total_cmp(&turn(b))) else { continue };
+                if turn(k) > 0.15 {
+                    points.push([x, outline[k].y, outline[k].z]);
+                }
+            }
+            FeatureLine { name: (*name).to_owned(), kind: LineKind::Knuckle, points }
+        })
+        .collect()
+}
+
+const SKEG: [[f64; 3]; 8] = [[3.18, 0.0, 3.52], [3.6, 0.2, 3.38], [7.2, 1.35, 2.37], [10.8, 1.92, 1.45], [14.4, 2.14, 0.78], [18.0, 2.18, 0.41], [21.6, 2.15, 0.30], [21.7, 2.15, 0.30]];
+const SIDE: [[f64; 3]; 11] = [[0.0, 5.8, 8.25], [1.8, 5.8, 7.33], [3.6, 5.8, 6.54], [7.2, 5.8, 5.29], [10.8, 5.8, 4.04], [14.4, 5.8, 2.93], [18.0, 5.8, 2.18], [21.6, 5.8, 2.0], [25.2, 5.8, 2.64], [28.8, 5.8, 5.02], [32.4, 5.8, 8.26]];
+const UPPER: [[f64; 3]; 2] = [[0.0, 5.8, 8.25], [32.4, 5.8, 8.26]];
+
+fn at_draught(hull: &Hull, draught: f64) -> [f64; 4] {
+    let value = |f: Functional| f.value(hull, draught);
+    let v = value(Functional::Volume);
+    let largest = (0..=400).map(|k| value(Functional::SectionArea { x: 10.0 + 0.05 * f64::from(k) })).fold(0.0, f64::max);
+    [v, value(Functional::LongitudinalMoment) / v, largest, value(Functional::WaterplaneArea)]
+}
+
 #[test]
 fn the_stern_trawler() {
     let Some(text) = data("sterntrawler/sections.csv") else { return };
-    let table = outlines(&text, [0, 3, 4]);
-    summary(&Net::new(&table).unwrap(), &table, "trawler_sections");
+    let sections = outlines(&text, [0, 3, 4]);
     let Some(text) = data("sterntrawler/offsets.csv") else { return };
-    let table = grid(&text, Some(2));
-    summary(&Net::new(&table).unwrap(), &table, "trawler_grid");
+    let bare = grid(&text, Some(2));
+    let lines = knuckles(&sections, &[("skeg", &SKEG), ("side", &SIDE), ("upper", &UPPER)]);
+    for l in &lines { println!("{} {:?}", l.name, l.points.iter().map(|p| format!("{:.2} {:.2} {:.2}", p[0], p[1], p[2])).collect::<Vec<_>>()); }
+    for (name, table) in [
+        ("trawler_grid", bare.clone()),
+        ("trawler_lines", OffsetTable { lines: lines.clone(), ..bare }),
+        ("trawler_sections", sections.clone()),
+        ("trawler_sections_lines", OffsetTable { lines, ..sections }),
+    ] {
+        let net = match Net::new(&table) { Ok(net) => net, Err(e) => { println!("{name} {e}"); continue; } };
+        summary(&net, &table, name);
+        match fit(&table) {
+            Ok(fitted) => for (z, v, lcb, amax, awp) in [(5.2736, 1633.484, 21.875, 55.168, 450.395), (5.75, 1851.552, 21.567, 60.694, 464.684)] {
+                let found = at_draught(&fitted.hull, z);
+                println!("{name} {z}: V {:.3} ({:+.2} %) LCB {:.3} ({lcb}) amax {:.3} ({amax}) awp {:.3} ({awp})", found[0], 100.0 * (found[0] / v - 1.0), found[1], found[2], found[3]);
+            },
+            Err(e) => println!("{name}: {e}"),
+        }
+    }
+}
+
+#[test]
+fn a_hard_chine_prism() {
+    // Deadrise to the chine at y = 2, z = 0.5, flare to y = 3 at z = 2; exact area per side 0.5 * 2 * 0.5 + 2.5 * 1.5.
+    let half = |z: f64| if z < 0.5 { 4.0 * z } else { 2.0 + (z - 0.5) / 1.5 };
+    let waterlines: Vec<f64> = (0..=8).map(|k| 0.25 * f64::from(k)).collect();
+    let stations = (0..=6)
+        .map(|k| {
+            let mut station = StationOffsets::new(format!("{k}"), 2.0 * f64::from(k));
+            station.half_breadths = waterlines
+                .iter()
+                .map(|&z| {
+                    let mut cell = Cell::from(Some(half(z)));
+                    cell.marks.knuckle = (z - 0.5).abs() < 1e-9;
+                    cell
+                })
+                .collect();
+            station
+        })
+        .collect();
+    let table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
+    let net = Net::new(&table).unwrap();
+    let [v, lcb, _] = volume(&net.surface);
+    println!("{v} {:?} {:?}", net.notes, net.surface.shape());
+    assert!((v - 2.0 * 12.0 * (0.5 + 3.75)).abs() < 1e-11 && (lcb - 6.0).abs() < 1e-12, "{v} {lcb}");
+}
+
+#[test]
+fn small_craft() {
+    for name in ["freeship_chines_import.txt", "freeship_round_import.txt", "pias_barge.txt", "pdstrip_geometry.txt"] {
+        let Some(text) = data(&format!("formats/samples/{name}")) else { continue };
+        let read = match crate::exchange::read_table(name, text.as_bytes()) { Ok(r) => r, Err(p) => { println!("{name} {}", p[0]); continue } };
+        println!("{name}: {:?} stations, {} lines", read.table.stations.len(), read.table.lines.len());
+        let net = Net::new(&read.table).unwrap();
+        summary(&net, &read.table, name.split('.').next().unwrap());
+        match fit(&read.table) { Ok(_) => println!("hull"), Err(e) => println!("{name}: {e}") }
+    }
 }
