@@ -44,6 +44,9 @@ use profile::Profile;
 /// Fewest stations.
 const LEAST_STATIONS: usize = 2;
 
+/// A curve that leaves the range of its half-breadths by this part of the greatest one swings.
+const OVERSHOOT: f64 = 0.05;
+
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
 
@@ -92,7 +95,32 @@ impl Net {
         let levels = Levels::new(&profiles, &lines, &length, size, &mut notes).map_err(spline)?;
         let bands = girth::bands(&profiles, &lines, slack).map_err(spline)?;
         let surface = assemble(&profiles, &lines, &length, &levels, &bands, slack).map_err(spline)?;
-        Ok(Self { surface, profiles, lines, length, bands, notes, slack })
+        let mut net = Self { surface, profiles, lines, length, bands, notes, slack };
+        net.note_overshoots(table);
+        Ok(net)
+    }
+
+    /// Names the stations whose curve swings beyond its points: there a knuckle is missing, or a point is wrong.
+    fn note_overshoots(&mut self, table: &OffsetTable) {
+        let breaks = self.surface.v().breakpoints();
+        let mut names = Vec::new();
+        for (profile, &u) in self.profiles.iter().zip(&self.length.sites) {
+            let (Some(station), greatest) = (profile.station, profile.breadth()) else { continue };
+            let curve = self.surface.curve_at_u(u);
+            let swings = breaks.windows(2).flat_map(|w| [0.25, 0.5, 0.75].map(|t| w[0] + t * (w[1] - w[0]))).any(|v| {
+                let y = curve.eval(v)[1];
+                y < -OVERSHOOT * greatest || y > (1.0 + OVERSHOOT) * greatest
+            });
+            if swings {
+                names.push(table.stations[station].station.name.clone());
+            }
+        }
+        if !names.is_empty() {
+            self.notes.push(format!(
+                "the sections of stations {} swing beyond their points: is a knuckle there, or a point wrong?",
+                names.join(", ")
+            ));
+        }
     }
 
     /// Stated dimensions, and those of the surface where nothing is stated: T is up to the highest keel-to-edge height.
@@ -203,6 +231,15 @@ impl Levels {
                 x[pair[0]], x[pair[1]]
             ));
         }
+        // Where a line only goes on as a line of the net it jumps with the keel.
+        let keel_jumps: Vec<usize> = breaks[0].windows(2).filter(|w| w[1] == w[0] + 1).map(|w| w[0]).collect();
+        for (line, own) in lines.iter().zip(&mut breaks[1..]) {
+            for &k in keel_jumps.iter().filter(|&&k| line.y[k].is_none() && line.y[k + 1].is_none() && line.z[k] > values[0][k]) {
+                own.extend([k, k + 1]);
+            }
+            own.sort_unstable();
+            own.dedup();
+        }
         loop {
             let mut all: Vec<usize> = breaks.iter().flatten().copied().filter(|k| (1..last).contains(k)).collect();
             all.sort_unstable();
@@ -266,8 +303,12 @@ fn assemble(
         breaks.sort_unstable();
         breaks.dedup();
         let inside = length.interpolation(&breaks, &levels.all)?;
-        let edges: Vec<Across> =
-            [j, j + 1].iter().map(|&line| length.interpolation(&levels.breaks[line], &levels.all)).collect::<Result<_, _>>()?;
+        // Keel and upper edge go with the only band beside them.
+        let edge = |line: usize| {
+            let outer = line == 0 || line == bands.len();
+            length.interpolation(if outer { &breaks } else { &levels.breaks[line] }, &levels.all)
+        };
+        let edges: [Across; 2] = [edge(j)?, edge(j + 1)?];
         for (c, share) in shares.iter().enumerate().skip(usize::from(j > 0)) {
             let across = match c {
                 0 => &edges[0],

@@ -1,7 +1,8 @@
 //! The direction around the section: bands between the lines, their share of v and their knots, and the curve of each station.
 //!
 //! In a band z = z_a + (z_b - z_a) zeta, with zeta = t or, at a round keel, zeta = t^2 for t from 0 to 1: there
-//! y ~ sqrt(z - z_keel) is smooth in t. The knots of a band are common to all stations and so fine that no span holds two
+//! y ~ sqrt(z - z_keel) is smooth in t. A station that leaves the keel, or a knuckle at which such a band begins, straight has
+//! dy/dt = 0 there, and is told so. The knots of a band are common to all stations and so fine that no span holds two
 //! given points of one station; every station then meets all its points with the least bending (`spline::Energy` of the second
 //! derivative). Where a line is a knuckle the bands on its sides are independent; where it is none at a station, or a tangent
 //! line, one curve runs through, and gives both bands value and slope there.
@@ -15,6 +16,9 @@ const DEGREE: usize = super::length::DEGREE;
 
 /// The order of the derivative whose square is least.
 const ORDER: usize = 2;
+
+/// Exponents below this are round keels.
+const ROUND: f64 = 0.75;
 
 /// Fewest spans of a band with points inside.
 const LEAST_SPANS: usize = 4;
@@ -88,7 +92,7 @@ pub(super) fn bands(profiles: &[Profile], lines: &[Line], slack: f64) -> Result<
     let all: f64 = shares.iter().sum();
     for j in 0..count {
         let to = if j + 1 == count { 1.0 } else { from + shares[j] / all };
-        let round = j == 0 && is_round(profiles, &inside[0]);
+        let round = is_round(profiles, lines, j, slack);
         let sites: Vec<Vec<f64>> =
             inside[j].iter().map(|shares| shares.iter().map(|&s| parameter(round, s)).collect()).collect();
         let breakpoints: Vec<f64> = breakpoints(&sites).iter().map(|t| from + (to - from) * t).collect();
@@ -110,27 +114,33 @@ fn breadth_at(points: &[SectionPoint], z: f64) -> f64 {
     }
 }
 
-/// Whether sections leave the keel round (y ~ sqrt) rather than straight: the median over the stations of the exponent e in
-/// y ~ (z - z_keel)^e through the two lowest points.
-fn is_round(profiles: &[Profile], inside: &[Vec<f64>]) -> bool {
-    let mut exponents: Vec<f64> = Vec::new();
-    for (profile, shares) in profiles.iter().zip(inside) {
-        if shares.len() < 2 {
-            continue;
-        }
-        let rise = |k: usize| {
-            let (keel, point) = (profile.points[0], profile.points.get(k)?);
-            Some((point.z - keel.z, point.y? - keel.y?))
-        };
-        if let (Some((z1, y1)), Some((z2, y2))) = (rise(1), rise(2))
-            && y1 > 0.0
-            && y2 > y1
-        {
-            exponents.push((y2 / y1).ln() / (z2 / z1).ln());
-        }
-    }
+/// The exponent e in y - y_keel ~ (z - z_keel)^e through the two lowest points of a section: 1/2 at a round keel, 1 at a V; none
+/// where there are none between the keel and `ceiling`.
+fn exponent(profile: &Profile, ceiling: f64) -> Option<f64> {
+    let [keel, first, second, ..] = profile.points[..] else { return None };
+    let rise = |p: SectionPoint| Some((p.z - keel.z, p.y? - keel.y?));
+    let ((z1, y1), (z2, y2)) = (rise(first)?, rise(second)?);
+    (second.z <= ceiling && y1 > 0.0 && y2 > y1).then(|| (y2 / y1).ln() / (z2 / z1).ln())
+}
+
+/// Whether a section leaves its keel round rather than straight.
+fn leaves_round(profile: &Profile, ceiling: f64) -> bool {
+    exponent(profile, ceiling).is_some_and(|e| e < ROUND)
+}
+
+/// Whether the band has stations that leave the keel in it, round in the median.
+fn is_round(profiles: &[Profile], lines: &[Line], band: usize, slack: f64) -> bool {
+    let mut exponents: Vec<f64> = profiles
+        .iter()
+        .enumerate()
+        .filter_map(|(k, profile)| {
+            let levels = levels(profile, lines, k);
+            let starts = levels[band] - levels[0] <= slack && levels[band + 1] - levels[band] > slack;
+            if starts { exponent(profile, levels[band + 1] + slack) } else { None }
+        })
+        .collect();
     exponents.sort_by(f64::total_cmp);
-    exponents.get(exponents.len() / 2).is_some_and(|&e| e < 0.75)
+    exponents.get(exponents.len() / 2).is_some_and(|&e| e < ROUND)
 }
 
 /// The fewest breakpoints from 0 to 1 that part any two successive points of a station, the ends included, and spans enough.
@@ -198,7 +208,7 @@ pub(super) fn station_curve(
             continue;
         }
         if end - start > 1 {
-            run_through(profile, lines, station, &levels[start..=end], &mut on[start..=end], start, bands[start].round, slack)?;
+            run_through(profile, lines, station, &levels[start..=end], &mut on[start..=end], start, slack)?;
         }
         start = end;
     }
@@ -220,11 +230,11 @@ fn run_through(
     levels: &[f64],
     on: &mut [OnLine],
     first: usize,
-    round: bool,
     slack: f64,
 ) -> Result<(), SplineError> {
     let last = levels.len() - 1;
     let (a, b) = (levels[0], levels[last]);
+    let round = a - profile.keel() <= slack && leaves_round(profile, b + slack);
     if b - a <= slack {
         return Ok(());
     }
@@ -289,7 +299,12 @@ fn band_curve(
     let width = band.to - band.from;
     // dz/dv at the ends of the band.
     let rates = if band.round { [0.0, 2.0 * (b - a) / width] } else { [(b - a) / width; 2] };
-    let slope = |k: usize| ends[k].slope.filter(|_| rates[k] > 0.0).map(|slope| slope * rates[k]);
+    // Where the parameter stands still (rate 0) only a round keel has dy/dv other than 0.
+    let straight = band.round && !(a - profile.keel() <= slack && leaves_round(profile, b + slack));
+    let slope = |k: usize| match ends[k].slope {
+        Some(slope) if rates[k] > 0.0 => Some(slope * rates[k]),
+        _ => (k == 0 && straight).then_some(0.0),
+    };
     least_bending(&band.knots, &data, [ends[0].y, ends[1].y], [slope(0), slope(1)])
 }
 
@@ -322,5 +337,5 @@ fn least_bending(
     if right.len() < 2 {
         return Ok(vec![right.first().copied().unwrap_or(0.0); knots.basis_count()]);
     }
-    Ok(Energy::new(knots, std::env::var("ORD").map_or(ORDER, |o| o.parse().unwrap_or(2)).min(right.len())).interpolation(&conditions)?.solve(&right))
+    Ok(Energy::new(knots, ORDER).interpolation(&conditions)?.solve(&right))
 }
