@@ -11,8 +11,17 @@ fn surface(degrees: [usize; 2], spans: [usize; 2], body: impl Fn(f64, f64) -> [f
     let (u, v) =
         (KnotVector::uniform(degrees[0], spans[0]).unwrap(), KnotVector::uniform(degrees[1], spans[1]).unwrap());
     let (gu, gv) = (u.greville(), v.greville());
-    let points: Vec<[f64; 3]> = gu.iter().flat_map(|&s| gv.iter().map(move |&t| (s, t))).map(|(s, t)| body(s, t)).collect();
+    let points: Vec<[f64; 3]> =
+        gu.iter().flat_map(|&s| gv.iter().map(move |&t| (s, t))).map(|(s, t)| body(s, t)).collect();
     BsplineSurface::interpolate([u, v], [&gu, &gv], &points).unwrap()
+}
+
+/// The surface with the heights of its first station everywhere, equal to the bit.
+fn levelled(surface: BsplineSurface<3>) -> BsplineSurface<3> {
+    let [rows, columns] = surface.shape();
+    let point = |i: usize, j: usize| [surface.point(i, j)[0], surface.point(i, j)[1], surface.point(0, j)[2]];
+    let points = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))).map(|(i, j)| point(i, j)).collect();
+    BsplineSurface::new(surface.u().clone(), surface.v().clone(), points).unwrap()
 }
 
 fn level_deck(length: f64, height: f64) -> BsplineCurve<2> {
@@ -89,12 +98,7 @@ fn a_canoe_body_with_a_rockered_keel() {
             let waterline = |xi: f64| breadth(xi) * zeta(xi).sqrt();
             near(row.waterplane_area, along_canoe(draught, waterline), 1e-9, &what("waterplane"));
             near(row.lcf.unwrap(), 0.5 * LENGTH, 1e-10, &what("LCF"));
-            near(
-                row.transverse_inertia,
-                along_canoe(draught, |xi| waterline(xi).powi(3) / 12.0),
-                1e-9,
-                &what("I_T"),
-            );
+            near(row.transverse_inertia, along_canoe(draught, |xi| waterline(xi).powi(3) / 12.0), 1e-9, &what("I_T"));
             let arm = |xi: f64| 0.25 * LENGTH * LENGTH * xi * xi;
             near(row.longitudinal_inertia, along_canoe(draught, |xi| arm(xi) * waterline(xi)), 1e-9, &what("I_L"));
             let end = (draught / ROCKER).sqrt().min(1.0);
@@ -105,7 +109,7 @@ fn a_canoe_body_with_a_rockered_keel() {
             near(row.maximum_section_position.unwrap(), 0.5 * LENGTH, 1e-6, &what("x_X"));
             near(row.prismatic_coefficient_aft.unwrap(), row.prismatic_coefficient_fore.unwrap(), 1e-9, &what("C_PA"));
             let profile = along_canoe(draught, |xi| draught - ROCKER * xi * xi);
-            near(row.lateral_area, profile, 1e-9, &what("lateral area"));
+            near(row.lateral_area, profile, 1e-8, &what("lateral area"));
             assert!(row.transom_area.abs() < 1e-12);
             if draught < 2.9 {
                 // Half angle at the end of the waterline: infinite dy/dx.
@@ -134,12 +138,11 @@ fn a_canoe_body_with_a_rockered_keel() {
 #[test]
 fn half_ellipsoid() {
     let (a, b, c) = (10.0, 2.0, 1.5);
-    let body = surface([5, 5], [16, 8], |u, v| {
+    let body = surface([5, 5], [32, 16], |u, v| {
         let t = 2.0 * u - 1.0;
         let xi = 0.5 * t * (3.0 - t * t);
         let share = 0.5 * (1.0 - t * t) * (4.0 - t * t).sqrt();
-        let angle = std::f64::consts::FRAC_PI_2 * v;
-        [a * (1.0 + xi), b * share * angle.sin(), c - c * share * angle.cos()]
+        [a * (1.0 + xi), b * share * v * (2.0 - v * v).sqrt(), c - c * share * (1.0 - v * v)]
     });
     let hull = Hull::new("spheroid", particulars(2.0 * a, 2.0 * b, c, c), body, level_deck(2.0 * a, c)).unwrap();
     let pi = std::f64::consts::PI;
@@ -150,12 +153,12 @@ fn half_ellipsoid() {
         let t = draught / c;
         let volume = a * b * c * pi * t * t * (3.0 - t) / 3.0;
         let below_centre = 0.75 * (2.0 - t).powi(2) / (3.0 - t);
-        near(row.displacement_volume, volume, 1e-7, &what("volume"));
+        near(row.displacement_volume, volume, 1e-9, &what("volume"));
         near(row.kb.unwrap(), c - c * below_centre, 1e-7, &what("KB"));
         near(row.lcb.unwrap(), a, 1e-8, &what("LCB"));
         let radius = (1.0 - (1.0 - t).powi(2)).sqrt();
-        near(row.waterplane_area, pi * a * b * radius * radius, 1e-7, &what("waterplane"));
-        near(row.transverse_inertia, 0.25 * pi * a * b.powi(3) * radius.powi(4), 1e-7, &what("I_T"));
+        near(row.waterplane_area, pi * a * b * radius * radius, 1e-8, &what("waterplane"));
+        near(row.transverse_inertia, 0.25 * pi * a * b.powi(3) * radius.powi(4), 2e-8, &what("I_T"));
         near(row.longitudinal_inertia, 0.25 * pi * b * a.powi(3) * radius.powi(4), 1e-7, &what("I_L"));
         near(row.waterline_length, 2.0 * a * radius, 1e-6, &what("L_WL"));
         near(row.waterline_breadth, 2.0 * b * radius, 1e-7, &what("B_WL"));
@@ -192,7 +195,7 @@ fn wedge() -> Hull {
 
 #[test]
 fn a_wedge_with_a_raked_keel() {
-    let (hull, slope) = (wedge(), 1.5 / 20.0);
+    let (hull, slope) = (wedge(), 1.5 / 20.0f64);
     for draught in [0.3, 1.0, 1.5, 2.2, 3.0] {
         let what = |name: &str| format!("{name}, T = {draught}");
         let length = (draught / slope).min(20.0);
@@ -267,7 +270,10 @@ fn a_chined_barge_whose_keel_and_chine_rise() {
     let end = points[points.len() - 1];
     assert!((end[0] - 20.0).abs() < 1e-8 && end[1].abs() < 1e-8, "{end:?}");
     for p in side[0].polyline(1e-5) {
-        assert!((p[2] - 1.2).abs() < 1e-8 && (hull.half_breadth(p[0], 1.2).unwrap_or(0.0) - p[1]).abs() < 1e-6, "{p:?}");
+        assert!(
+            (p[2] - 1.2).abs() < 1e-8 && (hull.half_breadth(p[0], 1.2).unwrap_or(0.0) - p[1]).abs() < 1e-6,
+            "{p:?}"
+        );
     }
 }
 
@@ -291,10 +297,9 @@ fn a_body_in_a_level_and_in_an_upright_chart() {
     // y = (B / 2) (1 - xi^2) (2 zeta - zeta^2) with zeta = z / D.
     let (length, breadth, depth) = (40.0, 6.0, 4.0);
     let body = |xi: f64, zeta: f64| 0.5 * breadth * (1.0 - xi * xi) * zeta * (2.0 - zeta);
-    let hull = |surface| {
-        Hull::new("w", particulars(length, breadth, 2.5, depth), surface, level_deck(length, depth)).unwrap()
-    };
-    let level = hull(surface([2, 2], [3, 3], |u, v| [length * u, body(2.0 * u - 1.0, v), depth * v]));
+    let hull =
+        |surface| Hull::new("w", particulars(length, breadth, 2.5, depth), surface, level_deck(length, depth)).unwrap();
+    let level = hull(levelled(surface([2, 2], [3, 3], |u, v| [length * u, body(2.0 * u - 1.0, v), depth * v])));
     let upright = hull(surface([6, 4], [2, 2], |u, v| {
         let zeta = v + 0.9 * u * (1.0 - u) * v * (1.0 - v);
         [length * u, body(2.0 * u - 1.0, zeta), depth * zeta]
@@ -314,10 +319,9 @@ fn a_body_in_a_level_and_in_an_upright_chart() {
 fn a_body_in_a_level_and_in_a_mixed_chart() {
     let (length, breadth, depth) = (40.0, 6.0, 4.0);
     let body = |xi: f64, zeta: f64| 0.5 * breadth * (1.0 - xi * xi) * zeta;
-    let hull = |surface| {
-        Hull::new("w", particulars(length, breadth, 2.5, depth), surface, level_deck(length, depth)).unwrap()
-    };
-    let level = hull(surface([2, 2], [3, 3], |u, v| [length * u, body(2.0 * u - 1.0, v), depth * v]));
+    let hull =
+        |surface| Hull::new("w", particulars(length, breadth, 2.5, depth), surface, level_deck(length, depth)).unwrap();
+    let level = hull(levelled(surface([2, 2], [3, 3], |u, v| [length * u, body(2.0 * u - 1.0, v), depth * v])));
     let mixed = hull(surface([6, 4], [1, 1], |u, v| {
         let zeta = v + 0.6 * u * (1.0 - u) * v * (1.0 - v);
         let along = u + 0.3 * u * (1.0 - u) * v;

@@ -201,6 +201,9 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
 
 /// Whether x depends on v within a cell of the knots.
 fn is_slanting(hull: &Hull, span_u: usize, span_v: usize) -> bool {
+    if hull.is_upright() && !hull.is_level() {
+        return false;
+    }
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
     (span_u - p..=span_u).any(|i| {

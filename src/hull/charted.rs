@@ -37,12 +37,7 @@ fn sum(columns: &[[f64; 4]], basis: &[f64]) -> [f64; 4] {
 }
 
 /// Enumerates the weights of the volume or a moment of it: `sink(i, j, w)` adds w_k to the weight of the point (i, j + k).
-pub(super) fn volume_weights(
-    hull: &Hull,
-    draught: f64,
-    moment: Moment,
-    sink: &mut dyn FnMut(usize, usize, &[f64]),
-) {
+pub(super) fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     let surface = hull.surface();
     let (p, q, count) = (surface.u().degree(), surface.v().degree(), surface.shape()[1]);

@@ -19,8 +19,9 @@ use super::chart;
 use super::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
 
-/// A net that falls by less than this part of its largest coordinate does not fall.
-const ROUNDING: f64 = 1e-13;
+/// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by less does not
+/// fall, and stations on which x differs by less are upright.
+const ROUNDING: f64 = 1e-12;
 
 /// Why data do not make a hull.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -145,7 +146,7 @@ impl Hull {
                     return Err(HullError::Breadths { row, column, value: y, breadth: p.breadth });
                 }
                 level &= z.to_bits() == surface.point(0, column)[2].to_bits();
-                upright &= x.to_bits() == surface.point(row, 0)[0].to_bits();
+                upright &= (x - surface.point(row, 0)[0]).abs() <= noise[0];
                 if column > 0 && z < surface.point(row, column - 1)[2] - noise[1] {
                     return Err(HullError::Heights { row, column, problem: "z falls from bottom to top" });
                 }
@@ -178,8 +179,17 @@ impl Hull {
                 return Err(HullError::Deck { index, problem: "outside the heights of the surface" });
             }
         }
-        let mut hull =
-            Self { name: name.to_owned(), particulars, surface, deck, heights, upright, bottom, top, cut_by_deck: true };
+        let mut hull = Self {
+            name: name.to_owned(),
+            particulars,
+            surface,
+            deck,
+            heights,
+            upright,
+            bottom,
+            top,
+            cut_by_deck: true,
+        };
         hull.cut_by_deck = level || chart::is_cut_by_deck(&hull);
         Ok(hull)
     }

@@ -182,8 +182,7 @@ impl<'a> Immersion<'a> {
         let surface = self.hull.surface();
         let (lowest, _) = surface.v().domain();
         let breakpoints = surface.v().breakpoints();
-        let mut cuts: Vec<f64> =
-            breakpoints.iter().flat_map(|&v| chart::passages(surface, v, self.draught)).collect();
+        let mut cuts: Vec<f64> = breakpoints.iter().flat_map(|&v| chart::passages(surface, v, self.draught)).collect();
         // A keel line that turns close to the waterline.
         if let Some(keel) = chart::coordinate(&surface.curve_at_v(lowest), 2, self.draught) {
             let near = NEAR_KEEL * (self.hull.top() - self.hull.bottom());

@@ -16,10 +16,10 @@ mod section;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
-pub(crate) use charted::advance;
 pub use cell::{
     Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
 };
+pub(crate) use charted::advance;
 pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
 pub use form::{Hull, HullError};
 pub use functional::Functional;

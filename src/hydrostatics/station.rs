@@ -292,6 +292,7 @@ impl<'a, const N: usize> Stations<'a, N> {
                 }
                 if !hull.is_level() {
                     heights.push(rises);
+                    cell.slanting &= !hull.is_upright();
                 }
                 cells.push(cell);
             }
@@ -322,7 +323,19 @@ impl<'a, const N: usize> Stations<'a, N> {
             .collect();
         let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
         let (scale, size) = (largest(0), largest(1) * (hull.top() - hull.bottom()));
-        Self { hull, lines: KnotLines::new(hull), spans_u, spans_v, cells, heights, grids, transforms, flats, scale, size }
+        Self {
+            hull,
+            lines: KnotLines::new(hull),
+            spans_u,
+            spans_v,
+            cells,
+            heights,
+            grids,
+            transforms,
+            flats,
+            scale,
+            size,
+        }
     }
 
     /// The pieces of the station at `x` below `end`.

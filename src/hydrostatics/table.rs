@@ -117,7 +117,7 @@ fn remark(hull: &Hull, draught: f64, immersion: &Immersion) -> Option<String> {
 /// Stretches of x over which the deck at side is below the waterline.
 fn immersed_deck(hull: &Hull, immersion: &Immersion) -> Vec<[f64; 2]> {
     let mut ranges: Vec<[f64; 2]> = Vec::new();
-    if !immersion.deck_immersed() {
+    if hull.is_level() && !immersion.deck_immersed() {
         return ranges;
     }
     let mut open = false;
