@@ -81,7 +81,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         {
             problems.note("W334", repeated.place, format!("x is written as {a} and as {b}; the first is taken"), "");
         }
-        let points = points(&rows, &mut index, count, head, &mut problems);
+        let mut points = points(&rows, &mut index, count, head, &mut problems);
         let x = at.unwrap_or(0.0);
         let both = points.iter().any(|p| p.y < -1e-9) && points.iter().any(|p| p.y > 1e-9);
         let branches = if both {
@@ -89,7 +89,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             gaps.push((gap, x));
             branches
         } else {
-            super::sections::refuse_negative(&points, x, place, &mut problems);
+            super::sections::refuse_negative(&mut points, x, place, &mut problems);
             vec![points]
         };
         sections.push(Section { name: None, x, place, branches, deck: None });

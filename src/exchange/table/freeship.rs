@@ -1,4 +1,5 @@
-//! Text imports of FREE!ship: the precision in the first line, then lines `x y z`, with blank lines between the curves.
+//! Text imports of FREE!ship: the precision in the first line, then lines `x y z`, with blank lines between the curves, and
+//! perhaps a line `EOF`.
 //!
 //! Curves of constant x are sections from keel to deck ("round hull"). Otherwise they are chines, keel first and sheer last:
 //! each becomes a knuckle of the table, and sections stand at every x of their points, straight between the chines, the
@@ -77,7 +78,8 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
             problems.error("E326", Place::row(row), text, message, "Write 0.");
         }
     }
-    for line in lines {
+    // The program's own files end with a line EOF.
+    for line in lines.take_while(|line| line.text != "EOF") {
         if line.fields.is_empty() {
             open = false;
             continue;
@@ -111,8 +113,8 @@ fn round_hull(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec
     let mut sections = Vec::new();
     for curve in curves {
         let (x, place) = (curve.points[0][0], Place::row(curve.row));
-        let points: Vec<OutlinePoint> = curve.points.iter().map(|p| point(p[1], p[2])).collect();
-        refuse_negative(&points, x, place, &mut problems);
+        let mut points: Vec<OutlinePoint> = curve.points.iter().map(|p| point(p[1], p[2])).collect();
+        refuse_negative(&mut points, x, place, &mut problems);
         sections.push(Section { name: None, x, place, branches: vec![points], deck: None });
     }
     table(body(sections), problems)
@@ -128,8 +130,9 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
     for (k, curve) in curves.iter().enumerate() {
         let place = Place::row(curve.row);
         let mut points = curve.points.clone();
-        let plane: Vec<OutlinePoint> = points.iter().map(|p| point(p[1], p[2])).collect();
-        refuse_negative(&plane, points[0][0], place, &mut problems);
+        let mut plane: Vec<OutlinePoint> = points.iter().map(|p| point(p[1], p[2])).collect();
+        refuse_negative(&mut plane, points[0][0], place, &mut problems);
+        points.iter_mut().zip(&plane).for_each(|(p, flat)| p[1] = flat.y);
         if points[0][0] > points[points.len() - 1][0] {
             points.reverse();
         }

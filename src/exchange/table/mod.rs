@@ -3,6 +3,7 @@
 mod britfair;
 mod delftship;
 mod fields;
+mod formats;
 mod freeship;
 mod ghs;
 mod outline;
@@ -33,31 +34,13 @@ pub struct ReadTable {
     pub notes: Vec<TableProblem>,
 }
 
-/// Whether a text is in a format, and the table in it.
-type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>);
-
-/// The text formats of other programs, in the order in which they are tried.
-const TEXT_FORMATS: [Format; 9] = [
-    (ghs::recognise, ghs::read),
-    (britfair::recognise, britfair::read),
-    (seaway::recognise, seaway::read),
-    (pdstrip::recognise, pdstrip::read),
-    (delftship::recognise, delftship::read),
-    (pias::recognise, pias::read),
-    (freeship::recognise, freeship::read),
-    (ratio::recognise, ratio::read),
-    (points::recognise, points::read),
-];
-
 /// Reads a table of offsets; the layout is found by the name's extension and the content.
 ///
 /// # Errors
 /// Every problem of the table at once, in the order of rows and columns.
 pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProblem>> {
-    if let Ok(text) = std::str::from_utf8(bytes)
-        && let Some((_, read)) = TEXT_FORMATS.iter().find(|(recognise, _)| recognise(name, text))
-    {
-        return read(name, text);
+    if let Some(read) = formats::read(name, bytes) {
+        return read;
     }
     Err(vec![TableProblem {
         severity: Severity::Error,

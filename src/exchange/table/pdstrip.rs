@@ -55,9 +55,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let mut gaps = Vec::new();
     let mut index = 1;
     while index < rows.len() {
-        let Some((x, place, branches)) = section(&rows, &mut index, sections.len() + 1, &mut problems) else { break };
+        let Some((x, place, mut branches)) = section(&rows, &mut index, sections.len() + 1, &mut problems) else {
+            break;
+        };
         let branches = if symmetric {
-            branches.iter().for_each(|points| refuse_negative(points, x, place, &mut problems));
+            branches.iter_mut().for_each(|points| refuse_negative(points, x, place, &mut problems));
             branches
         } else {
             let whole: Vec<OutlinePoint> = branches.into_iter().flatten().collect();

@@ -81,7 +81,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             problems.error("E322", place, head.text, message, "Correct the count, or the points.");
         }
         let x = x.unwrap_or(0.0);
-        refuse_negative(&points, x, place, &mut problems);
+        refuse_negative(&mut points, x, place, &mut problems);
         sections.push(Section { name: None, x, place, branches: vec![points], deck: None });
     }
     if let Some(announced) = announced.filter(|&n| n != sections.len()) {

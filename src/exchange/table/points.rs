@@ -189,7 +189,7 @@ fn group(rows: &[Row<'_>], problems: &mut Problems) -> Vec<Section> {
             if points[0].z > points[points.len() - 1].z {
                 points.reverse();
             }
-            refuse_negative(&points, first.x, rows[0].place, problems);
+            refuse_negative(&mut points, first.x, rows[0].place, problems);
             branches.push(points);
         }
         branches.sort_by(|a, b| a[0].z.total_cmp(&b[0].z));

@@ -156,6 +156,6 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
         }
     }
     let place = Place { column: None, ..station.place };
-    refuse_negative(&line, x, place, problems);
+    refuse_negative(&mut line, x, place, problems);
     Some(Section { name: Some(format!("{name}")), x, place, branches: vec![line], deck: None })
 }

@@ -45,18 +45,28 @@ pub(super) struct Body {
     pub(super) unit: f64,
 }
 
-/// Refuses negative half-breadths of a half section; all of a section in one message.
-pub(super) fn refuse_negative(points: &[OutlinePoint], x: f64, place: Place, problems: &mut Problems) {
-    let negative: Vec<f64> = points.iter().map(|p| p.y).filter(|&y| y < 0.0).collect();
-    if let Some(&least) = negative.iter().min_by(|a, b| a.total_cmp(b)) {
-        let message = format!("section at x = {x}: {} of {} half-breadths are negative", negative.len(), points.len());
-        let remedy = if negative.len() == points.len() {
-            "Give the side with positive y."
-        } else {
-            "This format has half sections: give one side only."
-        };
-        problems.error("E325", place, &format!("{least}"), message, remedy);
+/// Half-breadths below zero by less than this part of the largest of the section are dust of other programs.
+const DUST: f64 = 1e-4;
+
+/// Refuses negative half-breadths of a half section, all of a section in one message; dust is put on the centreplane, with a
+/// note.
+pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: Place, problems: &mut Problems) {
+    let largest = points.iter().map(|p| p.y).fold(0.0, f64::max);
+    let Some(least) = points.iter().map(|p| p.y).filter(|&y| y < 0.0).min_by(f64::total_cmp) else { return };
+    let count = points.iter().filter(|p| p.y < 0.0).count();
+    if least >= -DUST * largest {
+        points.iter_mut().for_each(|p| p.y = p.y.max(0.0));
+        let message = format!("section at x = {x}: {count} half-breadths down to {least} are taken as 0");
+        problems.note("W335", place, message, "");
+        return;
     }
+    let message = format!("section at x = {x}: {count} of {} half-breadths are negative", points.len());
+    let remedy = if count == points.len() {
+        "Give the side with positive y."
+    } else {
+        "This format has half sections: give one side only."
+    };
+    problems.error("E325", place, &format!("{least}"), message, remedy);
 }
 
 /// The half section of a full section of both sides: starboard, and how far port is from it \[m\]; none when there is no
@@ -156,12 +166,12 @@ fn check_order(sections: &mut [Section], problems: &mut Problems) {
 
 /// The distance by which x is moved forward, so that it counts from AP \[m\].
 ///
-/// A file whose aftermost section is within a tenth of the length of its origin counts from AP; one whose foremost is, from
+/// A file whose aftermost section is within a fifth of the length of its origin counts from AP; one whose foremost is, from
 /// FP; one with its middle there, from amidships. Otherwise, and where no length is stated, AP is at the aftermost section.
 fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, problems: &mut Problems) -> f64 {
     let (Some(first), Some(last)) = (sections.first(), sections.last()) else { return 0.0 };
     let (aft, forward) = (first.x, last.x);
-    let near = 0.1 * (forward - aft);
+    let near = 0.2 * (forward - aft);
     let (shift, origin) = if aft.abs() <= near {
         (0.0, "the after perpendicular")
     } else {

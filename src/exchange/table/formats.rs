@@ -1,0 +1,33 @@
+//! The text formats of other programs, in the order in which they are tried.
+
+use super::{ReadTable, TableProblem, britfair, delftship, freeship, ghs, pdstrip, pias, points, ratio, seaway};
+
+/// Whether a text is in a format, and the table in it.
+type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>);
+
+const FORMATS: [Format; 9] = [
+    (ghs::recognise, ghs::read),
+    (britfair::recognise, britfair::read),
+    (seaway::recognise, seaway::read),
+    (pdstrip::recognise, pdstrip::read),
+    (delftship::recognise, delftship::read),
+    (pias::recognise, pias::read),
+    (freeship::recognise, freeship::read),
+    (ratio::recognise, ratio::read),
+    (points::recognise, points::read),
+];
+
+/// Larger files are no hulls of these formats \[bytes\].
+const LARGEST: usize = 64 << 20;
+
+/// The table in a file of another program; none when it is in none of these formats.
+///
+/// Bytes that are not UTF-8 stand in names only and are replaced.
+pub(super) fn read(name: &str, bytes: &[u8]) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+    if bytes.len() > LARGEST {
+        return None;
+    }
+    let text = String::from_utf8_lossy(bytes);
+    let (_, read) = FORMATS.iter().find(|(recognise, _)| recognise(name, &text))?;
+    Some(read(name, &text))
+}
