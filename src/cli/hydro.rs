@@ -12,7 +12,7 @@ use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, or a design file
+    /// hull.json, a folder that holds one, a design file, or a table of offsets
     hull: PathBuf,
     /// Draughts above the base line [m], as 1:9:1
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
@@ -101,6 +101,7 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
+    source.notes.iter().for_each(|note| stream::message(note));
     let table = CurvesOfForm::new(&source.hull, &arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {
         stream::json(&hydrostatics_json(&table))?

@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand. Data goes to stdout, messages to stderr; every number that is printed was
 //! returned by a library function.
 
+mod convert;
 mod generate;
 mod hydro;
 mod new;
@@ -40,6 +41,8 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
+    /// Read a table of offsets and write it in its own notation and layout, or in others
+    Convert(convert::Arguments),
     /// The curves in which a plane cuts a hull
     Section(section::Arguments),
     /// Compare the analytic bodies with their closed forms
@@ -74,6 +77,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
+        Command::Convert(arguments) => convert::run(arguments),
         Command::Section(arguments) => section::run(arguments),
         Command::SelfTest(arguments) => self_test::run(arguments),
     };

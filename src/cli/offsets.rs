@@ -11,7 +11,7 @@ use crate::units::Notation;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, or a design file
+    /// hull.json, a folder that holds one, a design file, or a table of offsets
     hull: PathBuf,
     /// Stations, from AP [m]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     /// Buttocks, from the centreplane [m]: a second table, of heights, after an empty line
     #[arg(long, value_parser = lengths, value_name = "LIST")]
     buttocks: Option<Lengths>,
-    /// How lengths are written: m, mm or feet-inches-eighths
+    /// How lengths are written: m, mm, feet-inches-eighths, cm, ft or in
     #[arg(long, value_parser = notation, default_value = "m")]
     notation: Notation,
     /// File to write instead of stdout
@@ -33,13 +33,14 @@ pub(super) struct Arguments {
     force: bool,
 }
 
-fn notation(word: &str) -> Result<Notation, String> {
+pub(super) fn notation(word: &str) -> Result<Notation, String> {
     let known = Notation::ALL.map(Notation::as_str).join(", ");
-    Notation::ALL.into_iter().find(|notation| notation.as_str() == word).ok_or(format!("known are {known}"))
+    Notation::from_word(word).ok_or(format!("known are {known}"))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
+    source.notes.iter().for_each(|note| stream::message(note));
     let buttocks = arguments.buttocks.as_ref().map_or(&[][..], |list| &list.0);
     let table = offsets(&source.hull, &arguments.stations.0, &arguments.waterlines.0, buttocks)?;
     let mut text = offsets_csv(&table, arguments.notation, false);

@@ -11,7 +11,7 @@ use crate::report::{Failure, read_source, sections_of};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, or a design file
+    /// hull.json, a folder that holds one, a design file, or a table of offsets
     hull: PathBuf,
     #[command(flatten)]
     plane: Plane,
@@ -73,6 +73,7 @@ impl Plane {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = read_source(&arguments.hull)?;
+    source.notes.iter().for_each(|note| stream::message(note));
     let cut = arguments.plane.cut().ok_or_else(|| Failure::Internal("no plane".to_owned()))?;
     let section = sections_of(&source.hull, cut);
     if section.branches.is_empty() {

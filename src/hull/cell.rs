@@ -1,6 +1,4 @@
-//! What stands in a table of offsets besides numbers: cells with their marks, points of sections, lines, and how it was written.
-
-use crate::units::Notation;
+//! What stands in a table of offsets besides numbers: cells with their marks, points of sections and lines.
 
 /// What a cell says about the hull.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -118,33 +116,4 @@ pub struct StatedParticulars {
     pub draught: Option<f64>,
     /// D.
     pub depth: Option<f64>,
-}
-
-/// How a table was written, so that it can be written back the same way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TableForm {
-    /// Notation of the offsets.
-    pub notation: Notation,
-    /// Digits after the decimal sign at most; none for notations without, and for computed tables.
-    pub decimals: Option<usize>,
-}
-
-impl Default for TableForm {
-    fn default() -> Self {
-        Self { notation: Notation::Metres, decimals: None }
-    }
-}
-
-impl TableForm {
-    /// The step between two offsets that can be told apart in this writing \[m\]; none when there is none (computed tables).
-    #[must_use]
-    pub fn quantum(&self) -> Option<f64> {
-        match self.notation {
-            Notation::Metres => self.decimals.map(|n| 10f64.powi(-i32::try_from(n).unwrap_or(17))),
-            Notation::Millimetres => {
-                Some(1e-3 * self.decimals.map_or(1.0, |n| 10f64.powi(-i32::try_from(n).unwrap_or(17))))
-            }
-            Notation::FeetInchesEighths => Some(0.0254 / 16.0),
-        }
-    }
 }

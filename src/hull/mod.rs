@@ -13,13 +13,18 @@ mod immersion;
 mod offsets;
 mod particulars;
 mod section;
+mod table_form;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
+<<<<<<< HEAD
 pub use cell::{
     Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
 };
 pub(crate) use charted::advance;
+=======
+pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
+>>>>>>> wt-formats
 pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
@@ -27,3 +32,4 @@ pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
+pub use table_form::{Kept, Order, Origin, Rows, SideKind, SideLine, TableForm, TableLayout};

@@ -1,5 +1,6 @@
 //! Whole jobs: from a design to the files about it, and what is printed of them.
 
+mod convert;
 mod failure;
 mod files;
 mod generate;
@@ -8,9 +9,10 @@ mod page;
 mod self_test;
 mod source;
 
+pub use convert::{Converted, convert_table};
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};
 pub use generate::{Outputs, generate_outputs};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use self_test::{SelfCheck, self_test};
-pub use source::{Source, offsets, read_design, read_source, sections_of};
+pub use source::{Source, offsets, read_design, read_source, read_table_file, sections_of};

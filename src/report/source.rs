@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use crate::config::{self, Design, Diagnostic, Severity};
-use crate::exchange::{self, HullFile, HullFileError};
-use crate::hull::{Cut, Hull, OffsetStation, OffsetTable, Section};
+use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
+use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section};
 use crate::hydrostatics::Conventions;
 use crate::parametric::{Family, Generated};
 
@@ -18,6 +18,8 @@ pub struct Source {
     pub hull: Hull,
     /// Conventions it was made with.
     pub conventions: Conventions,
+    /// What was assumed where a table of offsets says nothing, in words for the user.
+    pub notes: Vec<String>,
 }
 
 /// No input is longer than this \[bytes\]; the readers have limits of their own.
@@ -109,7 +111,8 @@ pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
     })
 }
 
-/// The hull of a `hull.json`, of a folder that holds one, or of a design file.
+/// The hull of a `hull.json`, of a folder that holds one, of a design file, or of a table of offsets, through which a
+/// surface is laid.
 ///
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
@@ -119,16 +122,64 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
     if matches!(extension.as_str(), "toml" | "hgf" | "huf") {
         let (design, _) = read_design(&file)?;
         let hull = build(&design)?.hull;
-        return Ok(Source { hull, conventions: design.conventions });
+        return Ok(Source { hull, conventions: design.conventions, notes: Vec::new() });
     }
-    let text = utf8(&file, read_bytes(&file)?)?;
+    let bytes = read_bytes(&file)?;
+    let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
+    if extension != "json" && first.is_some_and(|&b| b != b'{') {
+        return fitted(&file);
+    }
+    let text = utf8(&file, bytes)?;
     match exchange::read_hull(&text) {
-        Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions }),
+        Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions, notes: Vec::new() }),
         Err(HullFileError::Json { line, column, field, message }) => {
             Err(Failure::Input(vec![diagnostic("E140", &file, Some(line), Some(column), format!("{field}{message}"))]))
         }
         Err(error) => Err(Failure::Input(vec![diagnostic("E141", &file, None, None, error.to_string())])),
     }
+}
+
+/// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the same
+/// name beside it, when there is one.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
+pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    let bytes = read_bytes(path)?;
+    let beside = path.with_extension("toml");
+    let conventions = if beside.is_file() { Some(utf8(&beside, read_bytes(&beside)?)?) } else { None };
+    let shown = beside.display().to_string();
+    let beside = conventions.as_deref().map(|text| (shown.as_str(), text));
+    let read = exchange::read_table_with(&path.display().to_string(), &bytes, beside);
+    read.map(|ReadTable { table, notes }| (table, notes))
+        .map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))
+}
+
+/// A problem of a table among the messages about files.
+fn of_table(problem: TableProblem) -> Diagnostic {
+    // A field of a table is counted, a column of a text file is not: it goes into the message.
+    let place = problem.column.map(|column| format!("column {column}, ")).unwrap_or_default();
+    let quoted = if problem.found.is_empty() { String::new() } else { format!("{place}'{}': ", problem.found) };
+    Diagnostic {
+        severity: if problem.severity == exchange::Severity::Error { Severity::Error } else { Severity::Warning },
+        code: problem.code,
+        file: problem.file,
+        line: problem.row,
+        column: None,
+        key: String::new(),
+        message: format!("{quoted}{}", problem.message),
+        help: problem.remedy,
+    }
+}
+
+/// The hull of a table of offsets.
+fn fitted(path: &Path) -> Result<Source, Failure> {
+    let (table, notes) = read_table_file(path)?;
+    let fitted = Hull::fit(&table, &FitMethod::default())
+        .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
+    let notes = notes.iter().filter(|note| note.severity == exchange::Severity::Warning).map(ToString::to_string);
+    let notes = notes.chain(fitted.notes).collect();
+    Ok(Source { hull: fitted.hull, conventions: Conventions::default(), notes })
 }
 
 /// The most cells of one table of offsets.

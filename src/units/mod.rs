@@ -1,10 +1,12 @@
 //! Quantities as people write them: lengths, angles, masses, ratios with their units, lists of positions, and lengths in
 //! the notations of tables of offsets. Text in, SI out (masses in tonnes, as the field counts them); no files, no floor.
 
+mod cell;
 mod list;
 mod notation;
 mod quantity;
 
+pub use cell::{CellEntry, CellError, CellReading, CellRules, CellWriting, LONGEST_CELL, parse_cell};
 pub use list::{ListError, MAX_ITEMS, decimal, parse_list};
 pub use notation::{Notation, feet_inches_eighths};
 pub use quantity::{Dimension, Measure, UnitError, parse, parse_length};

@@ -9,8 +9,9 @@
 
 use super::fields::{Field, Line, Place, Problems, Separator, lines};
 use super::{ReadTable, TableProblem};
-use crate::hull::{Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, Written};
-use crate::units::Notation;
+use crate::hull::{
+    Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
+};
 
 /// Numbers of the head.
 const HEAD: usize = 10;
@@ -134,7 +135,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     problems.note("W334", Place::row(rows.get(HEAD).map_or(HEAD, |line| line.row)), message, "");
     let [length, breadth, draught] = main;
     let stated = StatedParticulars { length_between_perpendiculars: length, breadth, draught, depth: None };
-    let form = TableForm { notation: Notation::Metres, decimals: Some(problems.decimals) };
+    let form = TableForm { layout: TableLayout::Other, decimals: Some(problems.decimals), ..TableForm::default() };
     problems.finish(table.map(|table| OffsetTable { stated, form, ..table }))
 }
 

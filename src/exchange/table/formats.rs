@@ -22,12 +22,21 @@ const LARGEST: usize = 64 << 20;
 
 /// The table in a file of another program; none when it is in none of these formats.
 ///
-/// Bytes that are not UTF-8 stand in names only and are replaced.
-pub(super) fn read(name: &str, bytes: &[u8]) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+/// Bytes that are not UTF-8 stand in names only and are replaced. The TOML beside a file gives the dimensions of a table of
+/// fractions; the other formats need none.
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    beside: Option<(&str, &str)>,
+) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     if bytes.len() > LARGEST {
         return None;
     }
     let text = String::from_utf8_lossy(bytes);
+    if let Some((beside, particulars)) = beside.filter(|_| ratio::recognise(name, &text)) {
+        let stated = ratio::read_particulars(beside, particulars);
+        return Some(stated.and_then(|stated| ratio::read_with(name, &text, &stated)));
+    }
     let (_, read) = FORMATS.iter().find(|(recognise, _)| recognise(name, &text))?;
     Some(read(name, &text))
 }

@@ -140,7 +140,7 @@ fn header(reader: &mut Reader<'_>, problems: &mut Problems) -> Option<f64> {
         let place = Place::row(line.row);
         match line.text.split_once(':') {
             Some(("L", value)) => length = problems.number(Field { text: value.trim(), place }, "the length L"),
-            Some((key, _)) if matches!(key, "W" | "P" | "N" | "O" | "OL" | "OT" | "OV" | "V" | "D" | "C") => {}
+            Some(("W" | "P" | "N" | "O" | "OL" | "OT" | "OV" | "V" | "D" | "C", _)) => {}
             Some((key, _)) => {
                 problems.note("W334", place, format!("the line '{}:' is not used", key.trim()), "");
             }
@@ -201,7 +201,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         let blame = sections.last().map_or_else(String::new, |before: &ShapeSection| {
             format!(" (row {} announces {} points)", before.row, before.points.len())
         });
-        let [x, count, ..] = head.fields[..] else {
+        let [x, count] = head.fields[..] else {
             let message = format!("section {} of '{name}': x and number of points expected{blame}", k + 1);
             problems.error("E322", Place::row(head.row), head.text, message, "Is the count before it right?");
             return None;
@@ -215,7 +215,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
                 missing(&what, reader, problems);
                 return None;
             };
-            let [y, z, ..] = line.fields[..] else {
+            let [y, z] = line.fields[..] else {
                 let message = format!("point {} of {count}: y, z expected", i + 1);
                 let remedy = format!("Is the number of points in row {} right?", head.row);
                 problems.error("E322", Place::row(line.row), line.text, message, &remedy);

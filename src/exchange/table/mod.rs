@@ -1,29 +1,52 @@
-//! Tables of offsets in the layouts of many programs, read into one [`OffsetTable`].
+//! Tables of offsets in the layouts of many programs, read into one [`OffsetTable`], and written back.
+//!
+//! Fields (CSV, XLSX) become a layout (matrix, tidy, pairs); positions, units and cells make the table; checks
+//! look at the whole. Everything that is wrong is returned at once, each with its row and column; everything that was
+//! assumed is a note. Cost: linear in the file; a table of 40 x 25 offsets takes less than a millisecond.
 
+mod assemble;
+mod beside;
 mod britfair;
+mod checks;
 mod delftship;
 mod fields;
 mod formats;
 mod freeship;
 mod ghs;
+mod grid;
+mod header;
+mod matrix;
 mod outline;
+mod pairs;
 mod pdstrip;
 mod pias;
 mod points;
 mod problem;
 mod ratio;
+mod scale;
 mod seaway;
 mod sections;
+mod settings;
+mod tidy;
+mod write;
+mod xlsx;
 
 pub use britfair::write as write_britfair;
 pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
+pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
 pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
 pub use ratio::{read_particulars, read_with as read_fractions};
+pub use write::{Rounding, TableWriting, WrittenTable, write_table};
+pub use xlsx::MOST_UNPACKED;
 
-use crate::hull::OffsetTable;
+use self::grid::Grid;
+use self::problem::{Field, Problems};
+use self::settings::Settings;
+use crate::hull::{OffsetTable, Order, Rows, TableForm, TableLayout};
+use crate::units::{CellRules, CellWriting, Notation, parse_cell};
 
 /// A table with what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,17 +62,151 @@ pub struct ReadTable {
 /// # Errors
 /// Every problem of the table at once, in the order of rows and columns.
 pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProblem>> {
-    if let Some(read) = formats::read(name, bytes) {
+    read_table_with(name, bytes, None)
+}
+
+/// Reads a table of offsets with the conventions of the TOML file beside it, given by its name and its text.
+///
+/// # Errors
+/// Every problem of both files at once, in the order of rows and columns.
+pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
+    if let Some(read) = formats::read(name, bytes, beside) {
         return read;
     }
-    Err(vec![TableProblem {
-        severity: Severity::Error,
-        code: "E300",
-        file: name.to_owned(),
-        row: None,
-        column: None,
-        found: String::new(),
-        message: "no layout of a table of offsets is recognised".to_owned(),
-        remedy: String::new(),
-    }])
+    let mut problems = Problems::new(name);
+    let mut settings = Settings::default();
+    if let Some((name, text)) = beside {
+        beside::read(name, text, &mut settings, &mut problems);
+    }
+    let table = match problems.any_errors() {
+        // Without its conventions the table would give misleading problems.
+        true => None,
+        false => fields(bytes, &mut settings, &mut problems),
+    };
+    if let Some(table) = table.as_ref().filter(|_| !problems.any_errors()) {
+        checks::whole(table, settings.full, &mut problems);
+    } else if !problems.any_errors() {
+        let message = "no table of offsets is recognised".to_owned();
+        problems.error("E300", message, "Give a matrix with a row of headers, or columns station,x,curve,z,y,flag");
+    }
+    let notes = problems.finish()?;
+    Ok(ReadTable { table: table.unwrap_or_default(), notes })
+}
+
+/// The table of a file of fields: CSV, TSV or XLSX.
+fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Option<OffsetTable> {
+    let (grid, text) = if xlsx::is_xlsx(bytes) {
+        let (grid, sheet) = xlsx::grid(bytes, problems)?;
+        problems.note(format!("sheet '{sheet}' of the workbook"));
+        (grid, String::new())
+    } else {
+        let text = grid::decode(bytes, problems)?;
+        // The separator may be said in a comment, which is found with any separator.
+        let mut grid = grid::split(&text, settings.separator, problems)?;
+        settings.comments(&grid.comments, problems);
+        if let Some(separator) = settings.separator.filter(|&c| c != grid.separator) {
+            grid = grid::split(&text, Some(separator), problems)?;
+        }
+        (grid, text)
+    };
+    if problems.any_errors() {
+        return None;
+    }
+    if grid.rows.iter().all(Vec::is_empty) {
+        problems.error("E300", "the file is empty".to_owned(), "Give the table as CSV, TSV or XLSX");
+        return None;
+    }
+    let decimal_comma = settings.decimal_comma.unwrap_or_else(|| commas(&grid.rows, grid.separator));
+    let form = TableForm {
+        separator: grid.separator,
+        decimal_comma,
+        carriage_returns: grid.carriage_returns,
+        open_end: grid.open_end,
+        ..TableForm::default()
+    };
+    let layout = settings.layout.unwrap_or_else(|| {
+        if tidy::is_tidy(&grid.rows) {
+            TableLayout::Tidy
+        } else if pairs::is_pairs(&grid.rows, grid.separator) {
+            TableLayout::Pairs
+        } else {
+            TableLayout::Matrix
+        }
+    });
+    let mut table = match layout {
+        TableLayout::Tidy => {
+            problems.note("one offset a row".to_owned());
+            tidy::read(&grid.rows, form, settings, problems)?
+        }
+        TableLayout::Pairs => {
+            problems.note("columns are stations, cells are pairs of half-breadth and height".to_owned());
+            pairs::read(&grid.rows, form, settings, problems)?
+        }
+        TableLayout::Matrix | TableLayout::Other => matrix(&grid, &text, form, settings, problems)?,
+    };
+    if let Some(name) = &settings.name {
+        table.name.clone_from(name);
+    }
+    table.stated = settings.stated;
+    table.lines.extend(settings.lines.iter().cloned());
+    table.transom = settings.transom;
+    checks::endings(&mut table, settings, problems);
+    if table.form.station_order == Order::Falling {
+        problems.note("stations are written from forward aft; their order is turned".to_owned());
+    }
+    if table.form.waterline_order == Order::Falling {
+        problems.note("waterlines are written from the deck down; their order is turned".to_owned());
+    }
+    Some(table)
+}
+
+/// The table of a matrix.
+fn matrix(
+    grid: &Grid,
+    text: &str,
+    form: TableForm,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<OffsetTable> {
+    let (blocks, titles) = matrix::blocks(&grid.rows, settings, problems);
+    let first = blocks.first()?;
+    let across = if first.across == header::Axis::Buttock { "buttocks" } else { "waterlines" };
+    let (rows, columns) = match first.rows {
+        Rows::Stations => ("stations", across),
+        Rows::Waterlines => (across, "stations"),
+    };
+    problems.note(format!(
+        "{} stations and {} {across}; rows are {rows}, columns are {columns} ({}); fields are separated by {}{}",
+        first.stations.len(),
+        first.heads.len(),
+        first.reason,
+        match grid.separator {
+            '\t' => "tabs".to_owned(),
+            c => format!("'{c}'"),
+        },
+        if form.decimal_comma { ", decimal commas" } else { "" }
+    ));
+    let places = first.heads.iter().map(|f| f.row).chain(first.stations.iter().map(|line| line.head.row));
+    let header_row = places.chain([first.corner.row]).filter(|&row| row > 0).min().unwrap_or(1);
+    let preamble = text.lines().take(header_row - 1).map(str::to_owned).collect();
+    let mut table = assemble::assemble(blocks, TableForm { preamble, ..form }, settings, problems)?;
+    table.name = titles.first().map(|field| field.trimmed().to_owned()).unwrap_or_default();
+    Some(table)
+}
+
+/// Whether `6,41` is 6.41: some cells are numbers with a comma, and none has a point.
+fn commas(rows: &[Vec<Field>], separator: char) -> bool {
+    let point = CellRules { unit: Notation::Metres, decimal_comma: false };
+    let comma = CellRules { unit: Notation::Metres, decimal_comma: true };
+    let (mut commas, mut points) = (0usize, 0usize);
+    for field in rows.iter().flatten().filter(|f| f.text.contains([',', '.'])) {
+        let plain =
+            |rules| parse_cell(&field.text, rules).is_ok_and(|r| matches!(r.writing, CellWriting::Plain { .. }));
+        if field.text.contains('.') {
+            points += usize::from(plain(point));
+        } else if separator != ',' || field.text.matches(',').count() == 1 {
+            commas += usize::from(plain(comma));
+        }
+    }
+    commas > 0 && points == 0
 }

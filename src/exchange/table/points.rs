@@ -62,13 +62,14 @@ fn head(text: &str) -> Option<(char, Vec<Option<Column>>)> {
     Some((mark, line.split(mark).map(|name| column(name).map(|(kind, _, _)| kind)).collect()))
 }
 
-/// Whether the head names y and z, and a station or x, or points or loops.
+/// Whether the head names x, y and z and nothing else, or points or loops of stations or x.
 pub(super) fn recognise(_name: &str, text: &str) -> bool {
     let Some((_, columns)) = head(text) else { return false };
     let has = |kind| columns.contains(&Some(kind));
     let points = has(Column::Point) || has(Column::Loop);
     let known = columns.iter().all(Option::is_some);
-    (has(Column::X) && has(Column::Y) && has(Column::Z) && (known || points)) || (points && has(Column::Station))
+    (has(Column::X) && has(Column::Y) && has(Column::Z) && (known || points))
+        || (points && (has(Column::Station) || has(Column::X)))
 }
 
 /// A row with its numbers.

@@ -156,6 +156,12 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
         }
     }
     let place = Place { column: None, ..station.place };
+    // A section ends with its line: a wrong count does not go unnoticed where the numbers happen to fit.
+    if let Some(after) = stream.fields.get(stream.next).filter(|field| field.place.column != Some(1)) {
+        let message = format!("{what} announces {points} points, which end within a line");
+        problems.error("E322", after.place, after.text, message, "Correct the count, or the points.");
+        return None;
+    }
     refuse_negative(&mut line, x, place, problems);
     Some(Section { name: Some(format!("{name}")), x, place, branches: vec![line], deck: None })
 }

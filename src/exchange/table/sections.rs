@@ -3,8 +3,7 @@
 use super::fields::{Place, Problems};
 use super::outline::{Deck, Halves, branches, deviation, halves};
 use super::{ReadTable, TableProblem};
-use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm};
-use crate::units::Notation;
+use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
 
 /// A section as a file gives it.
 #[derive(Debug, Clone)]
@@ -133,7 +132,7 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
         })
         .collect();
     let decimals = decimals_in_metres(problems.decimals, unit);
-    let form = TableForm { notation: Notation::Metres, decimals: Some(decimals) };
+    let form = TableForm { layout: TableLayout::Other, decimals: Some(decimals), ..TableForm::default() };
     problems.finish(Some(OffsetTable { name, stated, stations, form, ..OffsetTable::default() }))
 }
 

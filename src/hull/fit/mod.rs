@@ -67,6 +67,9 @@ impl Hull {
     /// [`FitError`] when the table has too few offsets, or they make no hull.
     pub fn fit(table: &OffsetTable, method: &FitMethod) -> Result<Fitted, FitError> {
         let _ = method;
+        if upright::suits(table) {
+            return upright::fit(table);
+        }
         Err(FitError::TooFew { stations: table.stations.len(), waterlines: table.waterlines.len(), least: 2 })
     }
 }

@@ -28,10 +28,12 @@ mod length;
 mod lines;
 mod profile;
 #[cfg(test)]
+mod published;
+#[cfg(test)]
 mod tests;
 
 use super::{CellResidual, Chart, FitError, Fitted};
-use crate::hull::cell::Entry;
+use crate::hull::cell::{Entry, LineKind, Marks};
 use crate::hull::form::Hull;
 use crate::hull::offsets::OffsetTable;
 use crate::hull::particulars::PrincipalParticulars;
@@ -44,11 +46,38 @@ use profile::Profile;
 /// Fewest stations.
 const LEAST_STATIONS: usize = 2;
 
+/// Variation of the keel line in parts of the depth.
+const ROCKER: f64 = 0.05;
+
 /// A curve that leaves the range of its half-breadths by this part of the greatest one swings.
 const OVERSHOOT: f64 = 0.05;
 
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
+
+/// Whether the upright chart is the one for a table: where it has knuckles, where it is made of sections without waterlines, and where
+/// the keel line of the middle three fifths of the length varies by more than a twentieth of the depth (rocker, rake).
+pub(super) fn suits(table: &OffsetTable) -> bool {
+    let marked = |marks: &Marks| marks.knuckle;
+    let knuckles = table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
+        || table.stations.iter().any(|s| {
+            s.half_breadths.iter().any(|cell| marked(&cell.marks)) || s.outlines.iter().flatten().any(|p| marked(&p.marks))
+        });
+    let only_sections = table.waterlines.is_empty() && table.stations.iter().any(|s| !s.outlines.is_empty());
+    knuckles || only_sections || has_rocker(table)
+}
+
+/// Whether the keel line varies by more than [`ROCKER`] of the depth in the middle three fifths of the length.
+fn has_rocker(table: &OffsetTable) -> bool {
+    let keels: Vec<(f64, f64)> = table.stations.iter().filter_map(|s| Some((s.station.x, s.keel_height?))).collect();
+    let (Some(first), Some(last), Some(&top)) = (table.stations.first(), table.stations.last(), table.waterlines.last()) else {
+        return false;
+    };
+    let (from, length) = (first.station.x, last.station.x - first.station.x);
+    let middle = keels.iter().filter(|(x, _)| (0.2..=0.8).contains(&((x - from) / length)));
+    let (low, high) = middle.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &(_, z)| (a.min(z), b.max(z)));
+    high - low > ROCKER * (top - low)
+}
 
 /// The hull of a table on the upright chart.
 ///

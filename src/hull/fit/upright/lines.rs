@@ -75,10 +75,15 @@ pub(super) fn lines(table: &OffsetTable, profiles: &[Profile], size: Size, notes
 /// that of the line. None beyond its ends and on keel or upper edge.
 fn at_station(line: &FeatureLine, profile: &Profile, size: Size) -> Option<SectionPoint> {
     let [y, z] = point_at(&line.points, profile.x)?;
+    // Sections may have been made from the line by going straight from point to point.
+    let straight = straight_at(&line.points, profile.x).unwrap_or([y, z]);
     let distance = |p: &SectionPoint| {
-        let own = p.y.map_or(f64::INFINITY, |own| (own - y).abs() / size.breadth);
         let reach = if p.mark == Some(line.kind) { NEAR_MARK } else { SNAP };
-        own.max((p.z - z).abs() / size.depth) / reach
+        let to = |[y, z]: [f64; 2]| {
+            let across = p.y.map_or(f64::INFINITY, |own| (own - y).abs() / size.breadth);
+            across.max((p.z - z).abs() / size.depth) / reach
+        };
+        to([y, z]).min(to(straight))
     };
     let near = profile.points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).filter(|p| distance(p) <= 1.0);
     let point = near.copied().unwrap_or(SectionPoint { z, y: Some(y.max(0.0)), mark: Some(line.kind) });
@@ -108,6 +113,13 @@ fn point_at(points: &[[f64; 3]], x: f64) -> Option<[f64; 2]> {
     }
     let knots = KnotVector::averaged(if values.len() > 3 { 3 } else { 1 }, &sites).ok()?;
     Some(BsplineCurve::interpolate(knots, &sites, &values).ok()?.eval(x))
+}
+
+/// (y, z) at `x` straight between the points of a line.
+fn straight_at(points: &[[f64; 3]], x: f64) -> Option<[f64; 2]> {
+    let pair = points.windows(2).find(|w| w[0][0] <= x && x <= w[1][0] && w[1][0] > w[0][0])?;
+    let t = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+    Some([1, 2].map(|d| pair[0][d] + t * (pair[1][d] - pair[0][d])))
 }
 
 /// Marked points that belong to no line yet, joined from station to station.

@@ -1,0 +1,353 @@
+//! From blocks of fields to a table of offsets: positions, units, cells, side lines, and the order of lines.
+
+use super::checks;
+use super::header::{Axis, Corner, Place, Position, position};
+use super::matrix::{Block, Line};
+use super::problem::{Field, Problems};
+use super::scale::{Size, Units, origin, units};
+use super::settings::Settings;
+use crate::hull::{
+    Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, SideKind, SideLine, StationOffsets, TableForm, Written,
+};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
+
+/// Two positions nearer than this are one \[m\].
+pub(super) const SAME: f64 = 1e-6;
+
+/// Reads the fields of one table.
+pub(super) struct Reader<'a> {
+    pub(super) settings: &'a Settings,
+    pub(super) form: TableForm,
+    pub(super) units: Units,
+    pub(super) problems: &'a mut Problems,
+    /// Digits after the decimal sign of the offsets at most.
+    decimals: usize,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(settings: &'a Settings, mut form: TableForm, units: Units, problems: &'a mut Problems) -> Self {
+        (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
+        form.full_breadths = settings.full.unwrap_or(false);
+        Self { settings, form, units, problems, decimals: 0 }
+    }
+
+    fn reading(&mut self, field: &Field, unit: Notation) -> Option<CellReading> {
+        let rules = CellRules { unit, decimal_comma: self.form.decimal_comma };
+        match parse_cell(&field.text, rules) {
+            Ok(reading) => Some(reading),
+            Err(error) => {
+                let code = if matches!(error, crate::units::CellError::DecimalComma { .. }) { "E308" } else { "E301" };
+                self.problems.error_at(code, field, error.to_string(), &error.remedy());
+                None
+            }
+        }
+    }
+
+    /// A cell of half-breadths (`half`), or of heights.
+    pub(super) fn cell(&mut self, field: &Field, half: bool) -> Cell {
+        let unit = if half { self.units.y } else { self.units.z };
+        let Some(reading) = self.reading(field, unit) else { return Cell::default() };
+        if let CellWriting::Plain { decimals } = reading.writing {
+            self.decimals = self.decimals.max(decimals);
+        }
+        let share = if half && self.form.full_breadths { 0.5 } else { 1.0 };
+        let entry = match reading.entry {
+            CellEntry::Absent => Entry::Absent,
+            CellEntry::Unknown => Entry::Unknown,
+            CellEntry::Length(value) => Entry::Given(share * value),
+        };
+        let marks = Marks {
+            doubtful: reading.doubtful,
+            locked: reading.locked,
+            knuckle: reading.knuckle,
+            tangent: reading.tangent,
+        };
+        let written = Written { text: field.text.trim().to_owned(), row: field.row, column: field.column };
+        Cell { entry, marks, written: Some(written) }
+    }
+
+    /// A single length beside the offsets; none where nothing is written.
+    pub(super) fn length(&mut self, field: &Field, unit: Notation) -> Option<f64> {
+        match self.reading(field, unit)?.entry {
+            CellEntry::Length(value) => Some(value),
+            CellEntry::Absent | CellEntry::Unknown => None,
+        }
+    }
+
+    /// A position across the stations \[m\].
+    fn across(&self, position: Position) -> f64 {
+        match position.place {
+            Place::Number(number) => self.units.z.metres(match self.settings.waterline_spacing {
+                Some(spacing) if position.named => return number * spacing,
+                _ => number,
+            }),
+            Place::Length(length) => length,
+            Place::AftPerpendicular | Place::ForePerpendicular | Place::Midship => 0.0,
+        }
+    }
+
+    /// A position of a station \[m\]. Numbers that are lengths carry their unit already.
+    pub(super) fn along(&self, position: Position) -> f64 {
+        let lpp = self.settings.stated.length_between_perpendiculars;
+        match (position.place, self.form.origin) {
+            (Place::Number(number), Origin::Lengths) => self.units.x.metres(number),
+            (Place::Number(number), Origin::Shifted { offset, sign }) => offset + sign * self.units.x.metres(number),
+            (Place::Number(number), Origin::Numbers { offset, spacing }) => offset + spacing * number,
+            (Place::Length(length), Origin::Shifted { offset, sign }) => offset + sign * length,
+            (Place::Length(length), _) => length,
+            (Place::AftPerpendicular, _) => 0.0,
+            (Place::ForePerpendicular, _) => lpp.unwrap_or(0.0),
+            (Place::Midship, _) => 0.5 * lpp.unwrap_or(0.0),
+        }
+    }
+
+    /// Positions of fields; a field that names none is an error, and none is returned then.
+    fn positions(&mut self, fields: &[Field], what: &str) -> Option<Vec<Position>> {
+        let mut list = Vec::with_capacity(fields.len());
+        for field in fields {
+            match position(field.trimmed(), self.form.decimal_comma) {
+                Ok(position) => list.push(position),
+                Err(error) => {
+                    let message = format!("the header of a {what} names no position: {error}");
+                    let remedy = super::settings::suggestion(field.trimmed());
+                    self.problems.error_at("E310", field, message, &remedy);
+                }
+            }
+        }
+        (list.len() == fields.len()).then_some(list)
+    }
+
+    /// Digits of the offsets, when they are written as decimal numbers.
+    pub(super) fn finish(mut self) -> TableForm {
+        self.form.decimals = (self.form.notation != Notation::FeetInchesEighths).then_some(self.decimals);
+        self.form
+    }
+}
+
+/// The order of positions, when they rise or fall; otherwise the errors are noted.
+pub(super) fn order(values: &[f64], fields: &[Field], what: &str, problems: &mut Problems) -> Option<Order> {
+    let rising = values.windows(2).filter(|w| w[1] > w[0]).count();
+    let order = if 2 * rising >= values.len().saturating_sub(1) { Order::Rising } else { Order::Falling };
+    let mut good = true;
+    for i in 1..values.len() {
+        let (before, here) = (values[i - 1], values[i]);
+        if let Some(twin) = values[..i].iter().position(|v| (v - here).abs() < SAME) {
+            let twin = &fields[twin];
+            let place = format!("row {}, column {}", twin.row, twin.column);
+            let message = format!("a {what} at {here} m stands in {place} already ('{}')", twin.trimmed());
+            problems.error_at("E306", &fields[i], message, "Take one of them away, or correct its position");
+            good = false;
+        } else if (here > before) != (order == Order::Rising) {
+            let word = if order == Order::Rising { "rise" } else { "fall" };
+            let message = format!(
+                "the positions of the {what}s {word}, but {here} m ('{}') follows {before} m ('{}')",
+                fields[i].trimmed(),
+                fields[i - 1].trimmed()
+            );
+            problems.error_at("E303", &fields[i], message, "Correct the position, or put the lines in order");
+            good = false;
+        }
+    }
+    good.then_some(order)
+}
+
+/// Items in rising order.
+fn rising<T>(mut items: Vec<T>, order: Order) -> Vec<T> {
+    if order == Order::Falling {
+        items.reverse();
+    }
+    items
+}
+
+fn kept(fields: &[Field], values: &[f64], order: Order) -> Vec<Kept> {
+    let list = fields.iter().zip(values).map(|(f, &value)| Kept { text: f.trimmed().to_owned(), value }).collect();
+    rising(list, order)
+}
+
+/// The stations and lines of one block with their positions \[m\].
+struct Placed {
+    xs: Vec<f64>,
+    across: Vec<f64>,
+    station_order: Order,
+    across_order: Order,
+}
+
+/// The table of the blocks of a file.
+pub(super) fn assemble(
+    blocks: Vec<Block>,
+    form: TableForm,
+    settings: &Settings,
+    problems: &mut Problems,
+) -> Option<OffsetTable> {
+    let first = blocks.first()?;
+    let corner = Corner::of(first.corner.trimmed());
+    let comma = form.decimal_comma;
+    let unread = |fields: &mut dyn Iterator<Item = &Field>| -> Vec<Position> {
+        fields.filter_map(|f| position(f.trimmed(), comma).ok()).collect()
+    };
+    let breadths = || blocks.iter().filter(|b| b.across == Axis::Waterline);
+    let y = Size::of(breadths().flat_map(|b| &b.stations).flat_map(|line| &line.cells), comma);
+    let y = if breadths().next().is_some() {
+        y
+    } else {
+        Size::of(blocks.iter().flat_map(|b| &b.stations).flat_map(|line| &line.cells), comma)
+    };
+    let heads = unread(&mut blocks.iter().flat_map(|b| &b.heads));
+    let stations = unread(&mut first.stations.iter().map(|line| &line.head));
+    let half = if settings.full == Some(true) { 0.5 } else { 1.0 };
+    // Which unit the offsets have is not known yet, but their size is when it tells stations from lengths.
+    let rough = settings.units.or(corner.unit).unwrap_or(if y.eighths > 0 {
+        Notation::Feet
+    } else if y.largest > 120.0 {
+        Notation::Millimetres
+    } else {
+        Notation::Metres
+    });
+    let (origin, numbers) = origin(settings, corner, &stations, half * rough.metres(y.largest), problems);
+    let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
+    let units = units(settings, corner, sizes, numbers, problems);
+    let mut reader = Reader::new(settings, TableForm { origin, ..form }, units, problems);
+    let mut table = OffsetTable::default();
+    for block in blocks {
+        let Some(placed) = place(&block, &mut reader) else { continue };
+        if block.across == Axis::Waterline && !table.waterlines.is_empty() {
+            let message = "a second block of half-breadths".to_owned();
+            reader.problems.error_at(
+                "E306",
+                &block.corner,
+                message,
+                "Give one block of half-breadths and one of heights",
+            );
+            continue;
+        }
+        insert(&mut table, block, placed, &mut reader);
+    }
+    checks::signs(&mut table, &mut reader);
+    table.form = reader.finish();
+    Some(table)
+}
+
+fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
+    let what = if block.across == Axis::Waterline { "waterline" } else { "buttock" };
+    let lines: Vec<Field> = block.stations.iter().map(|line| line.head.clone()).collect();
+    let heads = reader.positions(&block.heads, what);
+    let stations = reader.positions(&lines, "station");
+    let (heads, stations) = (heads?, stations?);
+    let across: Vec<f64> = heads.into_iter().map(|p| reader.across(p)).collect();
+    let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();
+    let across_order = order(&across, &block.heads, what, reader.problems);
+    let station_order = order(&xs, &lines, "station", reader.problems);
+    Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })
+}
+
+/// Puts a block into the table.
+fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Reader<'_>) {
+    let half = block.across == Axis::Waterline;
+    let heads = kept(&block.heads, &placed.across, placed.across_order);
+    let across = rising(placed.across, placed.across_order);
+    let lines = rising(block.stations, placed.station_order);
+    let xs = rising(placed.xs, placed.station_order);
+    let fields: Vec<Field> = lines.iter().map(|line| line.head.clone()).collect();
+    let first = table.stations.is_empty();
+    if first {
+        table.stations = lines.iter().zip(&xs).map(|(line, &x)| StationOffsets::new(name_of(line), x)).collect();
+        reader.form.station_heads = kept(&fields, &xs, Order::Rising);
+        reader.form.station_order = placed.station_order;
+        reader.form.rows = block.rows;
+        reader.form.trailing_separator = block.trailing;
+    }
+    let mut columns: Vec<SideLine> = Vec::new();
+    if let Some(head) = &block.name_column {
+        let texts =
+            lines.iter().map(|line| line.name.as_ref().map(|f| Kept { text: f.trimmed().to_owned(), value: 0.0 }));
+        let texts = texts.collect();
+        columns.push(SideLine { kind: SideKind::Name, head: head.trimmed().to_owned(), before: true, texts });
+    }
+    columns.extend(block.sides.iter().map(|side| SideLine {
+        kind: side.kind,
+        head: side.head.trimmed().to_owned(),
+        before: side.before,
+        texts: Vec::new(),
+    }));
+    let named = usize::from(block.name_column.is_some());
+    for (line, x) in lines.iter().zip(&xs) {
+        // The second block gives the same stations, perhaps fewer.
+        let at = table.stations.iter().position(|s| (s.station.x - x).abs() < SAME);
+        let cells: Vec<Cell> = line.cells.iter().map(|field| reader.cell(field, half)).collect();
+        let mut sides = Vec::new();
+        for (side, field) in block.sides.iter().zip(&line.sides) {
+            let unit = match side.kind {
+                SideKind::FlatOfBottom | SideKind::DeckHalfBreadth => reader.units.y,
+                _ => reader.units.z,
+            };
+            let full = unit == reader.units.y && reader.form.full_breadths;
+            let is_breadth = matches!(side.kind, SideKind::FlatOfBottom | SideKind::DeckHalfBreadth);
+            let value = reader.length(field, unit).map(|v| if full && is_breadth { 0.5 * v } else { v });
+            sides.push((side.kind, value, field.trimmed().to_owned()));
+        }
+        let Some(at) = at else {
+            let message = format!("a station at {x} m that the half-breadths do not have");
+            reader.problems.error_at("E306", &line.head, message, "Give the same stations in both blocks");
+            continue;
+        };
+        let station = &mut table.stations[at];
+        *(if half { &mut station.half_breadths } else { &mut station.heights }) = cells;
+        for (column, (kind, value, text)) in columns[named..].iter_mut().zip(sides) {
+            column.texts.push(value.map(|value| Kept { text, value }));
+            *side_value(station, kind) = value;
+        }
+    }
+    let corner = block.corner.trimmed().to_owned();
+    if half {
+        table.endings = endings(&block.endings, placed.across_order, across.len(), reader);
+        table.waterlines = across;
+        reader.form.waterline_order = placed.across_order;
+        (reader.form.corner, reader.form.waterline_heads, reader.form.side_columns) = (Some(corner), heads, columns);
+    } else {
+        table.buttocks = across;
+        (reader.form.buttock_corner, reader.form.buttock_heads) = (Some(corner), heads);
+        reader.form.buttock_columns = columns;
+    }
+}
+
+fn name_of(line: &Line) -> String {
+    let own = line.name.as_ref().filter(|name| !name.is_blank());
+    own.unwrap_or(&line.head).trimmed().to_owned()
+}
+
+/// The place of a side value; that of a name or an ending is the deck on the centreline, which no caller asks for.
+fn side_value(station: &mut StationOffsets, kind: SideKind) -> &mut Option<f64> {
+    match kind {
+        SideKind::Keel => &mut station.keel_height,
+        SideKind::FlatOfBottom => &mut station.flat_of_bottom,
+        SideKind::FlatOfSide => &mut station.flat_of_side,
+        SideKind::DeckHeight => &mut station.deck_height,
+        SideKind::DeckHalfBreadth => &mut station.deck_half_breadth,
+        SideKind::DeckCentreHeight | SideKind::Name | SideKind::Stern | SideKind::Stem => {
+            &mut station.deck_centre_height
+        }
+    }
+}
+
+/// The ends of the waterlines.
+fn endings(lines: &[(SideKind, Line)], order: Order, count: usize, reader: &mut Reader<'_>) -> Vec<[Option<f64>; 2]> {
+    let mut ends = vec![[None; 2]; if lines.is_empty() { 0 } else { count }];
+    for (kind, line) in lines {
+        let fields = rising(line.cells.clone(), order);
+        let end = usize::from(*kind == SideKind::Stem);
+        let mut texts = Vec::with_capacity(fields.len());
+        for (ends, field) in ends.iter_mut().zip(&fields) {
+            let unit = reader.units.x;
+            // Endings are lengths even where stations are numbered.
+            let value = reader.length(field, unit).map(|v| match reader.form.origin {
+                Origin::Shifted { offset, sign } => offset + sign * v,
+                Origin::Lengths | Origin::Numbers { .. } => v,
+            });
+            ends[end] = value;
+            texts.push(value.map(|value| Kept { text: field.trimmed().to_owned(), value }));
+        }
+        let head = line.head.trimmed().to_owned();
+        reader.form.side_rows.push(SideLine { kind: *kind, head, before: false, texts });
+    }
+    ends
+}

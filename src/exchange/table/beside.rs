@@ -1,0 +1,203 @@
+//! The TOML file beside a table.
+
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+use super::problem::{Field, Problems};
+use super::settings::{KEYS, Settings, Value, nearest};
+use crate::hull::{FeatureLine, LineKind, TransomPlane};
+
+/// Longer files are no conventions \[bytes\].
+const LARGEST: usize = 1 << 20;
+/// The tables of the file.
+const TABLES: [&str; 4] = ["table", "endings", "transom", "line"];
+
+struct Beside<'a> {
+    file: &'a str,
+    text: &'a str,
+    problems: &'a mut Problems,
+}
+
+/// Reads the conventions of the file `name` with the contents `text`. A file that has none of our tables, as a design
+/// file of the same name, is left alone with a note.
+pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &mut Problems) {
+    let mut beside = Beside { file: name, text, problems };
+    if text.len() > LARGEST {
+        let message = format!("{} bytes; conventions have at most {LARGEST}", text.len());
+        return beside.problem("", &(0..0), message, "");
+    }
+    let document = match DeTable::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let span = error.span().unwrap_or(0..0);
+            return beside.problem("", &span, format!("not TOML: {}", error.message()), "");
+        }
+    };
+    let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
+    let near = |name: &str| nearest(name, TABLES.into_iter());
+    if !names.iter().any(|name| TABLES.contains(name) || near(name).is_some()) {
+        let message =
+            format!("{name} beside the table has no [table], [endings], [transom] or [[line]] and is not read");
+        return beside.problems.note(message);
+    }
+    for (key, value) in document.get_ref() {
+        let (key, span) = (key.get_ref().as_ref(), key.span());
+        match (key, value.get_ref()) {
+            ("table", DeValue::Table(table)) => beside.table(table, settings),
+            ("endings", DeValue::Table(table)) => beside.endings(table, settings),
+            ("transom", DeValue::Table(table)) => beside.transom(table, settings),
+            ("line", DeValue::Array(lines)) => {
+                for line in lines {
+                    match line.get_ref() {
+                        DeValue::Table(table) => beside.line(table, &line.span(), settings),
+                        other => {
+                            beside.problem(key, &line.span(), format!("{}, expected a table", other.type_str()), "")
+                        }
+                    }
+                }
+            }
+            ("line", _) => beside.problem(key, &span, "one line".to_owned(), "Write [[line]] with two brackets"),
+            (known, other) if TABLES.contains(&known) => {
+                beside.problem(
+                    key,
+                    &span,
+                    format!("{}, expected a table", other.type_str()),
+                    &format!("Write [{known}]"),
+                );
+            }
+            _ => {
+                let remedy = near(key).map_or_else(
+                    || format!("Known are [{}]", TABLES.join("], [")),
+                    |near| format!("Did you mean [{near}]?"),
+                );
+                beside.problem(key, &span, "not a table of conventions".to_owned(), &remedy);
+            }
+        }
+    }
+}
+
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
+        DeValue::Float(n) => n.as_str().parse().ok().filter(|n: &f64| n.is_finite()),
+        _ => None,
+    }
+}
+
+impl Beside<'_> {
+    fn problem(&mut self, found: &str, span: &Range<usize>, message: String, remedy: &str) {
+        let before = self.text.get(..span.start).unwrap_or("");
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let field = Field {
+            text: found.to_owned(),
+            row: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        };
+        self.problems.error_in(self.file, &field, message, remedy);
+    }
+
+    fn unknown(&mut self, key: &str, span: &Range<usize>, known: &[&str]) {
+        let near = nearest(key, known.iter().copied());
+        let remedy =
+            near.map_or_else(|| format!("Known are {}", known.join(", ")), |near| format!("Did you mean {near}?"));
+        self.problem(key, span, "not a key of the conventions".to_owned(), &remedy);
+    }
+
+    fn table(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            let Some(known) = KEYS.iter().find(|k| **k == name) else {
+                self.unknown(name, &key.span(), &KEYS);
+                continue;
+            };
+            let content = match value.get_ref() {
+                DeValue::String(text) => Value::Text(text.to_string()),
+                other => number(other).map_or(Value::Other(other.type_str()), Value::Number),
+            };
+            if let Err((message, remedy)) = settings.set(known, &content) {
+                self.problem(name, &value.span(), message, &remedy);
+            }
+        }
+    }
+
+    /// A list of points of `N` numbers.
+    fn points<const N: usize>(&mut self, key: &str, value: &DeValue<'_>, span: &Range<usize>) -> Vec<[f64; N]> {
+        let point = |item: &DeValue<'_>| match item {
+            DeValue::Array(numbers) if numbers.len() == N => {
+                let mut point = [0.0; N];
+                for (slot, n) in point.iter_mut().zip(numbers) {
+                    *slot = number(n.get_ref())?;
+                }
+                Some(point)
+            }
+            _ => None,
+        };
+        let list: Option<Vec<[f64; N]>> = match value {
+            DeValue::Array(items) => items.iter().map(|item| point(item.get_ref())).collect(),
+            _ => None,
+        };
+        list.unwrap_or_else(|| {
+            self.problem(key, span, format!("expected a list of points of {N} numbers"), "");
+            Vec::new()
+        })
+    }
+
+    fn endings(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            match name {
+                "stern" => settings.endings[0] = self.points(name, value.get_ref(), &value.span()),
+                "stem" => settings.endings[1] = self.points(name, value.get_ref(), &value.span()),
+                _ => self.unknown(name, &key.span(), &["stern", "stem"]),
+            }
+        }
+    }
+
+    fn transom(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
+        let mut plane = TransomPlane { x_base: 0.0, slope: 0.0 };
+        let mut placed = false;
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            let content = number(value.get_ref());
+            match (name, content) {
+                ("x", Some(x)) => (plane.x_base, placed) = (x, true),
+                ("slope", Some(slope)) => plane.slope = slope,
+                ("x" | "slope", None) => self.problem(name, &value.span(), "expected a number".to_owned(), ""),
+                _ => self.unknown(name, &key.span(), &["x", "slope"]),
+            }
+        }
+        if placed {
+            settings.transom = Some(plane);
+        } else {
+            self.problem(
+                "transom",
+                &(0..0),
+                "a transom without x".to_owned(),
+                "Write x = where it meets the base line",
+            );
+        }
+    }
+
+    fn line(&mut self, table: &DeTable<'_>, span: &Range<usize>, settings: &mut Settings) {
+        let mut line = FeatureLine { name: String::new(), kind: LineKind::Knuckle, points: Vec::new() };
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            match (name, value.get_ref()) {
+                ("name", DeValue::String(text)) => line.name = text.to_string(),
+                ("kind", DeValue::String(text)) if text.as_ref() == "knuckle" => line.kind = LineKind::Knuckle,
+                ("kind", DeValue::String(text)) if text.as_ref() == "tangent" => line.kind = LineKind::Tangent,
+                ("kind", _) => self.problem(name, &value.span(), "expected knuckle or tangent".to_owned(), ""),
+                ("points", points) => line.points = self.points(name, points, &value.span()),
+                ("name", _) => self.problem(name, &value.span(), "expected a text".to_owned(), ""),
+                _ => self.unknown(name, &key.span(), &["name", "kind", "points"]),
+            }
+        }
+        if line.points.len() < 2 {
+            self.problem("line", span, format!("a line of {} points", line.points.len()), "Give two points at least");
+        } else {
+            line.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            settings.lines.push(line);
+        }
+    }
+}

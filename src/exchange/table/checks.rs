@@ -1,0 +1,104 @@
+//! Checks of a table as a whole. A cell that is merely suspicious is not an error of reading.
+
+use super::assemble::{Reader, SAME};
+use super::problem::{Field, Problems};
+use super::settings::Settings;
+use crate::hull::{Cell, Entry, OffsetTable};
+
+fn place(cell: &Cell) -> Field {
+    cell.written.as_ref().map(|w| Field { text: w.text.clone(), row: w.row, column: w.column }).unwrap_or_default()
+}
+
+/// Half-breadths are all positive, or all negative (starboard): then their sign is turned.
+pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
+    let values = || table.stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value);
+    let (negative, positive) = (values().filter(|&y| y < 0.0).count(), values().filter(|&y| y > 0.0).count());
+    if negative == 0 {
+        return;
+    }
+    if positive == 0 {
+        reader.problems.note("all half-breadths are negative (starboard side); their sign is turned".to_owned());
+        reader.form.negative = true;
+        for cell in table.stations.iter_mut().flat_map(|s| &mut s.half_breadths) {
+            if let Entry::Given(value) = &mut cell.entry {
+                *value = -*value;
+            }
+        }
+        return;
+    }
+    let few_negative = negative <= positive;
+    for station in &table.stations {
+        for cell in &station.half_breadths {
+            if cell.value().is_some_and(|y| if few_negative { y < 0.0 } else { y > 0.0 }) {
+                let message = format!(
+                    "half-breadths of both signs: {negative} are negative and {positive} positive; this one stands at station '{}'",
+                    station.station.name
+                );
+                let remedy = "Half-breadths are distances from the centreplane: give them all the same sign";
+                reader.problems.error_at("E309", &place(cell), message, remedy);
+            }
+        }
+    }
+}
+
+/// The endings of the conventions, at the waterlines of the table.
+pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &mut Problems) {
+    for (end, points) in settings.endings.iter().enumerate() {
+        for &[z, x] in points {
+            let Some(at) = table.waterlines.iter().position(|w| (w - z).abs() < SAME) else {
+                let message = format!("[endings] gives x {x} m at the height {z} m, where the table has no waterline");
+                problems.error("E311", message, "Give the profiles at the heights of the waterlines");
+                continue;
+            };
+            if table.endings.is_empty() {
+                table.endings = vec![[None; 2]; table.waterlines.len()];
+            }
+            table.endings[at][end] = Some(x);
+        }
+    }
+}
+
+/// What is wrong with a table, or should be known about it, once its numbers are read.
+pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
+    breadths(table, full, problems);
+    let offsets = table.stations.iter().flat_map(|s| s.half_breadths.iter().chain(&s.heights));
+    let given = offsets.filter(|cell| cell.value().is_some()).count();
+    let outlines = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
+    if given + outlines == 0 {
+        problems.error("E313", "the table has no offset at all".to_owned(), "");
+    }
+    if !table.endings.iter().any(|e| e.iter().any(Option::is_some)) && !table.waterlines.is_empty() {
+        let message = "no profiles of stem and stern; the ends of the waterlines will be extrapolated".to_owned();
+        problems.warning("W306", message, "Give rows 'stern' and 'stem' below the half-breadths, or [endings]");
+    }
+    if let Some(draught) = table.stated.draught {
+        let below = table.waterlines.iter().filter(|&&z| z <= draught + SAME).count();
+        if (1..6).contains(&below) {
+            let message = format!("only {below} waterlines up to T {draught} m: volumes from this table are coarse");
+            problems.warning("W307", message, "");
+        }
+    }
+}
+
+/// Full breadths that are meant as half-breadths, when B tells.
+fn breadths(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
+    let Some(breadth) = table.stated.breadth else { return };
+    let values = || table.stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value);
+    let largest = values().fold(0.0, f64::max);
+    let half = 0.5 * breadth;
+    if full != Some(true) && largest > 1.8 * half && largest < 2.2 * half {
+        let beyond = values().filter(|&y| y > half * (1.0 + 1e-6)).count();
+        let message = format!(
+            "{beyond} half-breadths exceed B/2 = {half:.2} by up to {:.2} m: the table seems to hold full breadths",
+            largest - half
+        );
+        problems.error("E304", message, "Use breadths = \"full\"");
+    }
+    if full == Some(true) && largest > 0.0 && largest < 0.6 * half {
+        let message = format!(
+            "breadths are declared full, but half of the largest of them is {largest:.2} m and B/2 is {half:.2} m: the table \
+             seems to hold half-breadths"
+        );
+        problems.error("E304", message, "Use breadths = \"half\"");
+    }
+}

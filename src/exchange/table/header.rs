@@ -1,0 +1,324 @@
+//! Headers: what a line is about (stations, waterlines, buttocks), where it lies, and in which unit.
+//!
+//! A position is a number in any notation, alone or with words: `1.5`, `1.50 m`, `3-0-0`, `WL 3`, `WL 3 (1.50 m)`,
+//! `z = 1.5`, `STN 1 1/2`, `station 7 @ 14.7 m`, `wl0.75`, `AP`, `FP`.
+
+use crate::hull::SideKind;
+use crate::units::{Dimension, Notation, UnitError, parse};
+
+/// What a header is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Stations by their distance.
+    X,
+    /// Stations by their number.
+    Station,
+    Waterline,
+    Buttock,
+}
+
+impl Axis {
+    pub(super) fn is_station(self) -> bool {
+        matches!(self, Self::X | Self::Station)
+    }
+}
+
+/// Where a line lies, as it was written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// A plain number, in the unit of the table or a station number.
+    Number(f64),
+    /// A length \[m\] with its own unit.
+    Length(f64),
+    AftPerpendicular,
+    ForePerpendicular,
+    Midship,
+}
+
+/// A header that names a position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Position {
+    pub(super) place: Place,
+    /// What the words beside it say.
+    pub(super) axis: Option<Axis>,
+    /// Only a number after a word, as `WL 3`: a name or a height.
+    pub(super) named: bool,
+}
+
+/// Words of a text in lower case: runs of letters, and runs of other signs left out.
+fn words(text: &str) -> Vec<String> {
+    text.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
+}
+
+fn axis_word(word: &str) -> Option<Axis> {
+    Some(match word {
+        "x" | "distance" | "abscissa" => Axis::X,
+        "station" | "stations" | "stn" | "stns" | "sta" | "st" | "frame" | "frames" | "fr" | "ordinate" | "section"
+        | "sections" | "sec" | "rebro" | "spant" => Axis::Station,
+        "z" | "wl" | "wls" | "waterline" | "waterlines" | "height" | "heights" | "draught" | "draft" | "level" => {
+            Axis::Waterline
+        }
+        "y" | "bt" | "butt" | "buttock" | "buttocks" | "bl" => Axis::Buttock,
+        _ => return None,
+    })
+}
+
+/// What the words of a header are about: the first word that says it.
+pub(super) fn axis_of(text: &str) -> Option<Axis> {
+    words(text).iter().find_map(|word| axis_word(word))
+}
+
+/// The unit that a header declares: in brackets, or as its last word after a low line (`x_from_AP_m`).
+pub(super) fn unit_of(text: &str) -> Option<Notation> {
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((_, after)) = text.split_once(open)
+            && let Some((inside, _)) = after.split_once(close)
+            && let Some(unit) = Notation::from_word(inside)
+        {
+            return Some(unit);
+        }
+    }
+    let (before, last) = text.trim().rsplit_once(['_', ' ', ','])?;
+    (!before.is_empty()).then(|| Notation::from_word(last)).flatten()
+}
+
+/// Names of side columns and rows; the first of each kind is the one that we write.
+pub(super) const SIDES: [(&str, SideKind); 36] = [
+    ("keel", SideKind::Keel),
+    ("z keel", SideKind::Keel),
+    ("keel height", SideKind::Keel),
+    ("height of keel", SideKind::Keel),
+    ("keel line", SideKind::Keel),
+    ("rabbet", SideKind::Keel),
+    ("z min", SideKind::Keel),
+    ("flat of bottom", SideKind::FlatOfBottom),
+    ("flat bottom", SideKind::FlatOfBottom),
+    ("fob", SideKind::FlatOfBottom),
+    ("half siding", SideKind::FlatOfBottom),
+    ("flat of side", SideKind::FlatOfSide),
+    ("flat side", SideKind::FlatOfSide),
+    ("fos", SideKind::FlatOfSide),
+    ("deck at side", SideKind::DeckHeight),
+    ("z top", SideKind::DeckHeight),
+    ("z deck", SideKind::DeckHeight),
+    ("deck height", SideKind::DeckHeight),
+    ("height of deck", SideKind::DeckHeight),
+    ("sheer", SideKind::DeckHeight),
+    ("z max", SideKind::DeckHeight),
+    ("half breadth at deck", SideKind::DeckHalfBreadth),
+    ("y deck", SideKind::DeckHalfBreadth),
+    ("deck half breadth", SideKind::DeckHalfBreadth),
+    ("deck centre", SideKind::DeckCentreHeight),
+    ("deck center", SideKind::DeckCentreHeight),
+    ("deck at centre", SideKind::DeckCentreHeight),
+    ("deck at center", SideKind::DeckCentreHeight),
+    ("stern", SideKind::Stern),
+    ("x stern", SideKind::Stern),
+    ("stern profile", SideKind::Stern),
+    ("aft end", SideKind::Stern),
+    ("stem", SideKind::Stem),
+    ("x stem", SideKind::Stem),
+    ("stem profile", SideKind::Stem),
+    ("fore end", SideKind::Stem),
+];
+
+/// The side column or row that a header names.
+pub(super) fn side_of(text: &str) -> Option<SideKind> {
+    let mut words = words(text);
+    if words.len() > 1 && words.last().is_some_and(|last| Notation::from_word(last).is_some()) {
+        words.pop();
+    }
+    let name = words.join(" ");
+    if text.bytes().any(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    SIDES.iter().find(|(known, _)| *known == name).map(|(_, kind)| *kind)
+}
+
+/// The header that we write over a side column.
+pub(super) fn side_name(kind: SideKind) -> &'static str {
+    if kind == SideKind::DeckHalfBreadth {
+        // With the hyphen that the words leave out.
+        return "half-breadth at deck";
+    }
+    SIDES.iter().find(|(_, k)| *k == kind).map_or("name", |(name, _)| name)
+}
+
+/// What the field says in which the headers cross.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Corner {
+    pub(super) rows: Option<Axis>,
+    pub(super) columns: Option<Axis>,
+    pub(super) unit: Option<Notation>,
+    /// Positions from midship or from FP, as the words say.
+    pub(super) from: Option<From>,
+    /// Spaces in L_PP, as in `station_20_over_Lpp`.
+    pub(super) spaces: Option<f64>,
+}
+
+/// From where positions of stations count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum From {
+    AftPerpendicular,
+    ForePerpendicular,
+    Midship,
+}
+
+impl From {
+    pub(super) fn of(text: &str) -> Option<Self> {
+        words(&text.replace('.', "")).iter().find_map(|word| match word.as_str() {
+            "ap" => Some(Self::AftPerpendicular),
+            "fp" => Some(Self::ForePerpendicular),
+            "midship" | "midships" | "amidships" | "amidship" => Some(Self::Midship),
+            _ => None,
+        })
+    }
+}
+
+impl Corner {
+    pub(super) fn of(text: &str) -> Self {
+        let unit = unit_of(text);
+        let bare = text.split(['[', '(']).next().unwrap_or("");
+        let parts = bare.split_once(['\\', '/']).filter(|(_, after)| axis_of(after).is_some());
+        let (rows, columns) = match parts {
+            Some((before, after)) => (axis_of(before), axis_of(after)),
+            None => (axis_of(bare), None),
+        };
+        let lower = text.to_lowercase();
+        let spaces = lower
+            .contains("lpp")
+            .then(|| lower.split(|c: char| !c.is_ascii_digit()).find(|d| !d.is_empty())?.parse().ok())
+            .flatten();
+        Self { rows, columns, unit, from: From::of(text), spaces: spaces.filter(|&n: &f64| n > 0.0) }
+    }
+}
+
+/// What a text without words writes.
+fn number(text: &str) -> Result<Place, UnitError> {
+    let measure = parse(text)?;
+    match measure.dimension {
+        Dimension::None => Ok(Place::Number(measure.value)),
+        Dimension::Length => Ok(Place::Length(measure.value)),
+        other => Err(UnitError::Kind { text: text.to_owned(), found: other.as_str(), expected: "a length" }),
+    }
+}
+
+/// The position that a header names.
+///
+/// # Errors
+/// Why it names none.
+pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, UnitError> {
+    let text = text.trim();
+    let replaced = if decimal_comma { text.replace(',', ".") } else { String::new() };
+    let text = if decimal_comma { replaced.as_str() } else { text };
+    let axis = axis_of(text);
+    match text.to_lowercase().replace('.', "").as_str() {
+        "ap" => return Ok(Position { place: Place::AftPerpendicular, axis, named: false }),
+        "fp" => return Ok(Position { place: Place::ForePerpendicular, axis, named: false }),
+        "midship" | "midships" | "amidships" => return Ok(Position { place: Place::Midship, axis, named: false }),
+        _ => {}
+    }
+    // A length in brackets, or after = or @, is the position; what stands before it is a name.
+    let mut bare = text;
+    if let Some((before, after)) = text.split_once(['(', '[']) {
+        let inside = after.trim_end().trim_end_matches([')', ']']);
+        let unit = Notation::from_word(inside).is_some();
+        if !before.trim().is_empty() && !unit {
+            let inside = inside.trim_start_matches(|c: char| c.is_alphabetic() || c.is_whitespace() || c == '=');
+            return Ok(Position { place: number(inside)?, axis, named: false });
+        }
+        if before.trim().is_empty() {
+            bare = inside;
+        }
+    }
+    if let Some((_, after)) = bare.split_once(['=', '@']) {
+        return Ok(Position { place: number(&unbracketed(after))?, axis, named: false });
+    }
+    if let Ok(place) = number(&unbracketed(bare)) {
+        return Ok(Position { place, axis, named: false });
+    }
+    // Words before the number, or after it.
+    let start = bare.find(|c: char| c.is_ascii_digit()).unwrap_or(bare.len());
+    let signed = bare[..start].ends_with('.') || bare[..start].ends_with(" -") || bare[..start] == *"-";
+    let start = if signed { start - 1 } else { start };
+    let prefix_is_words = bare[..start].chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '-' | '#'));
+    let rest = &bare[start..];
+    if rest.is_empty() || !prefix_is_words {
+        return Err(UnitError::Number(text.chars().take(40).collect()));
+    }
+    let rest = match rest.trim_end().rsplit_once([' ', '_']) {
+        Some((before, word)) if axis_of(word).is_some() => before,
+        _ => rest,
+    };
+    Ok(Position { place: number(&unbracketed(rest))?, axis, named: start > 0 })
+}
+
+/// `1.50 [m]` as `1.50 m`.
+fn unbracketed(text: &str) -> String {
+    text.chars().map(|c| if matches!(c, '[' | ']' | '(' | ')') { ' ' } else { c }).collect::<String>().trim().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(text: &str) -> Place {
+        position(text, false).unwrap().place
+    }
+
+    #[test]
+    fn positions_of_every_writing() {
+        assert_eq!(place("1.5"), Place::Number(1.5));
+        assert_eq!(place(" -3.25 "), Place::Number(-3.25));
+        assert_eq!(place("1.50 m"), Place::Length(1.5));
+        assert_eq!(place("1.50 [m]"), Place::Length(1.5));
+        assert_eq!(place("WL 3 (1.50 m)"), Place::Length(1.5));
+        assert_eq!(place("WL 3 (1.50)"), Place::Number(1.5));
+        assert_eq!(place("WL 3 (z = 1.50 m)"), Place::Length(1.5));
+        assert_eq!(place("z = 1.5"), Place::Number(1.5));
+        assert_eq!(place("station 7 @ 14.7 m"), Place::Length(14.7));
+        assert_eq!(place("STN 1/4"), Place::Number(0.25));
+        assert_eq!(place("STN 1 1/2"), Place::Number(1.5));
+        assert_eq!(place("station 7"), Place::Number(7.0));
+        assert_eq!(place("WL -0.5"), Place::Number(-0.5));
+        assert_eq!(place("WL-3"), Place::Number(3.0));
+        assert_eq!(place("wl0.075"), Place::Number(0.075));
+        assert_eq!(place("WL .5"), Place::Number(0.5));
+        assert_eq!(place("1.5 WL"), Place::Number(1.5));
+        assert_eq!(place("1.5 m WL"), Place::Length(1.5));
+        assert_eq!(place("R5"), Place::Number(5.0));
+        assert_eq!(place("3-0-0"), Place::Length(0.9144));
+        assert_eq!((place("A.P."), place("FP")), (Place::AftPerpendicular, Place::ForePerpendicular));
+        assert_eq!(position("1,5", true).unwrap().place, Place::Number(1.5));
+        assert_eq!(position("WL 3", false).unwrap().axis, Some(Axis::Waterline));
+        for text in ["", "deck", "WL", "1.2.3", "abc 3 def", "nan", "inf"] {
+            assert!(position(text, false).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn corners() {
+        let corner = Corner::of("x\\z [mm]");
+        assert_eq!((corner.rows, corner.columns), (Some(Axis::X), Some(Axis::Waterline)));
+        assert_eq!(corner.unit, Some(Notation::Millimetres));
+        let corner = Corner::of("x_from_midship_m");
+        assert_eq!((corner.rows, corner.from), (Some(Axis::X), Some(From::Midship)));
+        assert_eq!(corner.unit, Some(Notation::Metres));
+        let corner = Corner::of("station_20_over_Lpp");
+        assert_eq!((corner.rows, corner.spaces), (Some(Axis::Station), Some(20.0)));
+        assert_eq!(Corner::of("").rows, None);
+        assert_eq!(Corner::of("station_as_printed").unit, None);
+    }
+
+    #[test]
+    fn sides() {
+        assert_eq!(side_of("z_keel"), Some(SideKind::Keel));
+        assert_eq!(side_of("Flat of Bottom [m]"), Some(SideKind::FlatOfBottom));
+        assert_eq!(side_of("half-breadth at deck"), Some(SideKind::DeckHalfBreadth));
+        assert_eq!(side_of("stern"), Some(SideKind::Stern));
+        assert_eq!(side_of("WL 3"), None);
+        for (_, kind) in SIDES {
+            assert_eq!(side_of(side_name(kind)), Some(kind));
+        }
+    }
+}

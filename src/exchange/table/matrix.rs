@@ -1,0 +1,266 @@
+//! The layout of matrices: which lines are stations, which are waterlines or buttocks, which stand beside them.
+//!
+//! One block is a header and the rows below it, to an empty line or the end of the file. What the rows are is taken from the
+//! conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends, and does
+//! not taper upwards.
+
+use super::header::{Axis, Corner, axis_of, side_of};
+use super::problem::{Field, Problems};
+use super::settings::Settings;
+use crate::hull::{Rows, SideKind};
+
+/// One station, or one ending, of a block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Line {
+    /// Its position.
+    pub(super) head: Field,
+    /// Its name, when that stands in a field of its own.
+    pub(super) name: Option<Field>,
+    /// As many as the block has heads.
+    pub(super) cells: Vec<Field>,
+    /// As many as the block has sides.
+    pub(super) sides: Vec<Field>,
+}
+
+/// A side column of a block.
+#[derive(Debug, Clone)]
+pub(super) struct Side {
+    pub(super) kind: SideKind,
+    pub(super) head: Field,
+    /// Before the offsets.
+    pub(super) before: bool,
+}
+
+/// One matrix, turned so that its lines are stations.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    pub(super) corner: Field,
+    pub(super) rows: Rows,
+    /// Why the rows are what they are, for the note.
+    pub(super) reason: &'static str,
+    /// Waterline or buttock.
+    pub(super) across: Axis,
+    /// Positions of the waterlines or buttocks.
+    pub(super) heads: Vec<Field>,
+    pub(super) sides: Vec<Side>,
+    pub(super) name_column: Option<Field>,
+    pub(super) stations: Vec<Line>,
+    /// Stern and stem.
+    pub(super) endings: Vec<(SideKind, Line)>,
+    /// Every row ended with an empty field.
+    pub(super) trailing: bool,
+}
+
+/// The blocks of a file, and the titles above the first.
+pub(super) fn blocks(rows: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> (Vec<Block>, Vec<Field>) {
+    let mut blocks = Vec::new();
+    let mut titles = Vec::new();
+    for part in rows.split(|row| row.is_empty()).filter(|part| !part.is_empty()) {
+        let mut part = part;
+        // A line with a single text above a table is its title.
+        while let [title, ..] = part
+            && title.iter().filter(|f| !f.is_blank()).count() == 1
+            && part.get(1).is_none_or(|next| next.len() > 1)
+            && title[0].text.chars().any(char::is_alphabetic)
+            && (part.len() > 1 || blocks.is_empty())
+            && part.get(1).is_none_or(|next| next.iter().filter(|f| !f.is_blank()).count() > 1)
+        {
+            titles.extend(title.iter().find(|f| !f.is_blank()).cloned());
+            part = &part[1..];
+        }
+        if !part.is_empty() {
+            blocks.extend(block(part, settings, problems));
+        }
+    }
+    (blocks, titles)
+}
+
+/// A rectangle of fields, without an empty last column; rows of other lengths are errors.
+fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Field>>, bool)> {
+    let length = |row: &Vec<Field>| row.iter().rposition(|f| !f.is_blank()).map_or(0, |at| at + 1);
+    let trailing = part.iter().all(|row| row.len() > 1 && row.last().is_some_and(Field::is_blank));
+    let width = part[0].len() - usize::from(trailing);
+    let wrong: Vec<&Vec<Field>> =
+        part.iter().filter(|row| length(row) > width || row.len() < part[0].len() && row.len() < width).collect();
+    // As many fields again as the header has: every number was cut in two at its decimal comma.
+    let doubled = wrong.iter().filter(|row| row.len() > width && row.len() + 3 >= 2 * width).count();
+    if doubled > 0 && 2 * doubled >= part.len() - 1 {
+        let message = format!(
+            "{doubled} rows have about twice as many fields as the header ({width}), the first of them {}: decimal commas between \
+             separators that are commas too",
+            wrong[0].len()
+        );
+        problems.error_in_row(
+            "E308",
+            wrong[0][0].row,
+            message,
+            "Separate the fields with ';' or tabs, or write decimal points",
+        );
+        return None;
+    }
+    for row in &wrong {
+        let message = format!("the row has {} fields, the header has {width}", row.len());
+        let remedy = if row.len() > width {
+            "Take away what is too much, or a decimal comma"
+        } else {
+            "Fill up with empty fields where there is no hull"
+        };
+        problems.error_in_row("E307", row[0].row, message, remedy);
+    }
+    if !wrong.is_empty() {
+        return None;
+    }
+    let even = part.iter().map(|row| {
+        let mut row: Vec<Field> = row.iter().take(width).cloned().collect();
+        while row.len() < width {
+            row.push(Field { text: String::new(), row: row[0].row, column: row.len() + 1 });
+        }
+        row
+    });
+    Some((even.collect(), trailing))
+}
+
+/// What the rows are, and why.
+fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static str) {
+    let rows_of = |axis: Axis| if axis.is_station() { Rows::Stations } else { Rows::Waterlines };
+    let other = |axis: Axis| if axis.is_station() { Rows::Waterlines } else { Rows::Stations };
+    if let Some(rows) = settings.rows {
+        return (rows, "by the conventions");
+    }
+    let corner = Corner::of(fields[0][0].trimmed());
+    if let (Some(rows), Some(_)) = (corner.rows, corner.columns) {
+        return (rows_of(rows), "by the first header");
+    }
+    let second = fields.get(1).and_then(|row| axis_of(row[0].trimmed()));
+    if let (Some(first), Some(second)) = (corner.rows, second)
+        && first.is_station() == second.is_station()
+        && side_of(fields[1][0].trimmed()).is_none()
+        && !fields[1][0].text.bytes().any(|b| b.is_ascii_digit())
+    {
+        return (other(first), "by the two headers");
+    }
+    let most = |cells: &mut dyn Iterator<Item = &Field>| {
+        let (mut stations, mut lines) = (0, 0);
+        for axis in cells.filter_map(|f| if side_of(&f.text).is_some() { None } else { axis_of(&f.text) }) {
+            *(if axis.is_station() { &mut stations } else { &mut lines }) += 1;
+        }
+        (stations != lines).then_some(if stations > lines { Axis::Station } else { Axis::Waterline })
+    };
+    if let Some(axis) = most(&mut fields[0].iter().skip(1)) {
+        return (other(axis), "by the words of the headers");
+    }
+    if let Some(axis) = most(&mut fields.iter().skip(1).map(|row| &row[0])).or(corner.rows) {
+        return (rows_of(axis), "by the words of the headers");
+    }
+    let (mut by_row, mut by_column) = (vec![0.0; fields.len() - 1], vec![0.0; fields[0].len().saturating_sub(1)]);
+    for (i, row) in fields.iter().skip(1).enumerate() {
+        for (j, field) in row.iter().skip(1).enumerate() {
+            let value: f64 = field.trimmed().replace(',', ".").parse().unwrap_or(0.0);
+            if value.is_finite() {
+                by_row[i] += value.abs();
+                by_column[j] += value.abs();
+            }
+        }
+    }
+    let tapers = |sums: &[f64]| match (sums.first(), sums.last()) {
+        (Some(&first), Some(&last)) => first.max(last) < 0.8 * sums.iter().copied().fold(0.0, f64::max),
+        _ => false,
+    };
+    match (tapers(&by_row), tapers(&by_column)) {
+        (true, false) => (Rows::Stations, "because the numbers taper to the first and the last row"),
+        (false, true) => (Rows::Waterlines, "because the numbers taper to the first and the last column"),
+        _ => (Rows::Stations, "assumed; the headers do not say it"),
+    }
+}
+
+fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
+    let width = fields.first().map_or(0, Vec::len);
+    let mut columns: Vec<Vec<Field>> = (0..width).map(|_| Vec::with_capacity(fields.len())).collect();
+    for row in fields {
+        for (column, field) in columns.iter_mut().zip(row) {
+            column.push(field);
+        }
+    }
+    columns
+}
+
+/// Whether a header is a bare word for the positions of lines: `x`, `z [m]`, `height`.
+fn is_positions(field: &Field, stations: bool) -> bool {
+    let text = field.trimmed();
+    side_of(text).is_none()
+        && axis_of(text).is_some_and(|axis| if stations { axis == Axis::X } else { axis == Axis::Waterline })
+}
+
+fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> Option<Block> {
+    let (fields, trailing) = rectangle(part, problems)?;
+    if fields.len() < 2 || fields[0].len() < 2 {
+        let message = format!("{} rows of {} fields are no table of offsets", fields.len(), fields[0].len());
+        problems.error_at("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
+        return None;
+    }
+    let (rows, reason) = orientation(&fields, settings);
+    let fields = if rows == Rows::Waterlines { transposed(fields) } else { fields };
+    // Names and positions of waterlines may stand in two lines, and those of stations too.
+    let word = |field: &Field| !field.text.bytes().any(|b| b.is_ascii_digit()) && !field.is_blank();
+    let top = usize::from(fields.len() > 2 && word(&fields[1][0]) && is_positions(&fields[1][0], false));
+    let names = fields[0].len() > 2 && {
+        let (first, second) = (&fields[0][0], &fields[0][1]);
+        let named = first.is_blank() || axis_of(first.trimmed()).is_none_or(|axis| axis == Axis::Station);
+        word(second) && is_positions(second, true) && named
+    };
+    let left = usize::from(names);
+    // With two lines of waterlines the names of the stations stand in the corner's row.
+    let heads = &fields[top];
+    let corner = if top == 1 && left == 0 { fields[0][0].clone() } else { heads[left].clone() };
+    let says = Corner::of(corner.trimmed());
+    let across =
+        if rows == Rows::Waterlines { says.rows.filter(|a| !a.is_station()).or(says.columns) } else { says.columns };
+    let buttocks = across == Some(Axis::Buttock)
+        || heads.iter().skip(left + 1).any(|f| axis_of(&f.text) == Some(Axis::Buttock) && side_of(&f.text).is_none());
+    let mut block = Block {
+        corner,
+        rows,
+        reason,
+        across: if buttocks { Axis::Buttock } else { Axis::Waterline },
+        heads: Vec::new(),
+        sides: Vec::new(),
+        name_column: names.then(|| fields[0][0].clone()),
+        stations: Vec::new(),
+        endings: Vec::new(),
+        trailing,
+    };
+    // Which column is what: a position, a side, or nothing.
+    let mut columns: Vec<Option<bool>> = vec![None; heads.len()];
+    for (j, head) in heads.iter().enumerate().skip(left + 1) {
+        if let Some(kind) = side_of(head.trimmed()).filter(|kind| !matches!(kind, SideKind::Stern | SideKind::Stem)) {
+            let before = block.heads.is_empty();
+            block.sides.push(Side { kind, head: head.clone(), before });
+            columns[j] = Some(true);
+        } else if head.is_blank() {
+            if let Some(full) = fields.iter().skip(top + 1).map(|row| &row[j]).find(|f| !f.is_blank()) {
+                let message = "an offset without a header".to_owned();
+                problems.error_at("E310", full, message, "Write the position of its waterline over it");
+            }
+        } else {
+            block.heads.push(head.clone());
+            columns[j] = Some(false);
+        }
+    }
+    for row in fields.into_iter().skip(top + 1) {
+        let mut line = Line::default();
+        for (j, field) in row.into_iter().enumerate() {
+            match columns[j] {
+                _ if j == left => line.head = field,
+                None if j < left => line.name = Some(field),
+                Some(true) => line.sides.push(field),
+                Some(false) => line.cells.push(field),
+                None => {}
+            }
+        }
+        match side_of(line.head.trimmed()) {
+            Some(kind @ (SideKind::Stern | SideKind::Stem)) => block.endings.push((kind, line)),
+            _ => block.stations.push(line),
+        }
+    }
+    Some(block)
+}

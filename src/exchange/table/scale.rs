@@ -1,0 +1,212 @@
+//! Units and origins: from what a table declares, and else from the size of its numbers.
+
+use super::header::{Corner, From, Place, Position};
+use super::problem::{Field, Problems};
+use super::settings::{Settings, StationScale};
+use crate::hull::Origin;
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
+
+/// No half-breadth is larger \[m\]; larger plain numbers are millimetres.
+const LARGEST_HALF_BREADTH: f64 = 120.0;
+/// No waterline is higher \[m\].
+const LARGEST_HEIGHT: f64 = 120.0;
+/// No hull is longer \[m\].
+const LARGEST_LENGTH: f64 = 1000.0;
+/// Numbers smaller than this, with decimals, are no millimetres.
+const SMALLEST_MILLIMETRES: f64 = 25.0;
+
+/// What plain numbers of a kind look like.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Size {
+    /// Largest absolute plain number, and how many there are.
+    pub(super) largest: f64,
+    pub(super) plain: usize,
+    /// Digits after the decimal sign at most.
+    pub(super) decimals: usize,
+    /// Cells in feet, inches and eighths.
+    pub(super) eighths: usize,
+}
+
+impl Size {
+    /// The size of the offsets in `cells`; what cannot be read is reported later.
+    pub(super) fn of<'f>(cells: impl Iterator<Item = &'f Field>, decimal_comma: bool) -> Self {
+        let rules = CellRules { unit: Notation::Metres, decimal_comma };
+        let mut size = Self::default();
+        for field in cells {
+            match parse_cell(&field.text, rules) {
+                Ok(CellReading {
+                    entry: CellEntry::Length(value), writing: CellWriting::Plain { decimals }, ..
+                }) => {
+                    size.largest = size.largest.max(value.abs());
+                    size.plain += 1;
+                    size.decimals = size.decimals.max(decimals);
+                }
+                Ok(CellReading { writing: CellWriting::Eighths, .. }) => size.eighths += 1,
+                _ => {}
+            }
+        }
+        size
+    }
+
+    /// The size of plain positions.
+    pub(super) fn of_positions<'p>(positions: impl Iterator<Item = &'p Position>) -> Self {
+        let mut size = Self::default();
+        for position in positions {
+            if let Place::Number(value) = position.place {
+                size.largest = size.largest.max(value.abs());
+                size.plain += 1;
+            }
+        }
+        size
+    }
+}
+
+/// The units of the three directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Units {
+    pub(super) x: Notation,
+    pub(super) y: Notation,
+    pub(super) z: Notation,
+}
+
+/// The units of a table. `stations_are_numbers` keeps their positions out of it.
+pub(super) fn units(
+    settings: &Settings,
+    corner: Corner,
+    [x, y, z]: [Size; 3],
+    stations_are_numbers: bool,
+    problems: &mut Problems,
+) -> Units {
+    let both = corner.rows.is_some() && corner.columns.is_some();
+    let declared = settings.units.or(corner.unit);
+    let offsets = declared.unwrap_or_else(|| {
+        if y.eighths > 0 {
+            Notation::FeetInchesEighths
+        } else if y.largest > LARGEST_HALF_BREADTH {
+            problems.note(format!("no unit is declared; half-breadths up to {} are taken as millimetres", y.largest));
+            Notation::Millimetres
+        } else {
+            problems.note(format!("no unit is declared; half-breadths up to {} are taken as metres", y.largest));
+            Notation::Metres
+        }
+    });
+    contradiction("half-breadth", offsets, y, LARGEST_HALF_BREADTH, declared.is_some(), problems);
+    let mut positions = |what: &str, own: Option<Notation>, size: Size, largest: f64| {
+        let unit = own.unwrap_or_else(|| {
+            let same = if offsets == Notation::FeetInchesEighths { Notation::Feet } else { offsets };
+            if same == Notation::Millimetres && size.largest <= largest && size.plain > 0 && !both {
+                problems
+                    .note(format!("half-breadths are millimetres; {what}s up to {} are taken as metres", size.largest));
+                Notation::Metres
+            } else if declared.is_none() && same == Notation::Metres && size.largest > largest {
+                problems
+                    .note(format!("half-breadths are metres; {what}s up to {} are taken as millimetres", size.largest));
+                Notation::Millimetres
+            } else {
+                same
+            }
+        });
+        contradiction(what, unit, size, largest, own.or(declared).is_some(), problems);
+        unit
+    };
+    let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT);
+    let own = settings.x_units.or(corner.unit);
+    let x = if stations_are_numbers { own.unwrap_or(offsets) } else { positions("distance", own, x, LARGEST_LENGTH) };
+    Units { x, y: offsets, z }
+}
+
+/// Says when numbers cannot be of the unit that is declared for them.
+fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared: bool, problems: &mut Problems) {
+    if !declared || size.plain == 0 {
+        return;
+    }
+    let found = size.largest;
+    if matches!(unit, Notation::Metres | Notation::Feet) && unit.metres(found) > largest {
+        let message =
+            format!("the largest {what} is {found}, which looks like millimetres, but the unit is {}", unit.as_str());
+        problems.error("E305", message, "Declare units = \"mm\"");
+    }
+    if unit == Notation::Millimetres && found > 0.0 && found < SMALLEST_MILLIMETRES && size.decimals > 0 {
+        let message = format!("the largest {what} is {found}, which looks like metres, but the unit is mm");
+        problems.error("E305", message, "Declare units = \"m\"");
+    }
+}
+
+/// Where stations are counted from, and how far apart they are.
+pub(super) fn origin(
+    settings: &Settings,
+    corner: Corner,
+    heads: &[Position],
+    largest_half_breadth: f64,
+    problems: &mut Problems,
+) -> (Origin, bool) {
+    use super::header::Axis;
+    let length = settings.stated.length_between_perpendiculars;
+    let plain: Vec<f64> =
+        heads.iter().filter_map(|p| if let Place::Number(n) = p.place { Some(n) } else { None }).collect();
+    let (low, high) = plain.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
+    let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
+    let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
+    let scale = settings.stations.unwrap_or_else(|| {
+        let numbers = match says {
+            Some(Axis::Station) => true,
+            Some(Axis::X) => false,
+            _ if 2 * named > heads.len() => true,
+            // Without words: a hull that would be shorter than it is broad counts its stations.
+            _ => plain.len() > 1 && high - low < 2.0 * largest_half_breadth,
+        };
+        StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers }
+    });
+    if plain.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
+        return (Origin::Lengths, scale.numbers);
+    }
+    if !scale.numbers {
+        let (offset, sign) = match (scale.from, length) {
+            (From::Midship, Some(length)) => (0.5 * length, 1.0),
+            (From::ForePerpendicular, Some(length)) => (length, -1.0),
+            (From::ForePerpendicular, None) => {
+                let message =
+                    "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
+                problems.warning("W320", message, "Give Lpp in the conventions");
+                (0.0, -1.0)
+            }
+            _ => {
+                let message = "distances count from midship and L_PP is not known: x is 0 at midship".to_owned();
+                problems.warning("W320", message, "Give Lpp in the conventions");
+                (0.0, 1.0)
+            }
+        };
+        if length.is_some() {
+            let place = if sign > 0.0 { "midship" } else { "FP" };
+            problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
+        }
+        return (Origin::Shifted { offset, sign }, false);
+    }
+    // Twenty or ten spaces are what drawings have; others have to be said.
+    let usual = [20.0, 10.0].into_iter().find(|&n| plain.iter().any(|&p: &f64| (p - n).abs() < 1e-9) && high < n + 2.0);
+    let spaces = settings.spaces.or(corner.spaces).or(usual);
+    let spacing = match (settings.station_spacing, length, spaces) {
+        (Some(spacing), _, _) => {
+            problems.note(format!("stations are numbered; {spacing} m from one number to the next"));
+            spacing
+        }
+        (None, Some(length), Some(spaces)) => {
+            problems.note(format!("stations are numbered; {spaces} spaces in L_PP of {length} m"));
+            length / spaces
+        }
+        _ => {
+            let message =
+                "stations are numbered and neither L_PP nor their spacing is known: taken as 1 m apart".to_owned();
+            problems.warning("W320", message, "Give Lpp, or station_spacing, in the conventions");
+            1.0
+        }
+    };
+    if scale.from == From::ForePerpendicular {
+        // Without L_PP the last number is AP.
+        let from_fp = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
+        problems.note(format!("station 0 is FP, {from_fp} m forward of AP"));
+        return (Origin::Numbers { offset: from_fp, spacing: -spacing }, true);
+    }
+    let offset = if scale.from == From::Midship { 0.5 * length.unwrap_or(0.0) } else { 0.0 };
+    (Origin::Numbers { offset, spacing }, true)
+}

@@ -1,0 +1,247 @@
+//! What is agreed about a table beside its numbers: a TOML file of the same name beside it, or comment lines in it.
+//!
+//! `offsets.toml` beside `offsets.csv`, every key optional; lengths are metres or carry a unit (`"62 ft"`):
+//!
+//! ```toml
+//! [table]
+//! name = "Fishing vessel"
+//! units = "mm"                # m, cm, mm, ft, in, feet-inches-eighths
+//! x_units = "m"               # of the stations, when they are others
+//! z_units = "m"               # of the waterlines
+//! breadths = "full"           # half (default), full
+//! rows = "waterlines"         # stations, waterlines
+//! layout = "matrix"           # matrix, tidy, pairs
+//! stations = "from FP"        # from AP, from midship, from FP, numbers from AP, numbers from FP
+//! station_spacing = 2.1       # between station numbers
+//! spaces = 20                 # station numbers in Lpp
+//! waterline_spacing = 0.6     # between the numbers of WL 1, WL 2, ...
+//! Lpp = 62.0                  # B, T, D likewise
+//! separator = ";"             # , ; | tab
+//! decimal = ","               # , .
+//!
+//! [endings]                   # profiles as pairs [z, x] at the waterlines
+//! stern = [[0.0, 1.2], [1.5, 0.4]]
+//! stem = [[0.0, 60.1], [1.5, 61.0]]
+//!
+//! [transom]
+//! x = -2.5                    # where the plane meets the base line
+//! slope = -0.1                # dx/dz
+//!
+//! [[line]]
+//! name = "chine"
+//! kind = "knuckle"            # knuckle, tangent
+//! points = [[0.0, 3.1, 0.8], [20.0, 4.0, 0.6]]
+//! ```
+//!
+//! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`. A comment that is no `key = value`
+//! with a single word before the sign is a comment.
+
+use super::header::From;
+use super::problem::{Field, Problems};
+use crate::hull::{FeatureLine, Rows, StatedParticulars, TableLayout, TransomPlane};
+use crate::units::{Notation, parse_length};
+
+/// How the positions of stations are to be understood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct StationScale {
+    pub(super) from: From,
+    /// Station numbers instead of distances.
+    pub(super) numbers: bool,
+}
+
+/// The conventions of one table; whatever is not said is found in the table.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Settings {
+    pub(super) name: Option<String>,
+    pub(super) stated: StatedParticulars,
+    pub(super) units: Option<Notation>,
+    pub(super) x_units: Option<Notation>,
+    pub(super) z_units: Option<Notation>,
+    /// Full breadths.
+    pub(super) full: Option<bool>,
+    pub(super) rows: Option<Rows>,
+    pub(super) layout: Option<TableLayout>,
+    pub(super) stations: Option<StationScale>,
+    pub(super) station_spacing: Option<f64>,
+    pub(super) waterline_spacing: Option<f64>,
+    pub(super) spaces: Option<f64>,
+    pub(super) separator: Option<char>,
+    pub(super) decimal_comma: Option<bool>,
+    /// (z, x) of the stern and of the stem \[m\].
+    pub(super) endings: [Vec<[f64; 2]>; 2],
+    pub(super) transom: Option<TransomPlane>,
+    pub(super) lines: Vec<FeatureLine>,
+}
+
+/// Keys of `[table]`.
+pub(super) const KEYS: [&str; 18] = [
+    "name",
+    "units",
+    "x_units",
+    "z_units",
+    "breadths",
+    "rows",
+    "layout",
+    "stations",
+    "station_spacing",
+    "waterline_spacing",
+    "spaces",
+    "Lpp",
+    "B",
+    "T",
+    "D",
+    "separator",
+    "decimal",
+    "comment",
+];
+
+/// A value of a key.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value {
+    Text(String),
+    Number(f64),
+    /// What it is, in words.
+    Other(&'static str),
+}
+
+/// The candidate nearest to a word, when it is near.
+pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
+    let word = word.to_lowercase();
+    candidates
+        .map(|c| (strsim::osa_distance(&word, &c.to_lowercase()), c))
+        .filter(|(distance, c)| *distance <= 1 + c.len().min(word.len()) / 4 && *distance < word.chars().count())
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, c)| c)
+}
+
+/// What a header that cannot be read may have been meant to be.
+pub(super) fn suggestion(text: &str) -> String {
+    nearest(text, super::header::SIDES.iter().map(|(name, _)| *name)).map_or_else(
+        || "Write a number, or words with a number, as WL 3 (1.50 m)".to_owned(),
+        |name| format!("Did you mean '{name}'?"),
+    )
+}
+
+impl Settings {
+    /// Takes the settings among the comment lines of a table.
+    pub(super) fn comments(&mut self, comments: &[(usize, String)], problems: &mut Problems) {
+        for (row, comment) in comments {
+            let Some((key, value)) = comment.split_once('=') else { continue };
+            let (key, value) = (key.trim(), value.trim().trim_matches('"'));
+            if key.is_empty() || value.is_empty() || key.contains(|c: char| !c.is_alphanumeric() && c != '_') {
+                continue;
+            }
+            let place = Field { text: key.to_owned(), row: *row, column: 1 };
+            let known = KEYS.iter().find(|k| k.eq_ignore_ascii_case(key));
+            // Prose may hold an equals sign; only what looks like a key is taken for a wrong one.
+            match (known, nearest(key, KEYS.into_iter().filter(|k| k.len() > 2))) {
+                (Some(key), _) => {
+                    if let Err((message, remedy)) = self.set(key, &Value::Text(value.to_owned())) {
+                        problems.error_at("E311", &place, message, &remedy);
+                    }
+                }
+                (None, Some(near)) => {
+                    let message = "not a convention of a table".to_owned();
+                    problems.error_at("E311", &place, message, &format!("Did you mean {near}?"));
+                }
+                (None, None) => {}
+            }
+        }
+    }
+
+    /// Sets one key of `[table]`.
+    ///
+    /// # Errors
+    /// What is wrong with its value, and the remedy.
+    pub(super) fn set(&mut self, key: &str, value: &Value) -> Result<(), (String, String)> {
+        match key {
+            "name" => self.name = Some(text(key, value)?),
+            "comment" => {}
+            "units" => self.units = Some(unit(key, value)?),
+            "x_units" => self.x_units = Some(unit(key, value)?),
+            "z_units" => self.z_units = Some(unit(key, value)?),
+            "breadths" => self.full = Some(choice(key, value, &[("half", false), ("full", true)])?),
+            "rows" => {
+                let all = [("stations", Rows::Stations), ("waterlines", Rows::Waterlines)];
+                self.rows = Some(choice(key, value, &all)?);
+            }
+            "layout" => {
+                let all = [("matrix", TableLayout::Matrix), ("tidy", TableLayout::Tidy), ("pairs", TableLayout::Pairs)];
+                self.layout = Some(choice(key, value, &all)?);
+            }
+            "stations" => {
+                let scale = |from, numbers| StationScale { from, numbers };
+                let all = [
+                    ("from AP", scale(From::AftPerpendicular, false)),
+                    ("from midship", scale(From::Midship, false)),
+                    ("from FP", scale(From::ForePerpendicular, false)),
+                    ("numbers from AP", scale(From::AftPerpendicular, true)),
+                    ("numbers from FP", scale(From::ForePerpendicular, true)),
+                ];
+                self.stations = Some(choice(key, value, &all)?);
+            }
+            "station_spacing" => self.station_spacing = Some(length(key, value)?),
+            "waterline_spacing" => self.waterline_spacing = Some(length(key, value)?),
+            "spaces" => self.spaces = Some(length(key, value)?),
+            "Lpp" => self.stated.length_between_perpendiculars = Some(length(key, value)?),
+            "B" => self.stated.breadth = Some(length(key, value)?),
+            "T" => self.stated.draught = Some(length(key, value)?),
+            "D" => self.stated.depth = Some(length(key, value)?),
+            "separator" => {
+                let all = [(",", ','), (";", ';'), ("|", '|'), ("tab", '\t'), ("\t", '\t')];
+                self.separator = Some(choice(key, value, &all)?);
+            }
+            "decimal" => self.decimal_comma = Some(choice(key, value, &[(",", true), (".", false)])?),
+            _ => return Err((format!("{key} is not a convention of a table"), String::new())),
+        }
+        Ok(())
+    }
+}
+
+fn found(value: &Value) -> String {
+    match value {
+        Value::Text(text) => format!("\"{}\"", text.chars().take(40).collect::<String>()),
+        Value::Number(number) => format!("{number}"),
+        Value::Other(kind) => (*kind).to_owned(),
+    }
+}
+
+fn text(key: &str, value: &Value) -> Result<String, (String, String)> {
+    match value {
+        Value::Text(text) => Ok(text.clone()),
+        other => Err((format!("{key} is {}, expected a text", found(other)), String::new())),
+    }
+}
+
+fn unit(key: &str, value: &Value) -> Result<Notation, (String, String)> {
+    let known = Notation::ALL.map(Notation::as_str);
+    match value {
+        Value::Text(word) => Notation::from_word(word),
+        _ => None,
+    }
+    .ok_or_else(|| (format!("{key} is {}", found(value)), format!("Known are {}", known.join(", "))))
+}
+
+fn choice<T: Copy>(key: &str, value: &Value, all: &[(&str, T)]) -> Result<T, (String, String)> {
+    let word = match value {
+        Value::Text(word) => word.as_str(),
+        _ => "",
+    };
+    all.iter().find(|(name, _)| name.eq_ignore_ascii_case(word)).map(|(_, item)| *item).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|(name, _)| *name).filter(|name| *name != "\t").collect();
+        (format!("{key} is {}", found(value)), format!("Known are {}", names.join(", ")))
+    })
+}
+
+/// A length or a number that is larger than zero.
+fn length(key: &str, value: &Value) -> Result<f64, (String, String)> {
+    let number = match value {
+        Value::Number(number) => *number,
+        Value::Text(text) => parse_length(text).map_err(|error| (format!("{key}: {error}"), String::new()))?,
+        Value::Other(kind) => return Err((format!("{key} is {kind}, expected a length"), String::new())),
+    };
+    if number.is_finite() && number > 0.0 && number < 1e5 {
+        return Ok(number);
+    }
+    Err((format!("{key} is {number}"), "It must be larger than 0 and smaller than 100000".to_owned()))
+}

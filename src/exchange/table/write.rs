@@ -1,0 +1,417 @@
+//! Writing tables of offsets back: in their own notation, layout, order and headers, or in others.
+//!
+//! A text of the file is written again wherever it still says what the table holds; only changed cells are written anew.
+//! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs, or of another
+//! program's format, becomes a matrix.
+
+use super::header::side_name;
+use super::tidy;
+use crate::hull::{
+    Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
+    TableLayout,
+};
+use crate::units::{CellEntry, Notation, parse_cell};
+
+/// In which notation and layout a table is to be written; its own where nothing is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TableWriting {
+    /// Unit of all lengths.
+    pub notation: Option<Notation>,
+    /// Shape of the file.
+    pub layout: Option<TableLayout>,
+}
+
+/// What writing with limited digits did to the offsets.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rounding {
+    /// Offsets that were written.
+    pub cells: usize,
+    /// Those whose text was taken over from the file.
+    pub kept: usize,
+    /// Largest change \[m\].
+    pub largest: f64,
+    /// Root of the mean square of all changes \[m\].
+    pub root_mean_square: f64,
+    /// Largest change of the position of a station, waterline or buttock \[m\].
+    pub largest_of_positions: f64,
+}
+
+/// A table as text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenTable {
+    /// The file.
+    pub text: String,
+    /// What rounding did.
+    pub rounding: Rounding,
+}
+
+/// Digits that a notation is given when a table is turned into it: a tenth of a millimetre, or whole millimetres.
+fn usual_decimals(notation: Notation) -> Option<usize> {
+    match notation {
+        Notation::Metres | Notation::Feet => Some(4),
+        Notation::Millimetres => Some(0),
+        Notation::Centimetres => Some(2),
+        Notation::Inches => Some(3),
+        Notation::FeetInchesEighths => None,
+    }
+}
+
+/// Writes a table.
+#[must_use]
+pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
+    let mut form = table.form.clone();
+    let notation = writing.notation.unwrap_or(form.notation);
+    let layout = match writing.layout.unwrap_or(form.layout) {
+        TableLayout::Tidy => TableLayout::Tidy,
+        TableLayout::Matrix | TableLayout::Pairs | TableLayout::Other => TableLayout::Matrix,
+    };
+    let renotated = notation != form.notation;
+    if renotated {
+        (form.notation, form.x_notation, form.z_notation) = (notation, notation, notation);
+        form.decimals = usual_decimals(notation);
+    }
+    if renotated || layout != form.layout {
+        // The headers of the file speak of other units or of another layout; numbers of stations stay numbers.
+        if !matches!(form.origin, Origin::Numbers { .. }) {
+            form.origin = Origin::Lengths;
+            form.station_heads.clear();
+        }
+        (form.corner, form.buttock_corner) = (None, None);
+        (form.full_breadths, form.negative) = (false, false);
+        form.waterline_heads.clear();
+        form.buttock_heads.clear();
+        if layout != form.layout {
+            (form.rows, form.station_order, form.waterline_order) = (Rows::Stations, Order::Rising, Order::Rising);
+            form.preamble.clear();
+        }
+        for side in form.side_columns.iter_mut().chain(&mut form.side_rows).chain(&mut form.buttock_columns) {
+            if side.kind != SideKind::Name {
+                side.texts.clear();
+            }
+        }
+    }
+    // The texts of the cells hold where unit, factor and sign are those of the file.
+    let own = !renotated && (form.full_breadths, form.negative) == (table.form.full_breadths, table.form.negative);
+    let mut writer = Writer { form, own, rounding: Rounding::default(), squares: 0.0 };
+    let records = if layout == TableLayout::Tidy { tidy::records(table, &mut writer) } else { writer.matrix(table) };
+    let text = writer.text(&records);
+    let mut rounding = writer.rounding;
+    rounding.root_mean_square = (writer.squares / (rounding.cells.max(1)) as f64).sqrt();
+    WrittenTable { text, rounding }
+}
+
+/// Writes the parts of a table and keeps account of the rounding.
+pub(super) struct Writer {
+    pub(super) form: TableForm,
+    /// Whether the texts of the cells are in the notation that is written.
+    own: bool,
+    rounding: Rounding,
+    squares: f64,
+}
+
+impl Writer {
+    fn comma(&self, text: String) -> String {
+        if self.form.decimal_comma { text.replace('.', ",") } else { text }
+    }
+
+    /// A cell of half-breadths (`half`) or heights.
+    pub(super) fn cell(&mut self, cell: &Cell, half: bool) -> String {
+        let sign = if half && self.form.negative { -1.0 } else { 1.0 };
+        let factor = if half && self.form.full_breadths { 2.0 } else { 1.0 };
+        let unit = if half { self.form.notation } else { self.form.z_notation };
+        let mut rules = self.form.cell_rules();
+        rules.unit = unit;
+        let value_of = |text: &str| match parse_cell(text, rules) {
+            Ok(reading) => match reading.entry {
+                CellEntry::Length(value) => Some((Some(sign * value / factor), reading)),
+                CellEntry::Absent | CellEntry::Unknown => Some((None, reading)),
+            },
+            Err(_) => None,
+        };
+        if let Some(written) = cell.written.as_ref().filter(|_| self.own)
+            && let Some((value, reading)) = value_of(&written.text)
+        {
+            let marks = Marks {
+                doubtful: reading.doubtful,
+                locked: reading.locked,
+                knuckle: reading.knuckle,
+                tangent: reading.tangent,
+            };
+            let same = match (value, cell.entry) {
+                (Some(a), Entry::Given(b)) => (a - b).abs() <= 1e-12 * b.abs().max(1.0),
+                (None, Entry::Absent) => reading.entry == CellEntry::Absent,
+                (None, Entry::Unknown) => reading.entry == CellEntry::Unknown,
+                _ => false,
+            };
+            if same && marks == cell.marks {
+                self.rounding.cells += usize::from(value.is_some());
+                self.rounding.kept += usize::from(value.is_some());
+                return written.text.clone();
+            }
+        }
+        let text = match cell.entry {
+            Entry::Absent => return String::new(),
+            Entry::Unknown => "?".to_owned(),
+            Entry::Given(value) if !value.is_finite() => return String::new(),
+            Entry::Given(value) => {
+                let text = self.comma(unit.write_to(sign * factor * value, self.form.decimals));
+                if let Some((Some(back), _)) = value_of(&text) {
+                    self.rounding.cells += 1;
+                    self.rounding.largest = self.rounding.largest.max((back - value).abs());
+                    self.squares += (back - value) * (back - value);
+                }
+                text
+            }
+        };
+        marked(text, cell.marks)
+    }
+
+    /// A length beside the offsets, in full digits.
+    pub(super) fn length(&mut self, value: f64, unit: Notation) -> String {
+        let digits = if unit == Notation::Millimetres { Some(0) } else { None };
+        // Whole millimetres where that is exact, all digits where it is not.
+        let short = unit.write_to(value, digits);
+        let exact = |text: &str| text.parse().is_ok_and(|n: f64| (unit.metres(n) - value).abs() <= 1e-12 * value.abs());
+        let text =
+            if unit == Notation::FeetInchesEighths || exact(&short) { short } else { unit.write_to(value, None) };
+        self.comma(text)
+    }
+
+    fn position(&mut self, heads: &[Kept], value: f64, unit: Notation) -> String {
+        if let Some(text) = heads.iter().find_map(|head| head.text_of(value)) {
+            return text.to_owned();
+        }
+        let text = self.length(value, unit);
+        let rules = crate::units::CellRules { unit, decimal_comma: self.form.decimal_comma };
+        if let Ok(reading) = parse_cell(&text, rules)
+            && let CellEntry::Length(back) = reading.entry
+        {
+            let largest = &mut self.rounding.largest_of_positions;
+            *largest = largest.max((back - value).abs());
+        }
+        text
+    }
+
+    /// The position of a station as it is written.
+    pub(super) fn station(&mut self, x: f64) -> String {
+        let heads = std::mem::take(&mut self.form.station_heads);
+        let (value, unit) = match self.form.origin {
+            Origin::Lengths => (x, self.form.x_notation),
+            Origin::Shifted { offset, sign } => (sign * (x - offset), self.form.x_notation),
+            Origin::Numbers { offset, spacing } => ((x - offset) / spacing, Notation::Metres),
+        };
+        let text = match heads.iter().find_map(|head| head.text_of(x)) {
+            Some(text) => text.to_owned(),
+            None => self.position(&[], value, unit),
+        };
+        self.form.station_heads = heads;
+        text
+    }
+
+    pub(super) fn height(&mut self, z: f64) -> String {
+        let heads = std::mem::take(&mut self.form.waterline_heads);
+        let text = self.position(&heads, z, self.form.z_notation);
+        self.form.waterline_heads = heads;
+        text
+    }
+
+    fn side(&mut self, side: &SideLine, at: usize, value: Option<f64>) -> String {
+        let Some(value) = value.filter(|v| v.is_finite()) else { return String::new() };
+        if let Some(text) = side.texts.get(at).and_then(Option::as_ref).and_then(|kept| kept.text_of(value)) {
+            return text.to_owned();
+        }
+        let full = if self.form.full_breadths && is_breadth(side.kind) { 2.0 } else { 1.0 };
+        let (value, unit) = match (side.kind, self.form.origin) {
+            (SideKind::Stern | SideKind::Stem, Origin::Shifted { offset, sign }) => {
+                (sign * (value - offset), self.form.x_notation)
+            }
+            (SideKind::Stern | SideKind::Stem, _) => (value, self.form.x_notation),
+            (SideKind::FlatOfBottom | SideKind::DeckHalfBreadth, _) => (full * value, self.form.notation),
+            _ => (value, self.form.z_notation),
+        };
+        self.length(value, unit)
+    }
+
+    fn matrix(&mut self, table: &OffsetTable) -> Vec<Vec<String>> {
+        let mut records = Vec::new();
+        let computed = self.form.corner.is_none() && self.form.buttock_corner.is_none();
+        // Sides that the file did not have, or a computed table has, stand behind the offsets of the first block.
+        let stands = |kind: SideKind| {
+            self.form.side_columns.iter().chain(&self.form.buttock_columns).any(|side| side.kind == kind)
+        };
+        let more: Vec<SideLine> = ALONG
+            .into_iter()
+            .filter(|&kind| !stands(kind) && table.stations.iter().any(|s| side_value(s, kind).is_some()))
+            .map(|kind| SideLine { kind, head: side_name(kind).to_owned(), before: false, texts: Vec::new() })
+            .collect();
+        let halves = !table.waterlines.is_empty() || table.buttocks.is_empty();
+        if halves {
+            self.form.side_columns.extend(more);
+            let columns = self.form.side_columns.clone();
+            let mut rows = self.form.side_rows.clone();
+            if computed && rows.is_empty() {
+                for (end, kind) in [SideKind::Stern, SideKind::Stem].into_iter().enumerate() {
+                    if table.endings.iter().any(|ends| ends[end].is_some()) {
+                        rows.push(SideLine {
+                            kind,
+                            head: side_name(kind).to_owned(),
+                            before: false,
+                            texts: Vec::new(),
+                        });
+                    }
+                }
+            }
+            records.extend(self.block(table, &columns, &rows, true));
+        } else {
+            self.form.buttock_columns.extend(more);
+        }
+        if !table.buttocks.is_empty() {
+            if halves {
+                records.push(Vec::new());
+            }
+            let columns = self.form.buttock_columns.clone();
+            records.extend(self.block(table, &columns, &[], false));
+        }
+        records
+    }
+
+    /// One block: half-breadths, or heights.
+    fn block(&mut self, table: &OffsetTable, sides: &[SideLine], rows: &[SideLine], half: bool) -> Vec<Vec<String>> {
+        let numbered = matches!(self.form.origin, Origin::Numbers { .. });
+        let (first, across) = (if numbered { "station" } else { "x" }, if half { "z" } else { "y" });
+        let own = if self.form.rows == Rows::Waterlines {
+            format!("{across}\\{first} [{}]", self.form.notation.as_str())
+        } else {
+            format!("{first}\\{across} [{}]", self.form.notation.as_str())
+        };
+        let corner = if half { &self.form.corner } else { &self.form.buttock_corner };
+        let corner = corner.clone().unwrap_or(own);
+        let mut order: Vec<usize> = (0..if half { table.waterlines.len() } else { table.buttocks.len() }).collect();
+        if self.form.waterline_order == Order::Falling && half {
+            order.reverse();
+        }
+        let names: Vec<&SideLine> = sides.iter().filter(|s| s.kind == SideKind::Name).collect();
+        let (before, after): (Vec<&SideLine>, Vec<&SideLine>) =
+            sides.iter().filter(|s| s.kind != SideKind::Name).partition(|s| s.before);
+        let mut head: Vec<String> = names.iter().map(|s| s.head.clone()).collect();
+        head.push(corner);
+        head.extend(before.iter().map(|s| s.head.clone()));
+        for &j in &order {
+            let text = if half {
+                self.height(table.waterlines[j])
+            } else {
+                let heads = std::mem::take(&mut self.form.buttock_heads);
+                let text = self.position(&heads, table.buttocks[j], self.form.z_notation);
+                self.form.buttock_heads = heads;
+                text
+            };
+            head.push(text);
+        }
+        head.extend(after.iter().map(|s| s.head.clone()));
+        let mut records = vec![head];
+        let mut stations: Vec<usize> = (0..table.stations.len()).collect();
+        if self.form.station_order == Order::Falling {
+            stations.reverse();
+        }
+        for i in stations {
+            let station = &table.stations[i];
+            let mut row: Vec<String> = names.iter().map(|_| station.station.name.clone()).collect();
+            row.push(self.station(station.station.x));
+            row.extend(before.iter().map(|side| self.side(side, i, side_value(station, side.kind))));
+            let cells = if half { &station.half_breadths } else { &station.heights };
+            let absent = Cell::default();
+            row.extend(order.iter().map(|&j| self.cell(cells.get(j).unwrap_or(&absent), half)));
+            row.extend(after.iter().map(|side| self.side(side, i, side_value(station, side.kind))));
+            records.push(row);
+        }
+        for side in rows {
+            let end = usize::from(side.kind == SideKind::Stem);
+            let mut row: Vec<String> = names.iter().map(|_| String::new()).collect();
+            row.push(side.head.clone());
+            row.extend(before.iter().map(|_| String::new()));
+            row.extend(order.iter().map(|&j| self.side(side, j, table.endings.get(j).and_then(|ends| ends[end]))));
+            row.extend(after.iter().map(|_| String::new()));
+            records.push(row);
+        }
+        if self.form.rows == Rows::Waterlines { transposed(&records) } else { records }
+    }
+
+    /// The file of the records.
+    fn text(&self, records: &[Vec<String>]) -> String {
+        let end = if self.form.carriage_returns { "\r\n" } else { "\n" };
+        let separator = self.form.separator;
+        let mut text = String::new();
+        for line in &self.form.preamble {
+            text.push_str(line);
+            text.push_str(end);
+        }
+        for record in records {
+            for (index, field) in record.iter().enumerate() {
+                if index > 0 {
+                    text.push(separator);
+                }
+                let quoted = field.contains([separator, '\n', '\r'])
+                    || field.starts_with('"')
+                    || index == 0 && field.starts_with('#');
+                if quoted {
+                    text.push('"');
+                    text.push_str(&field.replace('"', "\"\""));
+                    text.push('"');
+                } else {
+                    text.push_str(field);
+                }
+            }
+            if self.form.trailing_separator && !record.is_empty() {
+                text.push(separator);
+            }
+            text.push_str(end);
+        }
+        if self.form.open_end {
+            text.truncate(text.trim_end_matches(['\n', '\r']).len());
+        }
+        text
+    }
+}
+
+/// `text` with its marks.
+fn marked(text: String, marks: Marks) -> String {
+    let mut text = if marks.doubtful { format!("({text})") } else { text };
+    for (mark, letter) in [(marks.knuckle, 'K'), (marks.tangent, 'T'), (marks.locked, '!')] {
+        if mark {
+            text.push(letter);
+        }
+    }
+    text
+}
+
+fn is_breadth(kind: SideKind) -> bool {
+    matches!(kind, SideKind::FlatOfBottom | SideKind::DeckHalfBreadth)
+}
+
+/// What stands along the stations.
+pub(super) const ALONG: [SideKind; 6] = [
+    SideKind::Keel,
+    SideKind::FlatOfBottom,
+    SideKind::FlatOfSide,
+    SideKind::DeckHeight,
+    SideKind::DeckHalfBreadth,
+    SideKind::DeckCentreHeight,
+];
+
+/// A value beside the offsets of a station.
+pub(super) fn side_value(station: &StationOffsets, kind: SideKind) -> Option<f64> {
+    match kind {
+        SideKind::Keel => station.keel_height,
+        SideKind::FlatOfBottom => station.flat_of_bottom,
+        SideKind::FlatOfSide => station.flat_of_side,
+        SideKind::DeckHeight => station.deck_height,
+        SideKind::DeckHalfBreadth => station.deck_half_breadth,
+        SideKind::DeckCentreHeight => station.deck_centre_height,
+        SideKind::Name | SideKind::Stern | SideKind::Stem => None,
+    }
+}
+
+fn transposed(records: &[Vec<String>]) -> Vec<Vec<String>> {
+    let width = records.first().map_or(0, Vec::len);
+    (0..width).map(|j| records.iter().map(|row| row.get(j).cloned().unwrap_or_default()).collect()).collect()
+}

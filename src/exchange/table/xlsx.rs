@@ -1,0 +1,155 @@
+//! The first sheet with fields of an XLSX workbook, as the rows of a CSV file.
+//!
+//! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to hold
+//! more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
+
+use std::io::Cursor;
+
+use calamine::{DataRef, Reader as _, Xlsx};
+
+use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
+use super::problem::{Field, Problems};
+
+/// The most bytes of all parts of a workbook.
+pub const MOST_UNPACKED: u64 = 256 << 20;
+
+/// Whether the bytes begin as a packed archive does.
+pub(super) fn is_xlsx(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04")
+}
+
+/// Sum of the sizes that the directory of the archive states.
+fn unpacked(bytes: &[u8]) -> u64 {
+    let mut sum = 0u64;
+    let mut at = 0;
+    while let Some(found) = bytes[at..].windows(4).position(|w| w == b"PK\x01\x02") {
+        at += found;
+        if let Some(&[a, b, c, d]) = bytes.get(at + 24..at + 28) {
+            sum = sum.saturating_add(u64::from(u32::from_le_bytes([a, b, c, d])));
+        }
+        at += 4;
+    }
+    sum
+}
+
+/// The rows of a workbook, and the name of their sheet.
+pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
+    let stated = unpacked(bytes);
+    if bytes.len() > LARGEST_TABLE || stated > MOST_UNPACKED {
+        let message = format!(
+            "{} bytes, unpacked {stated}; a workbook has at most {LARGEST_TABLE}, unpacked {MOST_UNPACKED}",
+            bytes.len()
+        );
+        problems.error("E312", message, "");
+        return None;
+    }
+    let failed = |error: String| format!("not a workbook that can be read: {error}");
+    let mut book = match Xlsx::new(Cursor::new(bytes)) {
+        Ok(book) => book,
+        Err(error) => {
+            problems.error("E300", failed(error.to_string()), "Give the table as XLSX or CSV");
+            return None;
+        }
+    };
+    let sheets = book.sheet_names();
+    for sheet in sheets {
+        let mut reader = match book.worksheet_cells_reader(&sheet) {
+            Ok(reader) => reader,
+            // A sheet of a chart has no cells.
+            Err(_) => continue,
+        };
+        let mut grid = Grid { separator: ',', ..Grid::default() };
+        let mut cells = 0usize;
+        loop {
+            let cell = match reader.next_cell() {
+                Ok(Some(cell)) => cell,
+                Ok(None) => break,
+                Err(error) => {
+                    problems.error("E300", failed(error.to_string()), "");
+                    return None;
+                }
+            };
+            let (row, column) = cell.get_position();
+            let (row, column) = (row as usize, column as usize);
+            let mut field = Field { text: String::new(), row: row + 1, column: column + 1 };
+            field.text = match cell.get_value() {
+                DataRef::Int(n) => n.to_string(),
+                DataRef::Float(n) if n.is_finite() => n.to_string(),
+                DataRef::Float(_) | DataRef::Empty => continue,
+                DataRef::String(text) => text.clone(),
+                DataRef::SharedString(text) => (*text).to_owned(),
+                DataRef::Bool(truth) => truth.to_string(),
+                DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_) => {
+                    let message = "the cell is a date; spreadsheets make dates of feet-inches-eighths".to_owned();
+                    problems.error_at("E301", &field, message, "Format the cells as text before typing 3-4-5");
+                    continue;
+                }
+                DataRef::Error(error) => {
+                    problems.error_at("E301", &field, format!("the cell holds the error {error}"), "");
+                    continue;
+                }
+            };
+            cells += 1;
+            if row >= MOST_ROWS || column >= MOST_COLUMNS || cells > MOST_CELLS || field.text.len() > LONGEST_FIELD {
+                let message = format!(
+                    "a table has at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells and {LONGEST_FIELD} \
+                     bytes in a cell"
+                );
+                problems.error_at("E312", &field, message, "");
+                return None;
+            }
+            place(&mut grid, field, &mut cells, problems)?;
+        }
+        if !grid.rows.iter().all(Vec::is_empty) {
+            even(&mut grid);
+            return Some((grid, sheet));
+        }
+    }
+    if !problems.any_errors() {
+        problems.error("E300", "no sheet of the workbook has cells".to_owned(), "");
+    }
+    None
+}
+
+/// Puts a field into its row; blank fields fill the row before it, and count as cells.
+fn place(grid: &mut Grid, field: Field, cells: &mut usize, problems: &mut Problems) -> Option<()> {
+    while grid.rows.len() < field.row {
+        grid.rows.push(Vec::new());
+    }
+    let row = &mut grid.rows[field.row - 1];
+    while row.len() < field.column - 1 {
+        row.push(Field { text: String::new(), row: field.row, column: row.len() + 1 });
+        *cells += 1;
+        if *cells > MOST_CELLS {
+            problems.error_at("E312", &field, format!("more than {MOST_CELLS} cells"), "");
+            return None;
+        }
+    }
+    if row.len() >= field.column {
+        let at = field.column - 1;
+        row[at] = field;
+    } else {
+        row.push(field);
+    }
+    Some(())
+}
+
+/// Sheets leave out empty cells at the ends of rows: the rows of each block become equally long, as far as its header goes.
+fn even(grid: &mut Grid) {
+    for row in &mut grid.rows {
+        if row.iter().all(Field::is_blank) {
+            row.clear();
+        }
+    }
+    let mut width = 0;
+    for row in &mut grid.rows {
+        if row.is_empty() {
+            width = 0;
+            continue;
+        }
+        width = width.max(row.len());
+        while row.len() < width {
+            row.push(Field { text: String::new(), row: row[0].row, column: row.len() + 1 });
+        }
+    }
+}
