@@ -17,14 +17,8 @@ mod table_form;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
-<<<<<<< HEAD
-pub use cell::{
-    Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
-};
-pub(crate) use charted::advance;
-=======
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
->>>>>>> wt-formats
+pub(crate) use charted::advance;
 pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
 pub use form::{Hull, HullError};
 pub use functional::Functional;

@@ -3,12 +3,8 @@
 //! Half-breadths are values of the surface, exact to 1e-12 m. Heights are found on the station's section, which keeps
 //! 1e-11 m from the surface, and are exact to that over the slope of the section.
 
-<<<<<<< HEAD
-use super::cell::{Cell, FeatureLine, OutlinePoint, StatedParticulars, TableForm, TransomPlane};
-use super::chart::{coordinate, turns};
-=======
 use super::cell::{Cell, FeatureLine, OutlinePoint, StatedParticulars, TransomPlane};
->>>>>>> wt-formats
+use super::chart::{coordinate, turns};
 use super::form::Hull;
 use super::section::{Cut, Face, Section, curve_sign_changes};
 use super::table_form::TableForm;

@@ -59,10 +59,12 @@ const SLACK: f64 = 1e-9;
 /// the keel line of the middle three fifths of the length varies by more than a twentieth of the depth (rocker, rake).
 pub(super) fn suits(table: &OffsetTable) -> bool {
     let marked = |marks: &Marks| marks.knuckle;
-    let knuckles = table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
-        || table.stations.iter().any(|s| {
-            s.half_breadths.iter().any(|cell| marked(&cell.marks)) || s.outlines.iter().flatten().any(|p| marked(&p.marks))
-        });
+    let knuckles =
+        table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
+            || table.stations.iter().any(|s| {
+                s.half_breadths.iter().any(|cell| marked(&cell.marks))
+                    || s.outlines.iter().flatten().any(|p| marked(&p.marks))
+            });
     let only_sections = table.waterlines.is_empty() && table.stations.iter().any(|s| !s.outlines.is_empty());
     knuckles || only_sections || has_rocker(table)
 }
@@ -70,7 +72,9 @@ pub(super) fn suits(table: &OffsetTable) -> bool {
 /// Whether the keel line varies by more than [`ROCKER`] of the depth in the middle three fifths of the length.
 fn has_rocker(table: &OffsetTable) -> bool {
     let keels: Vec<(f64, f64)> = table.stations.iter().filter_map(|s| Some((s.station.x, s.keel_height?))).collect();
-    let (Some(first), Some(last), Some(&top)) = (table.stations.first(), table.stations.last(), table.waterlines.last()) else {
+    let (Some(first), Some(last), Some(&top)) =
+        (table.stations.first(), table.stations.last(), table.waterlines.last())
+    else {
         return false;
     };
     let (from, length) = (first.station.x, last.station.x - first.station.x);
@@ -135,10 +139,11 @@ impl Net {
         let mut names = Vec::new();
         for (profile, &u) in self.profiles.iter().zip(&self.length.sites) {
             let (Some(station), greatest) = (profile.station, profile.breadth()) else { continue };
+            let known = profile.points.iter().rfind(|p| p.y.is_some()).map_or(profile.top(), |p| p.z);
             let curve = self.surface.curve_at_u(u);
             let swings = breaks.windows(2).flat_map(|w| [0.25, 0.5, 0.75].map(|t| w[0] + t * (w[1] - w[0]))).any(|v| {
-                let y = curve.eval(v)[1];
-                y < -OVERSHOOT * greatest || y > (1.0 + OVERSHOOT) * greatest
+                let [_, y, z] = curve.eval(v);
+                z < known && (y < -OVERSHOOT * greatest || y > (1.0 + OVERSHOOT) * greatest)
             });
             if swings {
                 names.push(table.stations[station].station.name.clone());
@@ -263,7 +268,10 @@ impl Levels {
         // Where a line only goes on as a line of the net it jumps with the keel.
         let keel_jumps: Vec<usize> = breaks[0].windows(2).filter(|w| w[1] == w[0] + 1).map(|w| w[0]).collect();
         for (line, own) in lines.iter().zip(&mut breaks[1..]) {
-            for &k in keel_jumps.iter().filter(|&&k| line.y[k].is_none() && line.y[k + 1].is_none() && line.z[k] > values[0][k]) {
+            for &k in keel_jumps
+                .iter()
+                .filter(|&&k| line.y[k].is_none() && line.y[k + 1].is_none() && line.z[k] > values[0][k])
+            {
                 own.extend([k, k + 1]);
             }
             own.sort_unstable();
@@ -321,8 +329,9 @@ fn assemble(
     bands: &[Band],
     slack: f64,
 ) -> Result<BsplineSurface<3>, SplineError> {
-    let curves =
-        (0..profiles.len()).map(|k| girth::station_curve(&profiles[k], lines, bands, k, slack)).collect::<Result<Vec<_>, _>>()?;
+    let curves = (0..profiles.len())
+        .map(|k| girth::station_curve(&profiles[k], lines, bands, k, slack))
+        .collect::<Result<Vec<_>, _>>()?;
     let x = length.control_lengths(&levels.knots);
     let mut columns: Vec<Vec<[f64; 3]>> = Vec::new();
     let mut knots: Vec<f64> = Vec::new();

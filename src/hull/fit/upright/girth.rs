@@ -205,7 +205,8 @@ pub(super) fn station_curve(
         let line = (1..last).contains(&j).then(|| lines[j - 1].y[station]).flatten();
         on[j].y = own.or(line);
     }
-    let hard = |j: usize| j == 0 || j == last || (lines[j - 1].kind == LineKind::Knuckle && lines[j - 1].y[station].is_some());
+    let hard =
+        |j: usize| j == 0 || j == last || (lines[j - 1].kind == LineKind::Knuckle && lines[j - 1].y[station].is_some());
     let mut start = 0;
     for end in 1..=last {
         if !hard(end) {
@@ -216,7 +217,11 @@ pub(super) fn station_curve(
         }
         start = end;
     }
-    bands.iter().enumerate().map(|(j, band)| band_curve(profile, band, [levels[j], levels[j + 1]], [on[j], on[j + 1]], slack)).collect()
+    bands
+        .iter()
+        .enumerate()
+        .map(|(j, band)| band_curve(profile, band, [levels[j], levels[j + 1]], [on[j], on[j + 1]], slack))
+        .collect()
 }
 
 /// Points strictly between two heights, as shares of the height and half-breadths.
@@ -342,7 +347,8 @@ fn least_bending(
     if right.len() < 2 {
         return Ok(vec![right.first().copied().unwrap_or(0.0); knots.basis_count()]);
     }
-    let points: Vec<(f64, f64)> = conditions.iter().zip(&right).filter(|(c, _)| c.order == 0).map(|(c, &y)| (c.site, y)).collect();
+    let points: Vec<(f64, f64)> =
+        conditions.iter().zip(&right).filter(|(c, _)| c.order == 0).map(|(c, &y)| (c.site, y)).collect();
     let chords: Vec<(f64, f64)> =
         points.windows(2).map(|w| (w[1].0, (w[1].1 - w[0].1).abs() / (w[1].0 - w[0].0))).collect();
     let run: f64 = points.windows(2).map(|w| (w[1].1 - w[0].1).abs()).sum();

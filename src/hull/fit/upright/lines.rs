@@ -134,8 +134,7 @@ fn chains(profiles: &[Profile], known: &[Line], kind: LineKind, size: Size) -> V
             .filter(|p| p.mark == Some(kind) && p.y.is_some() && p.z > keel && p.z < top && free(p))
             .copied()
             .collect();
-        let open: Vec<usize> =
-            (0..chains.len()).filter(|&c| station > 0 && chains[c][station - 1].is_some()).collect();
+        let open: Vec<usize> = (0..chains.len()).filter(|&c| station > 0 && chains[c][station - 1].is_some()).collect();
         let mut taken = vec![None; points.len()];
         if open.len() == points.len() {
             taken.iter_mut().zip(&open).for_each(|(slot, &c)| *slot = Some(c));
@@ -214,7 +213,13 @@ fn complete(
     let z = (0..at.len())
         .map(|k| {
             let (keel, top) = (profiles[k].keel(), profiles[k].top());
-            let share = if k < first { before } else if k > last { after } else { inner(k).unwrap_or(0.0) };
+            let share = if k < first {
+                before
+            } else if k > last {
+                after
+            } else {
+                inner(k).unwrap_or(0.0)
+            };
             at[k].map_or(keel + share * (top - keel), |p| p.z)
         })
         .collect();
@@ -244,7 +249,10 @@ fn order(lines: &mut [Line], profiles: &[Profile], notes: &mut Vec<String>) {
             }
         }
         if let Some(name) = crossed {
-            notes.push(format!("line {name} crosses another one near x = {:.3} m and was not followed there", profile.x));
+            notes.push(format!(
+                "line {name} crosses another one near x = {:.3} m and was not followed there",
+                profile.x
+            ));
         }
         let mut floor = profile.keel();
         for j in 0..lines.len() {

@@ -6,7 +6,8 @@ use crate::hull::{Cell, FeatureLine, Functional, LineKind, Marks, OutlinePoint, 
 
 /// A file of the folder of published hulls; none, with a line that says so, where it is absent.
 fn published(path: &str) -> Option<String> {
-    let folder = std::env::var("LOFTSMAN_DATA").unwrap_or_else(|_| format!("{}/../shared/data", env!("CARGO_MANIFEST_DIR")));
+    let folder =
+        std::env::var("LOFTSMAN_DATA").unwrap_or_else(|_| format!("{}/../shared/data", env!("CARGO_MANIFEST_DIR")));
     let text = std::fs::read_to_string(format!("{folder}/{path}")).ok();
     if text.is_none() {
         println!("skipped: there is no {path} in the folder named by LOFTSMAN_DATA");
@@ -79,7 +80,12 @@ fn the_yacht_of_pdstrip() {
     assert_near(whole, 24.781, 0.5, "yacht, volume");
     assert!((lcb - 0.867).abs() < 0.02 && (vcb - 0.620).abs() < 0.002, "{lcb} {vcb}");
     let hull = fit(&table).unwrap().hull;
-    assert_near(Functional::SectionArea { x: 0.4801 }.value(&hull, 0.9652), 2.4014, 0.5, "yacht, section near the largest");
+    assert_near(
+        Functional::SectionArea { x: 0.4801 }.value(&hull, 0.9652),
+        2.4014,
+        0.5,
+        "yacht, section near the largest",
+    );
     assert_near(Functional::WaterplaneArea.value(&hull, 0.9652), 44.13, 1.5, "yacht, waterplane");
     let stations = table.stations.iter().step_by(2).cloned().collect();
     let [half, _, _] = volume(&Net::new(&OffsetTable { stations, ..table }).unwrap().surface);
@@ -140,7 +146,8 @@ fn knuckle(sections: &OffsetTable, name: &str, crease: &[[f64; 3]]) -> FeatureLi
 /// them to 0.4 %.
 #[test]
 fn a_stern_trawler_with_and_without_its_knuckles() {
-    let (Some(points), Some(offsets)) = (published("sterntrawler/sections.csv"), published("sterntrawler/offsets.csv")) else {
+    let (Some(points), Some(offsets)) = (published("sterntrawler/sections.csv"), published("sterntrawler/offsets.csv"))
+    else {
         return;
     };
     let sections = sections(&points, [Some(0), Some(1), Some(3), Some(4)]);
@@ -159,7 +166,8 @@ fn a_stern_trawler_with_and_without_its_knuckles() {
             let centre = value(Functional::LongitudinalMoment) / found;
             println!("trawler, LCB {centre:.3}, reference {lcb}");
             assert!((centre - lcb).abs() < metres, "{centre} {lcb}");
-            let area = (0..20).map(|k| value(Functional::SectionArea { x: 16.0 + 0.5 * f64::from(k) })).fold(0.0, f64::max);
+            let area =
+                (0..20).map(|k| value(Functional::SectionArea { x: 16.0 + 0.5 * f64::from(k) })).fold(0.0, f64::max);
             assert_near(area, largest, 0.3, "trawler, largest section");
             assert_near(value(Functional::WaterplaneArea), waterplane, 1.0, "trawler, waterplane");
         }
@@ -198,11 +206,16 @@ fn drawings() {
     let Some(text) = published("formats/samples/freeship_chines_import.txt") else { return };
     for name in ["freeship_chines_import", "freeship_round_import"] {
         let text = published(&format!("formats/samples/{name}.txt")).unwrap();
-        let table = crate::exchange::read_table(&format!("{name}.txt"), text.as_bytes()).map_err(|e| println!("{}", e[0])).unwrap().table;
+        let table = crate::exchange::read_table(&format!("{name}.txt"), text.as_bytes())
+            .map_err(|e| println!("{}", e[0]))
+            .unwrap()
+            .table;
         let net = Net::new(&table).unwrap();
         println!("{name} {:?} {:?} {:?}", volume(&net.surface), net.surface.shape(), net.notes);
         draw(&net, name);
-        if let Err(e) = fit(&table) { println!("{e}") }
+        if let Err(e) = fit(&table) {
+            println!("{e}")
+        }
     }
     let points = published("sterntrawler/sections.csv").unwrap();
     let sections = sections(&points, [Some(0), Some(1), Some(3), Some(4)]);
@@ -221,7 +234,9 @@ fn draw(net: &Net, name: &str) {
     let x0 = net.profiles[0].x;
     let span = net.profiles[net.profiles.len() - 1].x - x0;
     let (low, mid) = (net.profiles.iter().map(Profile::keel).fold(f64::INFINITY, f64::min), 0.45);
-    let mut out = String::from("<svg xmlns='http://www.w3.org/2000/svg' width='1500' height='1600' viewBox='0 0 1500 1600'><rect width='1500' height='1600' fill='white'/>");
+    let mut out = String::from(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='1500' height='1600' viewBox='0 0 1500 1600'><rect width='1500' height='1600' fill='white'/>",
+    );
     let mut path = |points: Vec<[f64; 2]>, color: &str, width: f64| {
         let d: Vec<String> = points.iter().map(|p| format!("{:.2},{:.2}", p[0], p[1])).collect();
         out += &format!("<polyline points='{}' fill='none' stroke='{color}' stroke-width='{width}'/>", d.join(" "));
@@ -236,7 +251,11 @@ fn draw(net: &Net, name: &str) {
         for j in 0..4 {
             let u = pair[0] + (pair[1] - pair[0]) * f64::from(j) / 4.0;
             let curve = (0..=600).map(|i| body(net.surface.eval(u, f64::from(i) / 600.0))).collect();
-            if j == 0 { path(curve, "black", 0.9) } else if j == 2 { path(curve, "#a0c0ff", 0.6) }
+            if j == 0 {
+                path(curve, "black", 0.9)
+            } else if j == 2 {
+                path(curve, "#a0c0ff", 0.6)
+            }
         }
     }
     let s = 1460.0 / span;
@@ -252,8 +271,13 @@ fn draw(net: &Net, name: &str) {
         for i in 0..=1500 {
             let curve = net.surface.curve_at_u(f64::from(i) / 1500.0);
             let (mut a, mut b) = (0.0, 1.0);
-            if curve.eval(0.0)[2] > z || curve.eval(1.0)[2] < z { continue; }
-            for _ in 0..40 { let m = 0.5 * (a + b); if curve.eval(m)[2] < z { a = m } else { b = m } }
+            if curve.eval(0.0)[2] > z || curve.eval(1.0)[2] < z {
+                continue;
+            }
+            for _ in 0..40 {
+                let m = 0.5 * (a + b);
+                if curve.eval(m)[2] < z { a = m } else { b = m }
+            }
             let p = curve.eval(a);
             points.push(flat(p[0], p[1], base + 300.0, 250.0 / size.breadth));
         }
@@ -272,4 +296,3 @@ fn draw(net: &Net, name: &str) {
     resvg::render(&tree, resvg::tiny_skia::Transform::default(), &mut map.as_mut());
     map.save_png(format!("{folder}/{name}.png")).unwrap();
 }
-

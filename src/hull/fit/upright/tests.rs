@@ -71,12 +71,19 @@ fn the_canoe_body_of_an_ellipsoid() {
                 distance = distance.max((0.5 * f / (q[0] / 10.0).hypot(q[1] / 2.0).hypot(q[2])).abs());
             }
         }
-        println!("{spaces} x {steps}: volume {:.1e}, KB {:.1e}, distance {distance:.1e} m", found / exact - 1.0, vcb - 0.625);
+        println!(
+            "{spaces} x {steps}: volume {:.1e}, KB {:.1e}, distance {distance:.1e} m",
+            found / exact - 1.0,
+            vcb - 0.625
+        );
         assert!((found / exact - 1.0).abs() < allowed && lcb.abs() < 1e-10 && (vcb - 0.625).abs() < allowed);
         assert!(greatest_residual(&net.cells(&table)) < 1e-9 && net.notes.is_empty(), "{:?}", net.notes);
         distances.push(distance);
     }
-    assert!(distances[0] < 5e-3 && distances[1] < 0.6 * distances[0] && distances[2] < 0.5 * distances[1], "{distances:?}");
+    assert!(
+        distances[0] < 5e-3 && distances[1] < 0.6 * distances[0] && distances[2] < 0.5 * distances[1],
+        "{distances:?}"
+    );
     let fitted = fit(&ellipsoid(24, 14)).unwrap();
     assert_eq!(fitted.chart, Chart::Upright);
     assert!((Functional::Volume.value(&fitted.hull, 1.0) / exact - 1.0).abs() < 3e-5);
@@ -95,7 +102,9 @@ fn order_along_the_ship() {
             })
             .collect();
         let net = Net::new(&OffsetTable { waterlines, stations, ..OffsetTable::default() }).unwrap();
-        (0..500).map(|i| net.surface.eval((f64::from(i) + 0.5) / 500.0, 0.7)).fold(0.0f64, |m, p| m.max((p[1] - p[0].sin() * p[2]).abs()))
+        (0..500)
+            .map(|i| net.surface.eval((f64::from(i) + 0.5) / 500.0, 0.7))
+            .fold(0.0f64, |m, p| m.max((p[1] - p[0].sin() * p[2]).abs()))
     };
     let errors = [10, 20, 40].map(error);
     assert!(errors[0] < 2e-4 && errors[0] > 11.0 * errors[1] && errors[1] > 11.0 * errors[2], "{errors:?}");
