@@ -11,6 +11,7 @@ mod misfit;
 mod monotone;
 mod particulars;
 mod rows;
+mod upright;
 
 use super::cell::Entry;
 use super::form::{Hull, HullError};
@@ -103,6 +104,9 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
+    if upright::suits(table) {
+        return upright::fit(table);
+    }
     let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
     let cells = residuals(table, &hull);
     Ok(Fitted { hull, chart: Chart::Level, cells, notes })

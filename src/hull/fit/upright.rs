@@ -1,0 +1,371 @@
+//! The upright chart: stations are lines of the net, and so are keel, knuckles and upper edge.
+//!
+//! S(u, v) = (x(u), y(u, v), z(u, v)). x(u) is one polynomial over the length. Between two successive lines of the hull, a below b,
+//!
+//! > z(u, v) = z_a(u) + (z_b(u) - z_a(u)) zeta(v),
+//!
+//! with z_a and z_b splines in u through their heights at the stations and zeta a polynomial of v in the band (v or, at a round
+//! keel, v^2): a product of splines, hence exactly in the tensor space. y is the unknown: each station's y(v) passes
+//! through its own cells and points with the least bending, on knots common to all stations; then every column of the net is
+//! interpolated across the stations. Volume = 2 int int y x_u z_v dv du stays linear in y.
+//!
+//! A knuckle is a p-fold knot in v: the surface on one side of it does not know of the other, and they share the line as
+//! their edge. That is the join of two surfaces along a knuckle, exactly, in one net. On a tangent line, and where a knuckle has
+//! ended and runs out as a line of the net, both sides take value and slope of one curve at every station: the tangent plane is
+//! continuous at the stations, and between them to the error of interpolation.
+//!
+//! Exact: every given cell and point (to 1e-9 m), keel, knuckles and upper edge at the stations, hulls whose sections are
+//! cubic in the band and whose lines are cubic along it (prisms, pyramids). Order: four along the ship (tested), two to four
+//! around the section.
+//!
+//! Limits: sections are functions y(z): no level ledges inside, no hooks. A plumb stem or a bulb ahead of a recess makes
+//! the keel line jump; the piece between the stations beside the jump is then ruled, and a note says so. Cost: linear in the
+//! number of cells (banded systems in both directions), times the number of lines.
+
+mod ends;
+mod girth;
+mod length;
+mod lines;
+mod profile;
+#[cfg(test)]
+mod published;
+#[cfg(test)]
+mod tests;
+
+use super::{CellResidual, Chart, FitError, Fitted};
+use crate::hull::cell::{Entry, LineKind, Marks};
+use crate::hull::form::Hull;
+use crate::hull::offsets::OffsetTable;
+use crate::hull::particulars::PrincipalParticulars;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+use girth::Band;
+use length::{Across, Length};
+use lines::{Line, Size};
+use profile::Profile;
+
+/// Fewest stations.
+const LEAST_STATIONS: usize = 2;
+
+/// Variation of the keel line in parts of the depth.
+const ROCKER: f64 = 0.05;
+
+/// A curve that leaves the range of its half-breadths by this part of the greatest one swings.
+const OVERSHOOT: f64 = 0.05;
+
+/// Heights nearer than this, in parts of the depth, are one height.
+const SLACK: f64 = 1e-9;
+
+/// Whether the upright chart is the one for a table: where it has knuckles, where it is made of sections without waterlines, and where
+/// the keel line of the middle three fifths of the length varies by more than a twentieth of the depth (rocker, rake).
+pub(super) fn suits(table: &OffsetTable) -> bool {
+    let marked = |marks: &Marks| marks.knuckle;
+    let knuckles =
+        table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
+            || table.stations.iter().any(|s| {
+                s.half_breadths.iter().any(|cell| marked(&cell.marks))
+                    || s.outlines.iter().flatten().any(|p| marked(&p.marks))
+            });
+    let only_sections = table.waterlines.is_empty() && table.stations.iter().any(|s| !s.outlines.is_empty());
+    knuckles || only_sections || has_rocker(table)
+}
+
+/// Whether the keel line varies by more than [`ROCKER`] of the depth in the middle three fifths of the length.
+fn has_rocker(table: &OffsetTable) -> bool {
+    let keels: Vec<(f64, f64)> = table.stations.iter().filter_map(|s| Some((s.station.x, s.keel_height?))).collect();
+    let (Some(first), Some(last), Some(&top)) =
+        (table.stations.first(), table.stations.last(), table.waterlines.last())
+    else {
+        return false;
+    };
+    let (from, length) = (first.station.x, last.station.x - first.station.x);
+    let middle = keels.iter().filter(|(x, _)| (0.2..=0.8).contains(&((x - from) / length)));
+    let (low, high) = middle.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &(_, z)| (a.min(z), b.max(z)));
+    high - low > ROCKER * (top - low)
+}
+
+/// The hull of a table on the upright chart.
+///
+/// # Errors
+/// [`FitError::TooFew`] below two stations with a section, [`FitError::Hull`] when the surface is no hull.
+pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
+    let net = Net::new(table)?;
+    let hull = Hull::new(&table.name, net.particulars(table), net.surface.clone(), net.deck()?)?;
+    Ok(Fitted { hull, chart: Chart::Upright, cells: net.cells(table), notes: net.notes })
+}
+
+/// The surface with what it was made of.
+struct Net {
+    surface: BsplineSurface<3>,
+    profiles: Vec<Profile>,
+    lines: Vec<Line>,
+    length: Length,
+    bands: Vec<Band>,
+    notes: Vec<String>,
+    slack: f64,
+}
+
+impl Net {
+    fn new(table: &OffsetTable) -> Result<Self, FitError> {
+        let mut notes = Vec::new();
+        let mut profiles = profile::profiles(table, &mut notes);
+        let too_few = |profiles: &[Profile]| FitError::TooFew {
+            stations: profiles.len(),
+            waterlines: table.waterlines.len(),
+            least: LEAST_STATIONS,
+        };
+        if profiles.len() < LEAST_STATIONS {
+            return Err(too_few(&profiles));
+        }
+        ends::close(table, &mut profiles, &mut notes);
+        let size = size(&profiles);
+        if !(size.depth > 0.0 && size.breadth > 0.0) {
+            return Err(too_few(&profiles));
+        }
+        let slack = SLACK * size.depth;
+        let lines = lines::lines(table, &profiles, size, &mut notes);
+        let x: Vec<f64> = profiles.iter().map(|p| p.x).collect();
+        let length = Length::new(&x, ends::blunt(&profiles));
+        let levels = Levels::new(&profiles, &lines, &length, size, &mut notes).map_err(spline)?;
+        let bands = girth::bands(&profiles, &lines, slack).map_err(spline)?;
+        let surface = assemble(&profiles, &lines, &length, &levels, &bands, slack).map_err(spline)?;
+        let mut net = Self { surface, profiles, lines, length, bands, notes, slack };
+        net.note_overshoots(table);
+        Ok(net)
+    }
+
+    /// Names the stations whose curve swings beyond its points: there a knuckle is missing, or a point is wrong.
+    fn note_overshoots(&mut self, table: &OffsetTable) {
+        let breaks = self.surface.v().breakpoints();
+        let mut names = Vec::new();
+        for (profile, &u) in self.profiles.iter().zip(&self.length.sites) {
+            let (Some(station), greatest) = (profile.station, profile.breadth()) else { continue };
+            let known = profile.points.iter().rfind(|p| p.y.is_some()).map_or(profile.top(), |p| p.z);
+            let curve = self.surface.curve_at_u(u);
+            let swings = breaks.windows(2).flat_map(|w| [0.25, 0.5, 0.75].map(|t| w[0] + t * (w[1] - w[0]))).any(|v| {
+                let [_, y, z] = curve.eval(v);
+                z < known && (y < -OVERSHOOT * greatest || y > (1.0 + OVERSHOOT) * greatest)
+            });
+            if swings {
+                names.push(table.stations[station].station.name.clone());
+            }
+        }
+        if !names.is_empty() {
+            self.notes.push(format!(
+                "the sections of stations {} swing beyond their points: is a knuckle there, or a point wrong?",
+                names.join(", ")
+            ));
+        }
+    }
+
+    /// Stated dimensions, and those of the surface where nothing is stated: T is up to the highest keel-to-edge height.
+    fn particulars(&self, table: &OffsetTable) -> PrincipalParticulars {
+        let size = size(&self.profiles);
+        let (first, last) = (&self.profiles[0], &self.profiles[self.profiles.len() - 1]);
+        PrincipalParticulars {
+            length_between_perpendiculars: table.stated.length_between_perpendiculars.unwrap_or(last.x - first.x),
+            breadth: table.stated.breadth.unwrap_or(2.0 * size.breadth),
+            draught: table.stated.draught.unwrap_or(size.depth),
+            depth: table.stated.depth.unwrap_or(size.depth),
+        }
+    }
+
+    /// The upper edge of the surface as the deck at side.
+    fn deck(&self) -> Result<BsplineCurve<2>, FitError> {
+        let [rows, columns] = self.surface.shape();
+        let edge: Vec<[f64; 2]> = (0..rows)
+            .map(|row| {
+                let [x, _, z] = self.surface.point(row, columns - 1);
+                [x, z]
+            })
+            .collect();
+        if edge.windows(2).all(|w| w[1][0] > w[0][0]) {
+            return Ok(BsplineCurve::new(self.surface.u().clone(), edge).map_err(spline)?);
+        }
+        // At a blunt end two control points share x; the edge over x itself has none such.
+        let x: Vec<f64> = self.profiles.iter().map(|p| p.x).collect();
+        let plain = Length::new(&x, length::Blunt { aft: false, fore: false });
+        let knots = plain.knots(&[]).map_err(spline)?;
+        let heights: Vec<f64> = self.profiles.iter().map(Profile::top).collect();
+        let z = plain.interpolation(&[], &[]).and_then(|across| across.control(&heights)).map_err(spline)?;
+        let points = plain.control_lengths(&knots).into_iter().zip(z).map(|(x, z)| [x, z]).collect();
+        Ok(BsplineCurve::new(knots, points).map_err(spline)?)
+    }
+
+    /// v at a height of a station; none outside its section.
+    fn v(&self, station: usize, z: f64) -> Option<f64> {
+        let levels = girth::levels(&self.profiles[station], &self.lines, station);
+        self.bands.iter().enumerate().find_map(|(j, band)| {
+            let (a, b) = (levels[j], levels[j + 1]);
+            (b - a > self.slack && z >= a - self.slack && z <= b + self.slack).then(|| band.v((z - a) / (b - a)))
+        })
+    }
+
+    /// The cells with a value or to be predicted.
+    fn cells(&self, table: &OffsetTable) -> Vec<CellResidual> {
+        let mut result = Vec::new();
+        for (number, profile) in self.profiles.iter().enumerate() {
+            let Some(station) = profile.station else { continue };
+            for (waterline, cell) in table.stations[station].half_breadths.iter().enumerate() {
+                let Some(&z) = table.waterlines.get(waterline) else { continue };
+                if cell.entry == Entry::Absent {
+                    continue;
+                }
+                if let Some(v) = self.v(number, z) {
+                    let half_breadth = self.surface.eval(self.length.sites[number], v)[1];
+                    let residual = cell.value().map(|y| half_breadth - y);
+                    result.push(CellResidual { station, waterline, half_breadth, residual });
+                }
+            }
+        }
+        result.sort_by_key(|cell| (cell.station, cell.waterline));
+        result
+    }
+}
+
+fn spline(error: SplineError) -> FitError {
+    FitError::Hull(error.into())
+}
+
+/// Depth from the lowest keel to the highest upper edge, and the greatest half-breadth \[m\].
+fn size(profiles: &[Profile]) -> Size {
+    let low = profiles.iter().map(Profile::keel).fold(f64::INFINITY, f64::min);
+    let high = profiles.iter().map(Profile::top).fold(f64::NEG_INFINITY, f64::max);
+    Size { depth: high - low, breadth: profiles.iter().map(Profile::breadth).fold(0.0, f64::max) }
+}
+
+/// Heights of keel, lines and upper edge along the ship.
+struct Levels {
+    /// Stations at which each of them is interrupted.
+    breaks: Vec<Vec<usize>>,
+    /// All of these.
+    all: Vec<usize>,
+    knots: KnotVector,
+    /// Control heights of each over `knots`.
+    control: Vec<Vec<f64>>,
+}
+
+impl Levels {
+    /// Interpolates; where two lines would cross between stations, both are straight from station to station there.
+    fn new(
+        profiles: &[Profile],
+        lines: &[Line],
+        length: &Length,
+        size: Size,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, SplineError> {
+        let last = profiles.len() - 1;
+        let x: Vec<f64> = profiles.iter().map(|p| p.x).collect();
+        let mut values: Vec<Vec<f64>> = vec![profiles.iter().map(Profile::keel).collect()];
+        values.extend(lines.iter().map(|line| line.z.clone()));
+        values.push(profiles.iter().map(Profile::top).collect());
+        let mut breaks: Vec<Vec<usize>> = values.iter().map(|z| length::jumps(&x, z, size.depth)).collect();
+        for pair in breaks[0].windows(2).filter(|w| w[1] == w[0] + 1) {
+            notes.push(format!(
+                "the keel line jumps between x = {:.3} m and {:.3} m; the surface is ruled there",
+                x[pair[0]], x[pair[1]]
+            ));
+        }
+        // Where a line only goes on as a line of the net it jumps with the keel.
+        let keel_jumps: Vec<usize> = breaks[0].windows(2).filter(|w| w[1] == w[0] + 1).map(|w| w[0]).collect();
+        for (line, own) in lines.iter().zip(&mut breaks[1..]) {
+            for &k in keel_jumps
+                .iter()
+                .filter(|&&k| line.y[k].is_none() && line.y[k + 1].is_none() && line.z[k] > values[0][k])
+            {
+                own.extend([k, k + 1]);
+            }
+            own.sort_unstable();
+            own.dedup();
+        }
+        loop {
+            let mut all: Vec<usize> = breaks.iter().flatten().copied().filter(|k| (1..last).contains(k)).collect();
+            all.sort_unstable();
+            all.dedup();
+            let knots = length.knots(&all)?;
+            let mut control = Vec::new();
+            for (own, z) in breaks.iter().zip(&values) {
+                control.push(length.interpolation(own, &all)?.control(z)?);
+            }
+            // A control height below the one of the line beneath it: lines would cross near its site.
+            let dust = SLACK * size.depth;
+            let mut found = Vec::new();
+            let greville = knots.greville();
+            for j in 1..control.len() {
+                for (i, &site) in greville.iter().enumerate() {
+                    if control[j][i] < control[j - 1][i] - dust {
+                        let next = length.sites.partition_point(|&u| u <= site).min(last);
+                        for line in [j - 1, j] {
+                            found.extend([next.saturating_sub(1), next].map(|k| (line, k)));
+                        }
+                    }
+                }
+            }
+            found.retain(|(line, k)| (1..last).contains(k) && !breaks[*line].contains(k));
+            if found.is_empty() {
+                for j in 1..control.len() {
+                    let (below, above) = control.split_at_mut(j);
+                    for (z, &floor) in above[0].iter_mut().zip(&below[j - 1]) {
+                        *z = z.max(floor);
+                    }
+                }
+                return Ok(Self { breaks, all, knots, control });
+            }
+            for (line, k) in found {
+                if !breaks[line].contains(&k) {
+                    breaks[line].push(k);
+                    breaks[line].sort_unstable();
+                }
+            }
+        }
+    }
+}
+
+/// The net of x, y and z.
+fn assemble(
+    profiles: &[Profile],
+    lines: &[Line],
+    length: &Length,
+    levels: &Levels,
+    bands: &[Band],
+    slack: f64,
+) -> Result<BsplineSurface<3>, SplineError> {
+    let curves = (0..profiles.len())
+        .map(|k| girth::station_curve(&profiles[k], lines, bands, k, slack))
+        .collect::<Result<Vec<_>, _>>()?;
+    let x = length.control_lengths(&levels.knots);
+    let mut columns: Vec<Vec<[f64; 3]>> = Vec::new();
+    let mut knots: Vec<f64> = Vec::new();
+    for (j, band) in bands.iter().enumerate() {
+        let shares = band.control_shares();
+        let mut breaks: Vec<usize> = [&levels.breaks[j][..], &levels.breaks[j + 1]].concat();
+        breaks.sort_unstable();
+        breaks.dedup();
+        let inside = length.interpolation(&breaks, &levels.all)?;
+        // Keel and upper edge go with the only band beside them.
+        let edge = |line: usize| {
+            let outer = line == 0 || line == bands.len();
+            length.interpolation(if outer { &breaks } else { &levels.breaks[line] }, &levels.all)
+        };
+        let edges: [Across; 2] = [edge(j)?, edge(j + 1)?];
+        for (c, share) in shares.iter().enumerate().skip(usize::from(j > 0)) {
+            let across = match c {
+                0 => &edges[0],
+                c if c + 1 == shares.len() => &edges[1],
+                _ => &inside,
+            };
+            let values: Vec<f64> = curves.iter().map(|curve| curve[j][c]).collect();
+            let y = across.control(&values)?;
+            let column = (0..x.len()).map(|i| {
+                let (a, b) = (levels.control[j][i], levels.control[j + 1][i]);
+                [x[i], y[i], if c + 1 == shares.len() { b } else { a + (b - a) * share }]
+            });
+            columns.push(column.collect());
+        }
+        // Of the clamped ends of two bands at their join, p knots remain.
+        knots.pop();
+        knots.extend(&band.knots.knots()[if j > 0 { length::DEGREE + 1 } else { 0 }..]);
+    }
+    let v = KnotVector::new(length::DEGREE, knots)?;
+    let points = (0..x.len()).flat_map(|i| columns.iter().map(move |column| column[i])).collect();
+    BsplineSurface::new(levels.knots.clone(), v, points)
+}
