@@ -17,7 +17,7 @@ pub use area::SectionalAreaCurve;
 pub use cell::{
     Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TableForm, TransomPlane, Written,
 };
-pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted};
+pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted, VolumeEstimate};
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

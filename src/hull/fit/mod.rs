@@ -3,16 +3,20 @@
 //! The default method works on a chart that follows the ship: see `level` for hulls whose waterlines run from profile to
 //! profile. Every cell with a value is met to 1e-9 m unless it is marked doubtful; what had to be assumed is noted.
 
+mod bounded;
 mod chart;
+mod estimate;
 mod level;
 mod method;
 mod monotone;
+mod outlines;
 mod particulars;
 mod rows;
 
 use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
+pub use estimate::VolumeEstimate;
 pub use method::FitMethod;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
@@ -82,7 +86,12 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
-    let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
+    let read = outlines::only_outlines(table).then(|| outlines::with_waterlines(table));
+    let source = read.as_ref().unwrap_or(table);
+    let (hull, mut notes) = level::loft(source, rows::prepare(source)?)?;
+    if read.is_some() {
+        notes.push(outlines::note(table, &hull));
+    }
     let cells = residuals(table, &hull);
     Ok(Fitted { hull, chart: Chart::Level, cells, notes })
 }
