@@ -23,6 +23,10 @@ pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations, QuadraticNet,
     SettingProblem, SettingProblems, UniformBicubic,
 };
+<<<<<<< HEAD
+=======
+pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted, VolumeEstimate};
+>>>>>>> wt-level
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

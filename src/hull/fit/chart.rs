@@ -8,28 +8,53 @@
 //! v runs like the girth of the sections (mean over the stations of the chord lengths between waterlines), and dz/dv = 0 at the
 //! bottom where it is flat, so that y(v) is smooth where dy/dz is infinite.
 
+use super::super::HullError;
 use super::FitError;
-use crate::spline::{Collocation, Condition, Energy, KnotVector, SplineError};
+use super::bounded::with_knots;
+use crate::spline::{BsplineCurve, Collocation, Condition, Energy, KnotVector, SplineError};
 
 /// Shoulders of the cubes.
 pub(super) const SHOULDERS: [f64; 2] = [0.4, 0.6];
 
 /// x over u between given profiles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Span {
-    /// The foremost point of the stern profile and the aftmost of the stem profile \[m\].
-    pub(super) inner: [f64; 2],
+pub(super) enum Span {
+    /// Line and cubes: the foremost point of the stern profile and the aftmost of the stem profile \[m\].
+    Cubes([f64; 2]),
+    /// x = stern (1 - u) + stem u, where the two profiles overlap in x.
+    Blend,
+}
+
+/// The cubes A and F and their slopes.
+fn cubes(u: f64) -> [(f64, f64); 2] {
+    let [ua, uf] = SHOULDERS;
+    let (a, f) = ((1.0 - u / ua).max(0.0), ((u - uf) / (1.0 - uf)).max(0.0));
+    [(a * a * a, -3.0 * a * a / ua), (f * f * f, 3.0 * f * f / (1.0 - uf))]
 }
 
 impl Span {
+    /// For profiles with control values `stern` and `stem`.
+    pub(super) fn new(stern: &[f64], stem: &[f64]) -> Self {
+        /// Least part of the whole length that the shortest line may have for the cubes.
+        const LEAST: f64 = 1e-3;
+        let most = |x: &[f64]| x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = |x: &[f64]| x.iter().copied().fold(f64::INFINITY, f64::min);
+        let inner = [most(stern), least(stem)];
+        if inner[1] - inner[0] > LEAST * (most(stem) - least(stern)) { Self::Cubes(inner) } else { Self::Blend }
+    }
+
     /// x and dx/du at `u` on a waterline between `ends`.
     pub(super) fn x(&self, u: f64, ends: [f64; 2]) -> (f64, f64) {
-        let [s, e] = self.inner;
-        let (a, f) = ((1.0 - u / SHOULDERS[0]).max(0.0), ((u - SHOULDERS[1]) / (1.0 - SHOULDERS[1])).max(0.0));
-        let x = s + (e - s) * u + (ends[0] - s) * a * a * a + (ends[1] - e) * f * f * f;
-        let slope =
-            e - s - 3.0 * (ends[0] - s) * a * a / SHOULDERS[0] + 3.0 * (ends[1] - e) * f * f / (1.0 - SHOULDERS[1]);
-        (x, slope)
+        match *self {
+            Self::Cubes([s, e]) => {
+                let [(a, da), (f, df)] = cubes(u);
+                (
+                    s + (e - s) * u + (ends[0] - s) * a + (ends[1] - e) * f,
+                    e - s + (ends[0] - s) * da + (ends[1] - e) * df,
+                )
+            }
+            Self::Blend => (ends[0] + (ends[1] - ends[0]) * u, ends[1] - ends[0]),
+        }
     }
 
     /// u at `x` on a waterline between `ends`, to rounding.
@@ -65,6 +90,22 @@ pub(super) struct Heights {
     pub(super) z: Vec<f64>,
 }
 
+impl Heights {
+    /// The same z(v) with more knots at `middles`, exactly.
+    pub(super) fn refined(&self, middles: Vec<f64>) -> Result<Self, FitError> {
+        let knots = with_knots(&self.knots, middles)?;
+        if knots == self.knots {
+            return Ok(self.clone());
+        }
+        let curve =
+            BsplineCurve::new(self.knots.clone(), self.z.iter().map(|&z| [z]).collect()).map_err(HullError::from)?;
+        let added: Vec<f64> =
+            knots.breakpoints().into_iter().filter(|&t| knots.multiplicity(t) > self.knots.multiplicity(t)).collect();
+        let fine = curve.insert_knots(&added).map_err(HullError::from)?;
+        Ok(Self { knots, sites: self.sites.clone(), z: fine.points().iter().map(|p| p[0]).collect() })
+    }
+}
+
 /// Knots through `sites` (0 to 1, rising) for cubics: the sites, `corners` (indices of sites) threefold.
 fn knots_at(sites: &[f64], corners: &[usize]) -> Result<KnotVector, SplineError> {
     let times: Vec<usize> = (1..sites.len() - 1).map(|k| if corners.contains(&k) { 3 } else { 1 }).collect();
@@ -89,7 +130,7 @@ pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool)
         if let Some(last) = sites.last_mut() {
             *last = 1.0;
         }
-        let knots = knots_at(&sites, corners).map_err(crate::hull::HullError::from)?;
+        let knots = knots_at(&sites, corners).map_err(HullError::from)?;
         let mut conditions: Vec<Condition> = sites.iter().map(|&site| Condition { site, order: 0 }).collect();
         let mut data = z.to_vec();
         if blunt && step < STEPS {
@@ -112,31 +153,24 @@ pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool)
     if let Some(last) = sites.last_mut() {
         *last = 1.0;
     }
-    let knots = knots_at(&sites, corners).map_err(crate::hull::HullError::from)?;
+    let knots = knots_at(&sites, corners).map_err(HullError::from)?;
     let control = knots.greville().iter().map(|v| z[0] + rise * v).collect();
     Ok(Heights { knots, sites, z: control })
 }
 
-/// The net of x (u slowest) for profiles with control values `stern` and `stem` in v.
-pub(super) fn lengths(u: &KnotVector, span: Span, stern: &[f64], stem: &[f64]) -> Result<Vec<f64>, FitError> {
+/// The net of x, one list a column in v, for profiles with control values `stern` and `stem`.
+pub(super) fn lengths(u: &KnotVector, span: Span, stern: &[f64], stem: &[f64]) -> Result<Vec<Vec<f64>>, FitError> {
     let sites = u.greville();
-    let matrix = Collocation::new(u, &sites).map_err(crate::hull::HullError::from)?;
-    // Line and cubes once; a column of the net is their combination.
-    let mut parts = [[span.inner; 1].map(|i| i); 3].map(|_| Vec::new());
-    for &t in &sites {
-        parts[0].push(t);
-        parts[1].push((1.0 - t / SHOULDERS[0]).max(0.0).powi(3));
-        parts[2].push(((t - SHOULDERS[1]) / (1.0 - SHOULDERS[1])).max(0.0).powi(3));
-    }
+    let matrix = Collocation::new(u, &sites).map_err(HullError::from)?;
+    let mut parts: [Vec<f64>; 2] = [0, 1].map(|k| sites.iter().map(|&t| cubes(t)[k].0).collect());
     parts.iter_mut().for_each(|p| matrix.solve(p));
-    let [s, e] = span.inner;
-    let mut x = Vec::with_capacity(sites.len() * stern.len());
-    for i in 0..sites.len() {
-        for (aft, fore) in stern.iter().zip(stem) {
-            x.push(s + (e - s) * parts[0][i] + (aft - s) * parts[1][i] + (fore - e) * parts[2][i]);
-        }
-    }
-    Ok(x)
+    let column = |(&aft, &fore): (&f64, &f64)| match span {
+        Span::Cubes([s, e]) => (0..sites.len())
+            .map(|i| s + (e - s) * sites[i] + (aft - s) * parts[0][i] + (fore - e) * parts[1][i])
+            .collect(),
+        Span::Blend => sites.iter().map(|t| aft * (1.0 - t) + fore * t).collect(),
+    };
+    Ok(stern.iter().zip(stem).map(column).collect())
 }
 
 /// Knots in u on which every waterline, with sites `rows` in (0, 1), has at most one site a span; the shoulders are knots.
@@ -165,5 +199,5 @@ pub(super) fn length_knots(rows: &[Vec<f64>]) -> Result<KnotVector, FitError> {
         }
     }
     let last = breaks.len() - 1;
-    Ok(KnotVector::from_breakpoints(3, &breaks, &vec![1; last - 1]).map_err(crate::hull::HullError::from)?)
+    Ok(KnotVector::from_breakpoints(3, &breaks, &vec![1; last - 1]).map_err(HullError::from)?)
 }

@@ -1,8 +1,8 @@
 //! Main dimensions and deck of a fitted hull, from the table or, where it is silent, from its offsets.
 
+use super::super::{HullError, OffsetTable, PrincipalParticulars};
 use super::FitError;
 use super::rows::Row;
-use crate::hull::{HullError, OffsetTable, PrincipalParticulars};
 use crate::spline::KnotVector;
 
 /// Design draught over the height of the table where none is stated.

@@ -5,9 +5,9 @@
 //! hull begins; the last cell itself where the table ends with breadth (transom or cut); where the waterline, continued
 //! straight, closes before the next station. Each assumption is told once, with the waterlines it concerns.
 
+use super::super::{Entry, OffsetTable, StationOffsets};
 use super::FitError;
 use super::monotone::monotone_cubic;
-use crate::hull::{Entry, OffsetTable, StationOffsets};
 
 /// Slack of a doubtful cell against one that must be met, as a part of the energy scale of the fit.
 const DOUBTFUL: f64 = 1.0;
@@ -121,7 +121,7 @@ impl Waterline<'_> {
         let station = self.station(k);
         station.deck_half_breadth.or_else(|| {
             let below = self.j.min(station.half_breadths.len());
-            station.half_breadths[..below].iter().rev().find_map(crate::hull::Cell::value)
+            station.half_breadths[..below].iter().rev().find_map(super::super::Cell::value)
         })
     }
 }
@@ -142,6 +142,8 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         let line = Waterline { table, order: &order, j };
         if let Some(row) = row(&line, &mut assumed, &mut notes) {
             rows.push(row);
+        } else if order.iter().any(|&i| table.stations[i].half_breadths.get(j).is_some_and(|c| c.value().is_some())) {
+            notes.push(format!("the waterline at z = {:.3} m has no length and is left out", table.waterlines[j]));
         }
     }
     if let Some(bottom) = bottom_row(table, &order, rows.first()) {
@@ -268,6 +270,10 @@ fn end(
         return Some((End { x: line.x(next), y: 0.0 }, Origin::Zero));
     }
     if let Some(at) = profile_crossing(line, k, step) {
+        // A profile that leaves the waterline at the station itself: a level keel ends there with its breadth.
+        if (at - x).abs() <= 1e-9 * (1.0 + x.abs()) {
+            return Some((End { x, y }, Origin::Profile));
+        }
         return Some((End { x: at, y: 0.0 }, Origin::Profile));
     }
     // Straight on, not beyond the next station.
