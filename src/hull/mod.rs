@@ -21,12 +21,8 @@ pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedPa
 pub(crate) use charted::advance;
 pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations, QuadraticNet,
-    SettingProblem, SettingProblems, UniformBicubic,
+    SettingProblem, SettingProblems, UniformBicubic, VolumeEstimate,
 };
-<<<<<<< HEAD
-=======
-pub use fit::{CellResidual, Chart, FitError, FitMethod, Fitted, VolumeEstimate};
->>>>>>> wt-level
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};

@@ -19,17 +19,13 @@ mod upright;
 use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
-<<<<<<< HEAD
 use crate::spline::SplineError;
+pub use estimate::VolumeEstimate;
 pub use method::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
     UniformBicubic,
 };
 pub use misfit::Misfit;
-=======
-pub use estimate::VolumeEstimate;
-pub use method::FitMethod;
->>>>>>> wt-level
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -112,19 +108,15 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
-<<<<<<< HEAD
     if upright::suits(table) {
         return upright::fit(table);
     }
-    let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
-=======
     let read = outlines::only_outlines(table).then(|| outlines::with_waterlines(table));
     let source = read.as_ref().unwrap_or(table);
     let (hull, mut notes) = level::loft(source, rows::prepare(source)?)?;
     if read.is_some() {
         notes.push(outlines::note(table, &hull));
     }
->>>>>>> wt-level
     let cells = residuals(table, &hull);
     Ok(Fitted { hull, chart: Chart::Level, cells, notes })
 }
