@@ -1,6 +1,7 @@
 //! The command line: one file a subcommand. Data goes to stdout, messages to stderr; every number that is printed was
 //! returned by a library function.
 
+mod check;
 mod convert;
 mod fit;
 mod generate;
@@ -34,6 +35,8 @@ const EXIT_CODES: &str = "Lists: 1:9:1 (from:to:step, both ends), 1,2.5,4 or 0,5
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Suspect cells and problems of a table of offsets
+    Check(check::Arguments),
     /// Generate a hull from a design file: hull, offsets, hydrostatics, summary, figures
     Generate(generate::Arguments),
     /// Fit a hull to a table of offsets: hull, residuals, hydrostatics, figures
@@ -81,6 +84,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     let done = match &cli.command {
+        Command::Check(arguments) => check::run(arguments),
         Command::Generate(arguments) => generate::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),

@@ -62,7 +62,7 @@ impl FigureInputs<'_> {
 /// A finished drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Svg {
-    text: String,
+    pub(super) text: String,
 }
 
 impl Svg {

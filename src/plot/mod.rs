@@ -20,6 +20,7 @@ mod profile;
 mod scale;
 mod sectional_area;
 mod sections;
+mod suspects;
 #[cfg(test)]
 mod tests;
 mod title_block;
@@ -27,3 +28,4 @@ mod view;
 
 pub use figure::{Figure, FigureInputs, PlotError, Svg};
 pub use scale::{DRAWING_SCALES, sheet_scale};
+pub use suspects::suspects_figure;

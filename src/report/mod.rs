@@ -1,5 +1,6 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
+mod check;
 mod convert;
 mod failure;
 mod files;
@@ -12,6 +13,7 @@ mod self_test;
 mod source;
 mod validate;
 
+pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use convert::{Converted, convert_table};
 pub use failure::Failure;
 pub use files::{OutputFile, write_all, write_run};

@@ -355,9 +355,4 @@ impl Judge {
         }
         sum
     }
-
-    /// Whether neighbours lie on both sides of the cell in both directions.
-    pub(super) fn inside(&self, cell: usize) -> bool {
-        self.directions.iter().all(|direction| direction.sides[cell][0])
-    }
 }

@@ -3,7 +3,7 @@
 //! With the prediction p, its scale s and Student's law t_nu of the scale's degrees of freedom:
 //! * right as written: (1 - a) t_nu((w - p)/s)/s,
 //! * a slip of kind k that turned v into the written w: a P(k) P(v -> w | k) t_nu((v - p)/s)/s, summed over the v,
-//! * the text of a neighbour, when it is that very text: a P(k)/2, over the quantum of the table,
+//! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table,
 //! * wrong and unexplained: a P(u)/(20 |w - p|), flat over the decade of what is wrong.
 //!
 //! a is how many cells of a table are wrong before it is looked at.
@@ -13,6 +13,9 @@ use super::reading::{Hypothesis, Repair};
 
 /// Share of wrong cells in tables as they come: one in two hundred.
 const WRONG: f64 = 0.005;
+
+/// How much likelier a repeated text is when it was copied: neighbours are alike without that, too.
+const COPIED: f64 = 0.05;
 
 /// A hypothesis about a cell with its probability.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +82,7 @@ pub(super) fn readings(
             hypothesis,
             text: String::new(),
             value: p,
-            probability: WRONG * hypothesis.prior() * 0.5 / quantum,
+            probability: WRONG * hypothesis.prior() * COPIED / quantum,
         });
     }
     list.push(Reading {

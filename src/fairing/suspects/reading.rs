@@ -3,7 +3,8 @@
 //! Each slip is undone on the text of the cell in its own notation: adjacent digits swapped back, a 1 read for a 7. Slips that
 //! change the value by copying another cell leave that cell's text behind instead.
 
-use crate::units::Notation;
+use crate::hull::TableForm;
+use crate::units::{CellEntry, CellRules, Notation, parse_cell};
 
 /// How a cell may have come to say what it says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -102,49 +103,36 @@ pub(super) struct Repair {
 pub(super) struct Writing {
     pub(super) notation: Notation,
     pub(super) decimals: Option<usize>,
+    pub(super) decimal_comma: bool,
+    /// What is written over the half-breadth: 2 for full breadths, negative where half-breadths are written so.
+    pub(super) factor: f64,
 }
 
-/// The digits of a text without the marks around them: brackets, `!`, `K`, `T`, blanks.
-fn bare(text: &str) -> &str {
-    text.trim_matches(|c: char| !(c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | ',')))
-}
-
-fn decimal(text: &str) -> Option<f64> {
-    text.replace(',', ".").parse::<f64>().ok().filter(|v| v.is_finite())
-}
-
-/// `3-4-5`, `3-4-5+`, `3,4,5` as feet.
-fn feet(text: &str) -> Option<f64> {
-    let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
-    let (rest, sixteenth) = match rest.strip_suffix(['+', '-']) {
-        Some(head) => (head, if rest.ends_with('+') { 0.5 } else { -0.5 }),
-        None => (rest, 0.0),
-    };
-    let parts: Vec<&str> = rest.split(['-', ',', ' ']).collect();
-    let [feet, inches, eighths] = parts[..] else { return None };
-    let number = |part: &str| part.parse::<u32>().ok().map(f64::from);
-    let (feet, inches, eighths) = (number(feet)?, number(inches)?, number(eighths)?);
-    (inches < 12.0 && eighths < 8.0).then_some(sign * (feet + (inches + (eighths + sixteenth) / 8.0) / 12.0))
+/// The text of an offset without the marks around it: brackets, `!`, `K`, `T`, blanks.
+pub(super) fn bare(text: &str) -> &str {
+    text.trim_matches(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '!' | 'K' | 'T'))
 }
 
 impl Writing {
-    /// `value` \[m\] in this writing.
-    pub(super) fn write(self, value: f64) -> String {
-        match (self.notation, self.decimals) {
-            (Notation::Metres, decimals) => format!("{value:.*}", decimals.unwrap_or(3)),
-            (Notation::Millimetres, Some(decimals)) => format!("{:.decimals$}", value * 1000.0),
-            (notation, _) => notation.write(value),
-        }
+    pub(super) fn of(form: &TableForm) -> Self {
+        let factor = if form.full_breadths { 2.0 } else { 1.0 } * if form.negative { -1.0 } else { 1.0 };
+        Self { notation: form.notation, decimals: form.decimals, decimal_comma: form.decimal_comma, factor }
     }
 
-    /// Metres a unit of the number in `text` that stands for `value`; the number itself.
-    fn read(text: &str, value: f64) -> Option<(fn(&str) -> Option<f64>, f64)> {
-        let readers: [fn(&str) -> Option<f64>; 2] = [decimal, feet];
-        readers.into_iter().find_map(|reader| {
-            let number = reader(text)?;
-            let unit = if number.abs() > 0.0 { value / number } else { 1.0 };
-            (unit > 0.0).then_some((reader, unit))
-        })
+    /// `value` \[m\] in this writing; millimetres where computed values have no digits of their own.
+    pub(super) fn write(self, value: f64) -> String {
+        let decimals = self.decimals.or((self.notation == Notation::Metres).then_some(3));
+        let text = self.notation.write_to(value * self.factor, decimals);
+        if self.decimal_comma { text.replace('.', ",") } else { text }
+    }
+
+    /// The half-breadth that `text` stands for \[m\].
+    pub(super) fn read(self, text: &str) -> Option<f64> {
+        let rules = CellRules { unit: self.notation, decimal_comma: self.decimal_comma };
+        match parse_cell(text, rules).ok()?.entry {
+            CellEntry::Length(length) if length.is_finite() => Some(length / self.factor),
+            _ => None,
+        }
     }
 }
 
@@ -165,18 +153,19 @@ fn look_alikes(digit: u8) -> &'static [(u8, f64)] {
     }
 }
 
-/// Every text that one slip of the pen makes into `text`, which stands for `value` \[m\].
-pub(super) fn repairs(text: &str, value: f64) -> Vec<Repair> {
+/// Every text that one slip of the pen makes into `text`.
+pub(super) fn repairs(text: &str, writing: Writing) -> Vec<Repair> {
     let text = bare(text);
-    let Some((reader, unit)) = Writing::read(text, value) else { return Vec::new() };
-    let is_feet = decimal(text).is_none();
+    if writing.read(text).is_none() {
+        return Vec::new();
+    }
+    let plain = text.replace(',', ".").parse::<f64>().ok();
     let mut list: Vec<Repair> = Vec::new();
     let mut add = |hypothesis: Hypothesis, text: String, weight: f64| {
-        if let Some(number) = reader(&text) {
-            let value = number * unit;
-            if !list.iter().any(|r| r.hypothesis == hypothesis && r.text == text) {
-                list.push(Repair { hypothesis, text, value, weight });
-            }
+        if let Some(value) = writing.read(&text)
+            && !list.iter().any(|r| r.hypothesis == hypothesis && r.text == text)
+        {
+            list.push(Repair { hypothesis, text, value, weight });
         }
     };
     let bytes = text.as_bytes();
@@ -201,7 +190,13 @@ pub(super) fn repairs(text: &str, value: f64) -> Vec<Repair> {
             }
         }
         if k > 0 && bytes[k - 1] == bytes[k] {
-            add(Hypothesis::DigitDropped, with(&|copy| drop(copy.remove(k))), 1.0);
+            add(
+                Hypothesis::DigitDropped,
+                with(&|copy| {
+                    copy.remove(k);
+                }),
+                1.0,
+            );
         }
         for digit in b'0'..=b'9' {
             let weight = if digit == bytes[k] { 1.0 } else { 0.2 };
@@ -212,77 +207,86 @@ pub(super) fn repairs(text: &str, value: f64) -> Vec<Repair> {
         add(Hypothesis::DigitDropped, with(&|copy| copy.insert(digits.last().map_or(0, |k| k + 1), digit)), 0.2);
     }
     add(Hypothesis::SignLost, text.strip_prefix('-').map_or_else(|| format!("-{text}"), str::to_owned), 1.0);
-    if is_feet {
-        let parts: Vec<&str> = text.splitn(2, ['-', ',', ' ']).collect();
-        if let [feet, rest] = parts[..]
-            && let Ok(feet) = feet.parse::<i64>()
-        {
-            let sign = text.as_bytes()[parts[0].len()] as char;
-            for other in [feet - 1, feet + 1] {
-                if other >= 0 {
-                    add(Hypothesis::WrongFoot, format!("{other}{sign}{rest}"), 1.0);
-                }
-            }
-            let inner: Vec<&str> = rest.splitn(2, ['-', ',', ' ']).collect();
-            if let [inches, rest] = inner[..]
-                && let Ok(inches) = inches.parse::<i64>()
-            {
-                for other in [inches - 1, inches + 1] {
-                    if (0..12).contains(&other) {
-                        add(Hypothesis::WrongInch, format!("{feet}{sign}{other}{sign}{rest}"), 1.0);
-                    }
-                }
-            }
-        }
-    } else {
-        let number = reader(text).unwrap_or(0.0);
-        let decimals = text.find(['.', ',']).map_or(0, |k| text.len() - k - 1);
-        for (factor, decimals) in
-            [(10.0, decimals), (0.1, if decimals > 0 { decimals + 1 } else { 0 }), (100.0, decimals), (0.01, decimals)]
-        {
-            let weight = if factor > 50.0 || factor < 0.05 { 0.1 } else { 1.0 };
-            add(Hypothesis::DecimalSlipped, format!("{:.decimals$}", number * factor), weight);
-        }
-        // A nought or another digit lost at the end leaves a tenth, whatever the digit was.
-        if decimals == 0 {
-            for digit in b'1'..=b'9' {
-                add(Hypothesis::DecimalSlipped, with(&|copy| copy.push(digit)), 0.3);
-            }
-        }
+    match plain {
+        Some(number) => decimal_slips(text, number, &mut add),
+        None => feet_slips(text, &mut add),
     }
     list
+}
+
+/// The decimal sign one place off, seldom two; without decimals a digit lost at the end.
+fn decimal_slips(text: &str, number: f64, add: &mut impl FnMut(Hypothesis, String, f64)) {
+    let decimals = text.find(['.', ',']).map_or(0, |k| text.len() - k - 1);
+    let finer = if decimals > 0 { decimals + 1 } else { 0 };
+    for (factor, decimals, weight) in
+        [(10.0, decimals, 1.0), (0.1, finer, 1.0), (100.0, decimals, 0.1), (0.01, finer, 0.1)]
+    {
+        let slipped = format!("{:.decimals$}", number * factor);
+        add(Hypothesis::DecimalSlipped, if text.contains(',') { slipped.replace('.', ",") } else { slipped }, weight);
+    }
+    if decimals == 0 {
+        for digit in '1'..='9' {
+            add(Hypothesis::DecimalSlipped, format!("{text}{digit}"), 0.3);
+        }
+    }
+}
+
+/// A foot or an inch too many or too few.
+fn feet_slips(text: &str, add: &mut impl FnMut(Hypothesis, String, f64)) {
+    let signs = ['-', ',', ' ', '\''];
+    let (sign, unsigned) = text.strip_prefix('-').map_or(("", text), |rest| ("-", rest));
+    let Some(end) = unsigned.find(signs) else { return };
+    let (feet, rest) = unsigned.split_at(end);
+    let Ok(number) = feet.parse::<i64>() else { return };
+    for other in [number - 1, number + 1].into_iter().filter(|&other| other >= 0) {
+        add(Hypothesis::WrongFoot, format!("{sign}{other}{rest}"), 1.0);
+    }
+    let start = rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len());
+    let (between, rest) = rest.split_at(start);
+    let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    let (inches, rest) = rest.split_at(end);
+    let Ok(number) = inches.parse::<i64>() else { return };
+    for other in [number - 1, number + 1].into_iter().filter(|other| (0..12).contains(other)) {
+        add(Hypothesis::WrongInch, format!("{sign}{feet}{between}{other}{rest}"), 1.0);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn finds(text: &str, value: f64, meant: &str, hypothesis: Hypothesis) {
-        let list = repairs(text, value);
+    fn writing(notation: Notation) -> Writing {
+        Writing { notation, decimals: None, decimal_comma: false, factor: 1.0 }
+    }
+
+    fn finds(text: &str, notation: Notation, meant: &str, hypothesis: Hypothesis) {
+        let list = repairs(text, writing(notation));
         assert!(list.iter().any(|r| r.hypothesis == hypothesis && r.text == meant), "{text} for {meant}: {list:?}");
     }
 
     #[test]
     fn each_slip_is_undone_in_its_notation() {
-        finds("29363", 29.363, "29633", Hypothesis::DigitsSwapped);
-        finds("3-7-4", 1.1, "3-1-4", Hypothesis::DigitMisread);
-        finds("6.83", 6.83, "6.33", Hypothesis::DigitMisread);
-        finds("0.641", 0.641, "6.410", Hypothesis::DecimalSlipped);
-        finds("64.1", 64.1, "6.41", Hypothesis::DecimalSlipped);
-        finds("2-11-3", 0.3048 * (2.0 + 11.375 / 12.0), "1-11-3", Hypothesis::WrongFoot);
-        finds("-6.41", -6.41, "6.41", Hypothesis::SignLost);
-        finds("2933", 2.933, "29633", Hypothesis::DigitDropped);
-        finds("299633", 299.633, "29633", Hypothesis::DigitDropped);
+        let (m, mm, feet) = (Notation::Metres, Notation::Millimetres, Notation::FeetInchesEighths);
+        finds("29363", mm, "29633", Hypothesis::DigitsSwapped);
+        finds("3-7-4", feet, "3-1-4", Hypothesis::DigitMisread);
+        finds("6.83", m, "6.33", Hypothesis::DigitMisread);
+        finds("0.641", m, "6.410", Hypothesis::DecimalSlipped);
+        finds("64.1", m, "6.41", Hypothesis::DecimalSlipped);
+        finds("641", mm, "6410", Hypothesis::DecimalSlipped);
+        finds("2-11-3", feet, "1-11-3", Hypothesis::WrongFoot);
+        finds("2-11-3+", feet, "2-10-3+", Hypothesis::WrongInch);
+        finds("-6.41", m, "6.41", Hypothesis::SignLost);
+        finds("2933", mm, "29633", Hypothesis::DigitDropped);
+        finds("299633", mm, "29633", Hypothesis::DigitDropped);
+        finds("(29363)K", mm, "29633", Hypothesis::DigitsSwapped);
     }
 
     #[test]
-    fn a_repair_has_the_value_of_its_text() {
-        for repair in repairs("3-4-5+", 0.3048 * (3.0 + 4.6875 / 12.0)) {
-            let value = feet(&repair.text).unwrap() * 0.3048;
-            assert!((value - repair.value).abs() < 1e-9, "{repair:?}");
-        }
-        for repair in repairs("(6,41)", 6.41) {
-            assert!((decimal(&repair.text).unwrap() - repair.value).abs() < 1e-9, "{repair:?}");
-        }
+    fn a_repair_has_the_value_of_its_text_in_full_breadths_too() {
+        let doubled = Writing { factor: 2.0, decimal_comma: true, ..writing(Notation::Metres) };
+        let list = repairs("12,82", doubled);
+        let swapped = list.iter().find(|r| r.text == "12,28").unwrap();
+        assert!((swapped.value - 6.14).abs() < 1e-12 && swapped.hypothesis == Hypothesis::DigitsSwapped);
+        assert_eq!(doubled.write(6.41), "12,820");
     }
 }

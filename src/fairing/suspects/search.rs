@@ -3,13 +3,13 @@
 use super::grid::{Along, Grid};
 use super::judge::{Judge, Verdict};
 use super::posterior::{Reading, readings};
-use super::reading::{Hypothesis, Writing, repairs};
+use super::reading::{Hypothesis, Writing, bare, repairs};
 use crate::hull::OffsetTable;
 
 /// Least score of a suspect, in standard deviations of a normal law.
 const LEAST_SCORE: f64 = 3.3;
 /// Least probability that a suspect is wrong.
-const LEAST_PROBABILITY: f64 = 0.9;
+const LEAST_PROBABILITY: f64 = 0.95;
 /// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
 const SHADOW_SCORE: f64 = 2.5;
 /// Reach of the shadow along the lines.
@@ -55,7 +55,7 @@ pub struct Suspect {
     pub probability: f64,
     /// Value of the most probable hypothesis that holds the cell for wrong, in the quantum of the table \[m\].
     pub proposed: f64,
-    /// The same as it would be written.
+    /// The cell as it would be written, with its marks.
     pub proposed_text: String,
 }
 
@@ -133,6 +133,7 @@ struct Search<'a> {
     judge: Judge,
     written: Vec<f64>,
     texts: Vec<String>,
+    writing: Writing,
     quantum: f64,
     verdicts: Vec<Option<Verdict>>,
 }
@@ -141,7 +142,7 @@ struct Search<'a> {
 #[must_use]
 pub fn suspects(table: &OffsetTable) -> Suspects {
     let quantum = table.form.quantum().unwrap_or(1e-4);
-    let writing = Writing { notation: table.form.notation, decimals: table.form.decimals };
+    let writing = Writing::of(&table.form);
     let grid = Grid::new(table);
     let texts = table
         .stations
@@ -157,9 +158,9 @@ pub fn suspects(table: &OffsetTable) -> Suspects {
         .collect();
     let written = grid.value.clone();
     let verdicts = vec![None; written.len()];
-    let mut search = Search { table, judge: Judge::new(grid, quantum), written, texts, quantum, verdicts };
+    let mut search = Search { table, judge: Judge::new(grid, quantum), written, texts, writing, quantum, verdicts };
     let found = search.run();
-    search.conclude(found, writing)
+    search.conclude(found)
 }
 
 impl Search<'_> {
@@ -199,7 +200,7 @@ impl Search<'_> {
 
     fn readings(&self, verdict: &Verdict) -> Vec<Reading> {
         let cell = verdict.cell;
-        let list = repairs(&self.texts[cell], self.written[cell]);
+        let list = repairs(&self.texts[cell], self.writing);
         readings(verdict, self.written[cell], &self.texts[cell], &list, &self.copies(cell), self.quantum)
     }
 
@@ -322,7 +323,7 @@ impl Search<'_> {
         kept
     }
 
-    fn conclude(self, mut found: Vec<Verdict>, writing: Writing) -> Suspects {
+    fn conclude(self, mut found: Vec<Verdict>) -> Suspects {
         let mut all = self.verdicts.clone();
         for verdict in &found {
             all[verdict.cell] = Some(*verdict);
@@ -337,8 +338,9 @@ impl Search<'_> {
                 let noise = readings.iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability);
                 let best = readings.iter().find(|r| r.hypothesis != Hypothesis::Noise);
                 let expected = self.written[verdict.cell] - verdict.residual;
-                let proposed = best.map_or(expected, |r| r.value);
-                let proposed_text = best.map(|r| r.text.clone()).filter(|t| !t.is_empty());
+                let text = best.map(|r| r.text.clone()).filter(|text| !text.is_empty());
+                let text = text.unwrap_or_else(|| self.writing.write(expected));
+                let cell_text = &self.texts[verdict.cell];
                 Suspect {
                     id: format!("S{}", k + 1),
                     station,
@@ -347,8 +349,8 @@ impl Search<'_> {
                     value: self.written[verdict.cell],
                     verdict: self.words(verdict),
                     probability: 1.0 - noise,
-                    proposed,
-                    proposed_text: proposed_text.unwrap_or_else(|| writing.write(proposed)),
+                    proposed: self.writing.read(&text).unwrap_or(expected),
+                    proposed_text: cell_text.replacen(bare(cell_text), &text, 1),
                     readings,
                 }
             })

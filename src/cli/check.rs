@@ -1,0 +1,53 @@
+//! `loftsman check TABLE`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::stream;
+use crate::report::{Failure, accept, check_files, check_json, check_page, check_table, write_all};
+
+#[derive(Debug, Args)]
+pub(super) struct Arguments {
+    /// Table of offsets: CSV, TSV or XLSX
+    table: PathBuf,
+    /// One JSON object
+    #[arg(long)]
+    json: bool,
+    /// Take over the proposals for these suspects and write the table with them, as S1,S3
+    #[arg(long, value_delimiter = ',', value_name = "SUSPECTS")]
+    accept: Vec<String>,
+    /// Folder for the list and the figures; with --accept the file for the table, else stdout
+    #[arg(short, long, value_name = "FOLDER|FILE")]
+    output: Option<PathBuf>,
+    /// No figures in the folder
+    #[arg(long)]
+    no_figures: bool,
+    /// Overwrite files that are there already
+    #[arg(long)]
+    force: bool,
+    /// Say nothing about what was detected
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let check = check_table(&arguments.table)?;
+    if !arguments.quiet {
+        check.notes.iter().for_each(|note| stream::message(note));
+    }
+    if !arguments.accept.is_empty() {
+        let accepted = accept(&check, &arguments.accept)?;
+        if arguments.output.is_some() && arguments.json {
+            stream::data(&stream::json(&check_json(&check))?)?;
+        }
+        accepted.changes.iter().for_each(|change| stream::message(change));
+        stream::data_or_file(accepted.text, arguments.output.as_deref(), arguments.force)?;
+        return check.verdict(&arguments.accept);
+    }
+    if let Some(folder) = &arguments.output {
+        write_all(folder, &check_files(&check, !arguments.no_figures)?, arguments.force)?;
+    }
+    stream::data(&if arguments.json { stream::json(&check_json(&check))? } else { check_page(&check) })?;
+    check.verdict(&[])
+}
