@@ -41,7 +41,7 @@ fn canoe(mixed: bool) -> Hull {
         for &t in &v.greville() {
             let xi = 2.0 * s - 1.0;
             let keel = 5.0 * xi * xi;
-            let rake = if mixed { 4.0 * t * xi } else { 0.0 };
+            let rake = if mixed { 4.0 * t * t * xi } else { 0.0 };
             points.push([length * s + rake, 0.5 * breadth * (1.0 - xi * xi) * t, keel + (depth - keel) * t * t]);
         }
     }

@@ -3,6 +3,7 @@
 mod charted;
 mod conventions;
 mod draughts;
+mod expansion;
 mod halves;
 mod quantity;
 mod sections;

@@ -11,7 +11,8 @@
 //! immersed, and exactly at ends. The ends of the parallel middle body are the places where A(x) passes (1 - 1e-6) A_X, known
 //! to 1e-6 of L_PP. A second maximum between two stations that neither slopes nor cubics show is not seen.
 
-use super::station::{Expansion, Place, Stations};
+use super::expansion::Expansion;
+use super::station::{Place, Stations};
 use crate::hull::{Hull, Immersion};
 
 /// Sections equal to the largest one within this relative difference belong to the parallel middle body.
