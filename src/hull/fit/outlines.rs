@@ -36,7 +36,9 @@ pub(super) fn only_outlines(table: &OffsetTable) -> bool {
 /// The greatest half-breadth of a branch at height `z`; none where the branch does not reach.
 fn half_breadth(branch: &[OutlinePoint], z: f64, slack: f64) -> Option<f64> {
     let mut length = 0.0;
-    let (mut ys, mut zs): (Vec<(f64, f64)>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
+    // y and z over the length along the chords.
+    let mut ys: Vec<(f64, f64)> = Vec::new();
+    let mut zs: Vec<(f64, f64)> = Vec::new();
     let mut before: Option<&OutlinePoint> = None;
     for point in branch.iter().filter(usable) {
         if let Some(b) = before {
