@@ -12,6 +12,9 @@ use crate::spline::{BsplineCurve, Condition, Energy, KnotVector, MinimumEnergy};
 /// Points in which a gap is looked at.
 const LOOKS: usize = 7;
 
+/// A round that multiplies the swing of the control values by more than this is not taken.
+const RUNAWAY: f64 = 3.0;
+
 /// Rounds of pulling back; a round frees neighbours that were held by the swing before.
 const ROUNDS: usize = 4;
 
@@ -95,29 +98,53 @@ impl Line {
         self.outside(knots, control).into_iter().map(|k| 0.5 * (self.sites[k] + self.sites[k + 1])).collect()
     }
 
-    /// The control values; `free` is the solution without limits.
+    /// How far the control values lie beyond all limits.
+    pub(super) fn excess(&self, control: &[f64]) -> f64 {
+        let low = self.limits.iter().map(|l| l[0]).fold(f64::INFINITY, f64::min);
+        let high = self.limits.iter().map(|l| l[1]).fold(f64::NEG_INFINITY, f64::max);
+        control.iter().map(|c| (low - c).max(c - high)).fold(0.0, f64::max)
+    }
+
+    /// The knot inside gap `k` that is nearest to its middle; none where the gap has no knot of its own.
+    fn knot_inside(&self, k: usize, breaks: &[f64]) -> Option<f64> {
+        let (a, b) = (self.sites[k], self.sites[k + 1]);
+        let (middle, margin) = (0.5 * (a + b), 0.2 * (b - a));
+        let inside = breaks.iter().copied().filter(|t| (a + margin..=b - margin).contains(t));
+        inside.min_by(|s, t| (s - middle).abs().total_cmp(&(t - middle).abs()))
+    }
+
+    /// The control values; `free` is the solution without limits. Only gaps with a knot inside are pulled back: in others
+    /// one more datum would make the spline swing elsewhere. A round that makes it swing much more is not
+    /// taken.
     pub(super) fn solve(&self, energy: &Energy, free: Vec<f64>) -> Vec<f64> {
         let points: Vec<(f64, f64)> = self.sites.iter().copied().zip(self.values.iter().copied()).collect();
-        let mut held: Vec<usize> = Vec::new();
+        let breaks = energy.knots().breakpoints();
+        let mut held: Vec<(usize, f64)> = Vec::new();
         let mut control = free;
         for _ in 0..ROUNDS {
-            let new: Vec<usize> =
-                self.outside(energy.knots(), &control).into_iter().filter(|k| !held.contains(k)).collect();
+            let gaps = self.outside(energy.knots(), &control);
+            let new: Vec<(usize, f64)> = gaps
+                .into_iter()
+                .filter(|k| held.iter().all(|h| h.0 != *k))
+                .filter_map(|k| self.knot_inside(k, &breaks).map(|site| (k, site)))
+                .collect();
             if new.is_empty() {
                 break;
             }
             held.extend(new);
-            held.sort_unstable();
             let mut conditions = self.conditions();
             let (mut data, mut slacks) = (self.values.clone(), self.slacks.clone());
-            for &k in &held {
-                let site = 0.5 * (self.sites[k] + self.sites[k + 1]);
+            for &(k, site) in &held {
                 conditions.push(Condition { site, order: 0 });
                 data.push(monotone_cubic(&points, site).clamp(self.limits[k][0], self.limits[k][1]));
                 slacks.push(0.0);
             }
             let Ok(problem) = energy.smoothing(&conditions, &slacks) else { break };
-            control = problem.solve(&data);
+            let trial = problem.solve(&data);
+            if self.excess(&trial) > RUNAWAY * (self.excess(&control) + self.tolerance) {
+                break;
+            }
+            control = trial;
         }
         control
     }

@@ -25,8 +25,14 @@ const FLAT_BOTTOM: f64 = 0.05;
 /// Swings beyond centreplane and greatest half-breadth that are left alone, over the latter.
 const SWING: f64 = 1e-4;
 
+/// Control values of a waterline this far beyond centreplane and greatest half-breadth, over the latter, ask for more knots.
+const WILD: f64 = 0.05;
+
 /// A profile jumps when an end moves by more than this part of the longest waterline from one waterline to the next.
 const JUMP: f64 = 0.4;
+
+/// How far from level such a keel may be, over the height of the table.
+const LEVEL: f64 = 2e-3;
 
 /// Width in v of a strip without height, over that of the whole.
 const STRIP: f64 = 0.02;
@@ -153,15 +159,23 @@ impl Part {
 
 /// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the ends of
 /// the body below.
-fn split(rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Vec<Row>> {
+fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Vec<Row>> {
     let longest = rows.iter().map(|r| r.ends[1].x - r.ends[0].x).fold(0.0, f64::max);
     let mut parts: Vec<Vec<Row>> = vec![Vec::new()];
     let count = rows.len();
+    let flat = LEVEL * (rows[count - 1].z - rows[0].z);
+    // A level keel: at two stations at least that the waterline gains, the lowest point is at its height.
+    let level_keel = |row: &Row, below: &Row| {
+        let gained =
+            |x: f64| row.ends[0].x <= x && x <= row.ends[1].x && !(below.ends[0].x..=below.ends[1].x).contains(&x);
+        let keels = table.stations.iter().filter(|s| gained(s.station.x)).filter_map(|s| s.keel_height);
+        keels.filter(|z| (z - row.z).abs() <= flat).count() >= 2
+    };
     for (j, row) in rows.into_iter().enumerate() {
         let current = parts.len() - 1;
         if let Some(below) = parts[current].last() {
             let moved = [below.ends[0].x - row.ends[0].x, row.ends[1].x - below.ends[1].x];
-            if moved.iter().any(|&m| m > JUMP * longest) && j + 1 < count {
+            if moved.iter().any(|&m| m > JUMP * longest) && j + 1 < count && level_keel(&row, below) {
                 notes.push(format!(
                     "the profile jumps along the keel at z = {:.3} m: the body below it joins the hull in a level strip",
                     row.z
@@ -206,17 +220,29 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     let particulars = particulars::particulars(table, &rows, &mut notes);
     let deck = particulars::deck(table, &rows, &mut notes)?;
     let mut parts = Vec::new();
-    for rows in split(rows, &mut notes) {
+    for rows in split(table, rows, &mut notes) {
         parts.push(Part::new(rows, table.stations.len(), greatest)?);
     }
     // Knots in u that serve every row, and more of them where a row swings.
     let lines = || parts.iter().flat_map(|p| &p.lines);
     let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
-    let first = length_knots(&sites)?;
-    let energy = Energy::new(&first, 2);
-    let mut middles = Vec::new();
-    for line in lines() {
-        middles.extend(line.swings(&first, &line.problem(&energy)?.solve(&line.values)));
+    let mut first = length_knots(&sites)?;
+    let free = |knots: &KnotVector| -> Result<(Vec<f64>, bool), FitError> {
+        let energy = Energy::new(knots, 2);
+        let (mut middles, mut wild) = (Vec::new(), false);
+        for line in lines() {
+            let control = line.problem(&energy)?.solve(&line.values);
+            wild |= line.excess(&control) > WILD * greatest;
+            middles.extend(line.swings(knots, &control));
+        }
+        Ok((middles, wild))
+    };
+    let (mut middles, wild) = free(&first)?;
+    if wild {
+        // One site a span is not always enough where the sites of different waterlines do not agree.
+        let breaks = first.breakpoints();
+        first = with_knots(&first, breaks.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect())?;
+        middles = free(&first)?.0;
     }
     let u = with_knots(&first, middles)?;
     let energy = Energy::new(&u, 2);

@@ -2,7 +2,7 @@
 //!
 //! Each section is the monotone piecewise cubic (Fritsch & Butland 1984) of y and of z over the chord length of its points: no
 //! overshoot, second order at least. The waterlines are quantiles of the heights of all points, at least [`LEAST`] and never
-//! closer than a thousandth of the height; where a section has several points at one height, its greatest half-breadth there
+//! closer than a hundredth of the height; where a section has several points at one height, its greatest half-breadth there
 //! counts. What the surface leaves at the points is measured afterwards.
 
 use super::super::{Cell, Hull, OffsetTable, OutlinePoint};
@@ -14,8 +14,11 @@ const LEAST: usize = 12;
 /// Most waterlines made of points.
 const MOST: usize = 60;
 
-/// Closest heights of waterlines, over the height of the table.
+/// Heights that count as one where flats are looked for, over the height of the table.
 const CLOSEST: f64 = 1e-3;
+
+/// Closest heights of waterlines made of points, over the height of the table.
+const SPACING: f64 = 1e-2;
 
 /// Waterlines over the median number of points of a section.
 const DENSITY: f64 = 1.5;
@@ -36,7 +39,9 @@ pub(super) fn only_outlines(table: &OffsetTable) -> bool {
 /// The greatest half-breadth of a branch at height `z`; none where the branch does not reach.
 fn half_breadth(branch: &[OutlinePoint], z: f64, slack: f64) -> Option<f64> {
     let mut length = 0.0;
-    let (mut ys, mut zs): (Vec<(f64, f64)>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
+    // y and z over the length along the chords.
+    let mut ys: Vec<(f64, f64)> = Vec::new();
+    let mut zs: Vec<(f64, f64)> = Vec::new();
     let mut before: Option<&OutlinePoint> = None;
     for point in branch.iter().filter(usable) {
         if let Some(b) = before {
@@ -101,7 +106,7 @@ pub(super) fn with_waterlines(table: &OffsetTable) -> OffsetTable {
     let mut graded: Vec<f64> = quantiles.chain(draught).collect();
     graded.sort_by(f64::total_cmp);
     for z in graded {
-        if z - lines[lines.len() - 1] > CLOSEST * rise && top - z > CLOSEST * rise {
+        if z - lines[lines.len() - 1] > SPACING * rise && top - z > SPACING * rise {
             lines.push(z);
         }
     }
@@ -134,14 +139,19 @@ pub(super) fn with_waterlines(table: &OffsetTable) -> OffsetTable {
     result
 }
 
-/// What the hull leaves at the points of the sections above its bottom: how many there are, root mean square and largest
+/// What the hull leaves at the outermost points of the sections above its bottom: how many there are, root mean square and largest
 /// distance in half-breadth \[m\].
 pub(super) fn note(table: &OffsetTable, hull: &Hull) -> String {
     let (mut count, mut sum, mut worst) = (0usize, 0.0, 0.0f64);
     let floor = hull.bottom() + CLOSEST * (hull.top() - hull.bottom());
     for station in &table.stations {
         for point in station.outlines.iter().flatten().filter(usable).filter(|p| p.z > floor) {
-            if let Some(y) = hull.half_breadth(station.station.x, point.z) {
+            // Lines that close a section across are no part of the side.
+            let widest =
+                station.outlines.iter().filter_map(|branch| half_breadth(branch, point.z, 1e-9)).fold(0.0, f64::max);
+            if point.y >= widest - 1e-6
+                && let Some(y) = hull.half_breadth(station.station.x, point.z)
+            {
                 count += 1;
                 sum += (y - point.y) * (y - point.y);
                 worst = worst.max((y - point.y).abs());

@@ -159,7 +159,7 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         (Origin::Cut, "is cut off at the last station, where it still has breadth (transom)"),
         (Origin::Continued, "ends where it closes when continued straight, before the next station"),
     ] {
-        for side in 0..2 {
+        for (side, name) in SIDES.iter().enumerate() {
             let lines: Vec<f64> = assumed.iter().filter(|a| a.0 == origin && a.1 == side).map(|a| a.2).collect();
             if let (Some(first), Some(last)) = (lines.first(), lines.last()) {
                 let which = if lines.len() == 1 {
@@ -167,7 +167,7 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
                 } else {
                     format!("each of {} waterlines from z = {first:.3} to {last:.3} m", lines.len())
                 };
-                notes.push(format!("{}: {which} {words}", SIDES[side]));
+                notes.push(format!("{name}: {which} {words}"));
             }
         }
     }
@@ -195,10 +195,10 @@ fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mu
     let (first, last) = (aft_deck.last().copied().unwrap_or(first), fore_deck.last().copied().unwrap_or(last));
     let value = |k: usize| line.value(k).or_else(|| if line.above_deck(k) { line.deck_half_breadth(k) } else { None });
     let mut ends = [End { x: 0.0, y: 0.0 }; 2];
-    for side in 0..2 {
+    for (side, place) in ends.iter_mut().enumerate() {
         let (k, step) = if side == 0 { (first, -1isize) } else { (last, 1) };
         let (end, origin) = end(line, side, k, step, &value)?;
-        ends[side] = end;
+        *place = end;
         if origin != Origin::Given {
             assumed.push((origin, side, line.z()));
         }
