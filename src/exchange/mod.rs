@@ -19,6 +19,6 @@ pub use offsets::{heights_csv, offsets_csv};
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{
-    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS, MOST_UNPACKED, ReadTable, Rounding, Severity,
-    TableProblem, TableWriting, WrittenTable, read_table, read_table_with, write_table,
+    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS, MOST_UNPACKED, ReadTable, Rounding,
+    Severity, TableProblem, TableWriting, WrittenTable, read_table, read_table_with, write_table,
 };
