@@ -199,6 +199,16 @@ fn e312_too_large() {
         &problems(&format!("x [m],0.5\n0,{}\n", "9".repeat(100))),
         &["E301", "100 characters; a cell has at most 80"],
     );
+    // Stations are few, so that comparing all with all stays cheap.
+    let mut text = String::from("x [m],0.5\n");
+    (0..5000).for_each(|i| text += &format!("{i},1\n"));
+    among(
+        &problems(&text),
+        &["E312 t.csv row 1, column 1", "5000 stations and 1 waterlines; a table has at most 4000"],
+    );
+    let mut text = String::from("station,x,curve,z,y,flag\n");
+    (0..2000).for_each(|i| text += &format!("1,{i},WL,{i},1,\n"));
+    among(&problems(&text), &["E312", "2000 stations, 2000 waterlines and 0 buttocks"]);
     // Many errors are counted, not listed.
     let mut text = String::from("x [m],0.5\n");
     (0..300).for_each(|i| text += &format!("{i},abc\n"));

@@ -1,6 +1,7 @@
 //! From blocks of fields to a table of offsets: positions, units, cells, side lines, and the order of lines.
 
 use super::checks;
+use super::grid::MOST_LINES;
 use super::header::{Axis, Corner, Place, Position, position};
 use super::matrix::{Block, Line};
 use super::problem::{Field, Problems};
@@ -230,6 +231,12 @@ pub(super) fn assemble(
 fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
     let what = if block.across == Axis::Waterline { "waterline" } else { "buttock" };
     let lines: Vec<Field> = block.stations.iter().map(|line| line.head.clone()).collect();
+    if block.stations.len().max(block.heads.len()) > MOST_LINES {
+        let message =
+            format!("{} stations and {} {what}s; a table has at most {MOST_LINES}", lines.len(), block.heads.len());
+        reader.problems.error_at("E312", &block.first, message, "");
+        return None;
+    }
     let heads = reader.positions(&block.heads, what);
     let stations = reader.positions(&lines, "station");
     let (heads, stations) = (heads?, stations?);

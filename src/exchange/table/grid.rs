@@ -11,6 +11,8 @@ pub const LARGEST_TABLE: usize = 16 << 20;
 pub const MOST_ROWS: usize = 200_000;
 /// The most fields of a row.
 pub const MOST_COLUMNS: usize = 4_000;
+/// The most stations, and the most waterlines, buttocks or lines of points; keeps comparisons of all with all short.
+pub const MOST_LINES: usize = MOST_COLUMNS;
 /// The most fields of a file.
 pub const MOST_CELLS: usize = 1_000_000;
 /// The longest field \[bytes\].

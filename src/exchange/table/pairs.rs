@@ -55,7 +55,7 @@ pub(super) fn read(
     // Points of each station as fields.
     let mut points: Vec<Vec<(Field, Field)>> = heads.iter().map(|_| Vec::new()).collect();
     for field in rows.flatten().filter(|f| !f.is_blank()) {
-        let Some(station) = heads.iter().position(|(head, _)| head.column == field.column) else {
+        let Some(station) = heads.binary_search_by_key(&field.column, |(head, _)| head.column).ok() else {
             problems.error_at("E307", field, "a pair without a station above it".to_owned(), "");
             continue;
         };

@@ -15,6 +15,7 @@
 //! (`DG`) have no place in the table and are announced. The order of rows is free.
 
 use super::assemble::{Reader, SAME};
+use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
 use super::problem::{Field, Problems};
 use super::scale::{Size, origin, units};
@@ -176,6 +177,17 @@ pub(super) fn read(
     table.buttocks = distinct(of("BT").filter_map(|(_, _, other, _)| *other).collect());
     let lines = ["KN", "TL", "STERN", "STEM"];
     let xs = distinct(read.iter().filter(|(r, ..)| !lines.contains(&r.curve)).map(|(_, x, ..)| *x).collect());
+    let most = xs.len().max(table.waterlines.len()).max(table.buttocks.len());
+    if most > MOST_LINES || xs.len() * (table.waterlines.len() + table.buttocks.len()) > MOST_CELLS {
+        let message = format!(
+            "{} stations, {} waterlines and {} buttocks; a table has at most {MOST_LINES} of each and {MOST_CELLS} cells",
+            xs.len(),
+            table.waterlines.len(),
+            table.buttocks.len()
+        );
+        reader.problems.error("E312", message, "");
+        return None;
+    }
     for &x in &xs {
         let mut station = StationOffsets::new("", x);
         station.half_breadths = vec![Cell::default(); table.waterlines.len()];
@@ -225,8 +237,13 @@ fn put(
         let kind = if record.curve == "KN" { LineKind::Knuckle } else { LineKind::Tangent };
         let name = record.station.trimmed();
         let point = [x, given.unwrap_or(0.0), other_or_zero];
+        let full = table.lines.len() >= MOST_LINES;
         match table.lines.iter_mut().find(|line| line.kind == kind && line.name == name) {
             Some(line) => line.points.push(point),
+            None if full => {
+                let message = format!("more than {MOST_LINES} lines of points");
+                reader.problems.error_at("E312", record.station, message, "");
+            }
             None => table.lines.push(FeatureLine { name: name.to_owned(), kind, points: vec![point] }),
         }
         return;
