@@ -114,7 +114,7 @@ impl<'a> Locator<'a> {
             let (ga, gb) = (dot(a, gap), dot(b, gap));
             let (saa, sbb) = (aa * (1.0 + damping), bb * (1.0 + damping) + f64::MIN_POSITIVE);
             let determinant = saa * sbb - ab * ab;
-            if !(determinant > 0.0) {
+            if determinant.is_nan() || determinant <= 0.0 {
                 return None;
             }
             let step = [(ga * sbb - gb * ab) / determinant, (gb * saa - ga * ab) / determinant];
@@ -167,7 +167,7 @@ impl<'a> Locator<'a> {
             cubes + squares + s[1][0][d] * a2 + s[0][1][d] * b2
         });
         let speed = dot(first, first).sqrt();
-        if !(speed > SLOWEST * regular) {
+        if speed.is_nan() || speed <= SLOWEST * regular {
             return None;
         }
         let kappa = dot(n, cross(first, second)) / speed.powi(3);

@@ -6,6 +6,8 @@
 //!
 //! Accuracy: curvature to rounding; lengths and energies of a piece to the Clenshaw-Curtis rule of 13 points (1e-10 for
 //! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points.
+//! Limit: at the end stations of a fitted table, where the half-breadth shrinks to nothing, the surface can turn within microns of
+//! the keel line; the curvature and the energies of such a station are those of this edge and say nothing about fairness.
 //! Cost: one section and about 30 evaluations of third derivatives for each patch that it crosses.
 
 mod contour;

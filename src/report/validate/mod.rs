@@ -305,7 +305,7 @@ fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &Of
 
 /// Whether the line `k` of `count` stays when every second one is left out; both ends stay.
 fn stays(k: usize, count: usize) -> bool {
-    k % 2 == 0 || k + 1 == count
+    k.is_multiple_of(2) || k + 1 == count
 }
 
 fn every_second<T: Clone>(list: &[T]) -> Vec<T> {

@@ -102,15 +102,9 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
     for case in cases {
         let residual =
             case.residual.map(|r| format!("; largest residual {} mm", fixed(1000.0 * r, 3))).unwrap_or_default();
-        writeln!(
-            page,
-            "* **{}**: {}. {}, {}{residual}. Figures: {}",
-            case.name,
-            case.title,
-            case.table,
-            chart(case.chart),
-            case.source
-        )?;
+        let table = if case.table.is_empty() { String::new() } else { format!("{}, ", case.table) };
+        let source = if case.source.is_empty() { String::new() } else { format!(". Figures: {}", case.source) };
+        writeln!(page, "* **{}**: {}: {table}{}{residual}{source}", case.name, case.title, chart(case.chart))?;
         for c in case.comparisons.iter().filter(|c| c.key == "DISPVOL") {
             if let Some(percent) = c.percent().filter(|percent| percent.abs() > GOAL) {
                 let told = match c.left_out {
@@ -120,7 +114,7 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
                     Some(_) => {
                         "leaving lines out changes it by less: theirs is another hull, or the lines do not show what differs"
                     }
-                    None => "there are too few lines to leave any out",
+                    None => "the table without these lines makes no hull",
                 };
                 writeln!(
                     page,

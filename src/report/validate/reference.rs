@@ -245,10 +245,9 @@ pub(super) fn read(text: &str, published_table: Option<&str>) -> Result<Referenc
             }
         }
     }
-    if reader.reference.figures.is_empty() {
-        if let Some(table) = root.get("check").and_then(Value::as_table) {
-            reader.section("check", table);
-        }
+    let check = root.get("check").and_then(Value::as_table);
+    if let Some(table) = check.filter(|_| reader.reference.figures.is_empty()) {
+        reader.section("check", table);
     }
     let mut reference = reader.reference;
     reference.figures.sort_by(|a, b| a.draught.total_cmp(&b.draught));
