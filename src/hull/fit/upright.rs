@@ -179,7 +179,7 @@ impl Net {
             })
             .collect();
         if edge.windows(2).all(|w| w[1][0] > w[0][0]) {
-            return Ok(BsplineCurve::new(self.surface.u().clone(), edge).map_err(spline)?);
+            return BsplineCurve::new(self.surface.u().clone(), edge).map_err(spline);
         }
         // At a blunt end two control points share x; the edge over x itself has none such.
         let x: Vec<f64> = self.profiles.iter().map(|p| p.x).collect();
@@ -188,7 +188,7 @@ impl Net {
         let heights: Vec<f64> = self.profiles.iter().map(Profile::top).collect();
         let z = plain.interpolation(&[], &[]).and_then(|across| across.control(&heights)).map_err(spline)?;
         let points = plain.control_lengths(&knots).into_iter().zip(z).map(|(x, z)| [x, z]).collect();
-        Ok(BsplineCurve::new(knots, points).map_err(spline)?)
+        BsplineCurve::new(knots, points).map_err(spline)
     }
 
     /// v at a height of a station; none outside its section.

@@ -4,8 +4,7 @@
 //! y ~ sqrt(z - z_keel) is smooth in t. A station that leaves the keel, or a knuckle at which such a band begins, straight has
 //! dy/dt = 0 there, and is told so. The knots of a band are common to all stations and so fine that no span holds two
 //! given points of one station; every station then meets all its points with the least bending (`spline::Energy` of the second
-//! derivative, weighted by (1 + s^2)^(-5/2) with s the slope of the chord at the place over the mean speed along the section: that is
-//! how the bending of a curve in the plane depends on its slope, and keeps a steep step from ringing). Where a line is a knuckle the bands on its sides are independent; where it is none at a station, or a tangent
+//! derivative). Where a line is a knuckle the bands on its sides are independent; where it is none at a station, or a tangent
 //! line, one curve runs through, and gives both bands value and slope there.
 
 use super::lines::Line;
@@ -17,9 +16,6 @@ const DEGREE: usize = super::length::DEGREE;
 
 /// The order of the derivative whose square is least.
 const ORDER: usize = 2;
-
-/// The least weight of bending.
-const LEAST_WEIGHT: f64 = 1e-4;
 
 /// Exponents below this are round keels.
 const ROUND: f64 = 0.75;
@@ -231,7 +227,6 @@ fn between(points: &[SectionPoint], [a, b]: [f64; 2], slack: f64) -> Vec<(f64, f
 }
 
 /// One curve over several bands: half-breadths and slopes on the lines that it crosses.
-#[expect(clippy::too_many_arguments, reason = "the parts of one station's curve")]
 fn run_through(
     profile: &Profile,
     lines: &[Line],
@@ -275,7 +270,7 @@ fn run_through(
         .map(|t| if corners.iter().any(|c| (c - t).abs() <= 1e-9) { DEGREE - 1 } else { 1 })
         .collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &times)?;
-    let curve = least_bending(&knots, &data, [on[0].y, on[last].y], [None; 2], b - a)?;
+    let curve = least_bending(&knots, &data, [on[0].y, on[last].y], [None; 2])?;
     let curve = BsplineCurve::new(knots, curve.into_iter().map(|y| [y]).collect())?;
     for j in 1..last {
         let zeta = share(levels[j]).clamp(0.0, 1.0);
@@ -314,17 +309,16 @@ fn band_curve(
         Some(slope) if rates[k] > 0.0 => Some(slope * rates[k]),
         _ => (k == 0 && straight).then_some(0.0),
     };
-    least_bending(&band.knots, &data, [ends[0].y, ends[1].y], [slope(0), slope(1)], b - a)
+    least_bending(&band.knots, &data, [ends[0].y, ends[1].y], [slope(0), slope(1)])
 }
 
-/// The spline of least bending through `data` (sites inside, rising) and what is given at the ends, over `height` \[m\]. With
-/// fewer than two values it is constant.
+/// The spline of least bending through `data` (sites inside, rising) and what is given at the ends. With fewer than two
+/// values it is constant.
 fn least_bending(
     knots: &KnotVector,
     data: &[(f64, f64)],
     values: [Option<f64>; 2],
     slopes: [Option<f64>; 2],
-    height: f64,
 ) -> Result<Vec<f64>, SplineError> {
     let ends: [f64; 2] = knots.domain().into();
     let mut conditions = Vec::new();
@@ -347,16 +341,5 @@ fn least_bending(
     if right.len() < 2 {
         return Ok(vec![right.first().copied().unwrap_or(0.0); knots.basis_count()]);
     }
-    let points: Vec<(f64, f64)> =
-        conditions.iter().zip(&right).filter(|(c, _)| c.order == 0).map(|(c, &y)| (c.site, y)).collect();
-    let chords: Vec<(f64, f64)> =
-        points.windows(2).map(|w| (w[1].0, (w[1].1 - w[0].1).abs() / (w[1].0 - w[0].0))).collect();
-    let run: f64 = points.windows(2).map(|w| (w[1].1 - w[0].1).abs()).sum();
-    let speed = (run + height) / (ends[1] - ends[0]);
-    let weight = |v: f64| {
-        let chord = chords.get(chords.partition_point(|c| c.0 < v).min(chords.len().saturating_sub(1)));
-        let s = chord.map_or(0.0, |c| c.1 / speed);
-        (1.0 + s * s).powf(-2.5).max(LEAST_WEIGHT)
-    };
-    Ok(Energy::weighted(knots, ORDER, weight).interpolation(&conditions)?.solve(&right))
+    Ok(Energy::new(knots, ORDER).interpolation(&conditions)?.solve(&right))
 }

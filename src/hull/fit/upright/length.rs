@@ -119,10 +119,10 @@ impl Piece {
         let knots = KnotVector::from_breakpoints(degree, &breakpoints, &vec![1; breakpoints.len() - 2])?;
         let collocation = Collocation::new(&knots, own)?;
         let mut inserted = Vec::new();
-        for k in first + 1..last {
+        for (k, &site) in sites.iter().enumerate().take(last).skip(first + 1) {
             let wanted = if all.contains(&k) { DEGREE } else { 1 };
-            let has = knots.multiplicity(sites[k]);
-            inserted.extend(std::iter::repeat_n(sites[k], wanted - has.min(wanted)));
+            let has = knots.multiplicity(site);
+            inserted.extend(std::iter::repeat_n(site, wanted - has.min(wanted)));
         }
         Ok(Self { first, last, knots, collocation, inserted })
     }
