@@ -9,7 +9,7 @@ use crate::hull::OffsetTable;
 /// Least score of a suspect, in standard deviations of a normal law.
 const LEAST_SCORE: f64 = 3.3;
 /// Least probability that a suspect is wrong.
-const LEAST_PROBABILITY: f64 = 0.95;
+const LEAST_PROBABILITY: f64 = 0.9;
 /// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
 const SHADOW_SCORE: f64 = 2.5;
 /// Reach of the shadow along the lines.

@@ -120,7 +120,7 @@ fn stencil(grid: &Grid, along: Along, run: &[usize], at: usize, predictor: Predi
     let wanted = predictor.points;
     let (from, to) = match predictor.side {
         Side::Before => (at.checked_sub(wanted)?, at),
-        Side::After => (at, (at + wanted + 1 <= last).then_some(at + wanted + 1)?),
+        Side::After => (at, (at + wanted < last).then_some(at + wanted + 1)?),
         Side::Both => {
             let width = (wanted + 1).min(last);
             let from = at.saturating_sub(wanted / 2).min(last - width);
