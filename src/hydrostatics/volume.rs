@@ -145,8 +145,14 @@ fn collapse(hull: &Hull, span: usize, u: f64, columns: &mut [[f64; 4]]) {
     }
 }
 
+/// dz/dv below this part of the height of the hull is a level strip between two bodies.
+const LEVEL_STRIP: f64 = 1e-6;
+
 /// x, y, x_u, y_u and the norm of S_u x S_v at a node.
-fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]]) -> ([f64; 4], f64) {
+///
+/// On a strip without height (dz/dv below `level`), over which a profile jumps along a level keel, it is the signed area: the lines
+/// of the strip pass over one another, and what counts is the waterline above less that below.
+fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]], level: f64) -> ([f64; 4], f64) {
     let (mut at, mut up) = ([0.0; 4], [0.0; 2]);
     for ((column, value), slope) in columns[node.first..node.first + N].iter().zip(&node.value).zip(&node.slope) {
         for (sum, c) in at.iter_mut().zip(column) {
@@ -156,6 +162,9 @@ fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]]) -> ([f64; 4], f64
         up[1] += slope * column[1];
     }
     let across = at[2] * up[1] - at[3] * up[0];
+    if node.rise <= level {
+        return (at, across);
+    }
     let skin = ((at[2] * at[2] + at[3] * at[3]) * node.rise * node.rise + across * across).sqrt();
     (at, skin)
 }
@@ -225,6 +234,7 @@ fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], parting: usize) -> Vec<L
     let knots = hull.surface().u();
     let count = count_along(hull);
     let mut columns = vec![[0.0; 4]; hull.surface().shape()[1]];
+    let level = LEVEL_STRIP * (hull.top() - hull.bottom());
     let mut lines = vec![Line::default(); nodes.len()];
     for span in knots.spans() {
         if span == parting {
@@ -235,7 +245,7 @@ fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], parting: usize) -> Vec<L
         for (u, weight) in gauss_legendre(count).on(knots.knots()[span], knots.knots()[span + 1]) {
             collapse(hull, span, u, &mut columns);
             for (node, line) in nodes.iter().zip(&mut lines) {
-                let ([x, y, along, _], skin) = point(node, &columns);
+                let ([x, y, along, _], skin) = point(node, &columns, level);
                 let area = weight * y * along;
                 line.area += area;
                 line.moment += area * x;
@@ -286,6 +296,7 @@ fn body_below_deck<const N: usize>(hull: &Hull, immersion: &Immersion) -> Body {
     let (count, along) = (count_up(hull), count_along(hull));
     let mut columns = vec![[0.0; 4]; surface.shape()[1]];
     let mut below: Vec<Node<N>> = Vec::new();
+    let level = LEVEL_STRIP * (hull.top() - hull.bottom());
     let mut body = Body::default();
     let fill = |end: f64, below: &mut Vec<Node<N>>| {
         below.clear();
@@ -300,7 +311,7 @@ fn body_below_deck<const N: usize>(hull: &Hull, immersion: &Immersion) -> Body {
             collapse(hull, piece.span, u, &mut columns);
             fill(immersion.end(u), &mut below);
             for node in &below {
-                let ([x, y, along, _], skin) = point(node, &columns);
+                let ([x, y, along, _], skin) = point(node, &columns, level);
                 let profile = weight * node.weight * node.rise * along;
                 body.volume += 2.0 * profile * y;
                 body.moment_x += 2.0 * profile * y * x;

@@ -455,7 +455,10 @@ mod tests {
             let product: f64 = h.iter().zip(&change).map(|(x, y)| x * y).sum();
             let size = energy.value(&c).max(0.0).sqrt() * energy.value(&change).max(0.0).sqrt();
             let rounding = (0..c.len()).map(|j| energy.get(j, j) * c[j].abs().max(1.0) * change[j].abs()).sum::<f64>();
-            prop_assert!(product.abs() <= 1e-7 * size + 1e-12 * rounding, "{} {}", product, size);
+            // Rounding of the sum itself, for data that ask for hardly any energy.
+            let terms: f64 = h.iter().zip(&change).map(|(x, y)| (x * y).abs()).sum();
+            let slack = 1e-7 * size + 1e-12 * (rounding + terms) + 1e-15;
+            prop_assert!(product.abs() <= slack, "{} {}", product, size);
         }
     }
 }

@@ -31,7 +31,13 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The same limits, [least, most], everywhere; the data themselves are always allowed.
+    /// In each gap the span of its two data and a margin on both sides, within [least, most]; the data themselves are always
+    /// allowed.
+    ///
+    /// The margin is what an extremum between the data may need: half the width of the gap times half the smaller of the
+    /// slopes on its two sides, each the greater of that within the gap and that of the neighbouring gap. A parabola sampled
+    /// at even spaces needs half of it. Where the data are steep on one side only (an end close to a station, a
+    /// transom cut by two stations), there is hardly any margin, and the spline cannot shoot over.
     pub(super) fn within(
         sites: Vec<f64>,
         values: Vec<f64>,
@@ -41,7 +47,17 @@ impl Line {
     ) -> Self {
         let low = values.iter().copied().fold(limits[0], f64::min);
         let high = values.iter().copied().fold(limits[1], f64::max);
-        let limits = vec![[low, high]; sites.len().saturating_sub(1)];
+        let gaps = sites.len().saturating_sub(1);
+        let slope = |k: usize| ((values[k + 1] - values[k]) / (sites[k + 1] - sites[k])).abs();
+        let limits = (0..gaps)
+            .map(|k| {
+                let sides = [k.checked_sub(1), Some(k + 1).filter(|&n| n < gaps)];
+                let steep = sides.into_iter().flatten().map(|n| slope(n).max(slope(k))).fold(f64::INFINITY, f64::min);
+                let margin = if steep.is_finite() { 0.25 * (sites[k + 1] - sites[k]) * steep } else { f64::INFINITY };
+                let (a, b) = (values[k].min(values[k + 1]), values[k].max(values[k + 1]));
+                [(a - margin).max(low), (b + margin).min(high)]
+            })
+            .collect();
         Self { sites, values, slacks, limits, tolerance }
     }
 
@@ -69,8 +85,8 @@ impl Line {
         Ok(energy.smoothing(&self.conditions(), &self.slacks).map_err(HullError::from)?)
     }
 
-    /// Gaps in which the spline leaves its limits.
-    fn outside(&self, knots: &KnotVector, control: &[f64]) -> Vec<usize> {
+    /// Gaps in which the spline leaves its limits, and by how much.
+    fn outside(&self, knots: &KnotVector, control: &[f64]) -> Vec<(usize, f64)> {
         // A spline stays within its control values.
         let low = self.limits.iter().map(|l| l[0]).fold(f64::NEG_INFINITY, f64::max) - self.tolerance;
         let high = self.limits.iter().map(|l| l[1]).fold(f64::INFINITY, f64::min) + self.tolerance;
@@ -80,22 +96,22 @@ impl Line {
         let Ok(curve) = BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect()) else {
             return Vec::new();
         };
+        let beyond = |k: usize| {
+            let [low, high] = self.limits[k];
+            let (a, b) = (self.sites[k], self.sites[k + 1]);
+            let looks = (1..=LOOKS).map(|n| curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0]);
+            looks.map(|value| (low - value).max(value - high)).fold(f64::NEG_INFINITY, f64::max)
+        };
         (0..self.limits.len())
-            .filter(|&k| {
-                let [low, high] = self.limits[k];
-                let (a, b) = (self.sites[k], self.sites[k + 1]);
-                (low.is_finite() || high.is_finite())
-                    && (1..=LOOKS).any(|n| {
-                        let value = curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0];
-                        value < low - self.tolerance || value > high + self.tolerance
-                    })
-            })
+            .filter(|&k| self.limits[k].iter().any(|limit| limit.is_finite()))
+            .map(|k| (k, beyond(k)))
+            .filter(|gap| gap.1 > self.tolerance)
             .collect()
     }
 
     /// Middles of the gaps in which the spline leaves its limits.
     pub(super) fn swings(&self, knots: &KnotVector, control: &[f64]) -> Vec<f64> {
-        self.outside(knots, control).into_iter().map(|k| 0.5 * (self.sites[k] + self.sites[k + 1])).collect()
+        self.outside(knots, control).into_iter().map(|(k, _)| 0.5 * (self.sites[k] + self.sites[k + 1])).collect()
     }
 
     /// How far the control values lie beyond all limits.
@@ -121,30 +137,35 @@ impl Line {
         let breaks = energy.knots().breakpoints();
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut control = free;
-        for _ in 0..ROUNDS {
-            let gaps = self.outside(energy.knots(), &control);
-            let new: Vec<(usize, f64)> = gaps
-                .into_iter()
-                .filter(|k| held.iter().all(|h| h.0 != *k))
-                .filter_map(|k| self.knot_inside(k, &breaks).map(|site| (k, site)))
-                .collect();
-            if new.is_empty() {
-                break;
-            }
-            held.extend(new);
+        let attempt = |held: &[(usize, f64)]| -> Option<Vec<f64>> {
             let mut conditions = self.conditions();
             let (mut data, mut slacks) = (self.values.clone(), self.slacks.clone());
-            for &(k, site) in &held {
+            for &(k, site) in held {
                 conditions.push(Condition { site, order: 0 });
                 data.push(monotone_cubic(&points, site).clamp(self.limits[k][0], self.limits[k][1]));
                 slacks.push(0.0);
             }
-            let Ok(problem) = energy.smoothing(&conditions, &slacks) else { break };
-            let trial = problem.solve(&data);
-            if self.excess(&trial) > RUNAWAY * (self.excess(&control) + self.tolerance) {
-                break;
-            }
-            control = trial;
+            Some(energy.smoothing(&conditions, &slacks).ok()?.solve(&data))
+        };
+        for _ in 0..ROUNDS {
+            let mut gaps: Vec<(usize, f64, f64)> = self
+                .outside(energy.knots(), &control)
+                .into_iter()
+                .filter(|gap| held.iter().all(|h| h.0 != gap.0))
+                .filter_map(|(k, by)| self.knot_inside(k, &breaks).map(|site| (k, site, by)))
+                .collect();
+            gaps.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
+            // All of them at once, or the worst alone.
+            let taken =
+                [gaps.len(), 1].into_iter().filter(|&count| count > 0 && count <= gaps.len()).find_map(|count| {
+                    let mut trial = held.clone();
+                    trial.extend(gaps[..count].iter().map(|gap| (gap.0, gap.1)));
+                    let result = attempt(&trial)?;
+                    let bound = RUNAWAY * (self.excess(&control) + self.tolerance);
+                    (self.excess(&result) <= bound).then_some((trial, result))
+                });
+            let Some((now, result)) = taken else { break };
+            (held, control) = (now, result);
         }
         control
     }

@@ -108,12 +108,20 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
+    let mut notes = Vec::new();
     if upright::suits(table) {
-        return upright::fit(table);
+        match upright::fit(table) {
+            // Sections with ledges and hooks are no functions y(z): waterlines through them may still make a hull.
+            Err(FitError::Hull(error)) if outlines::only_outlines(table) => {
+                notes.push(format!("stations as lines of the net make no hull here ({error}); waterlines are taken"));
+            }
+            done => return done,
+        }
     }
     let read = outlines::only_outlines(table).then(|| outlines::with_waterlines(table));
     let source = read.as_ref().unwrap_or(table);
-    let (hull, mut notes) = level::loft(source, rows::prepare(source)?)?;
+    let (hull, assumed) = level::loft(source, rows::prepare(source)?)?;
+    notes.extend(assumed);
     if read.is_some() {
         notes.push(outlines::note(table, &hull));
     }

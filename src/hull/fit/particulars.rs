@@ -8,8 +8,34 @@ use crate::spline::KnotVector;
 /// Design draught over the height of the table where none is stated.
 const DRAUGHT_SHARE: f64 = 0.7;
 
+/// The lowest of the upper edges of the sections: deck at side or highest offset \[m\]; stations that the table gives only a part
+/// of (fewer than half as many offsets as the fullest) do not count.
+pub(super) fn lowest_edge(table: &OffsetTable) -> Option<f64> {
+    let edges: Vec<(usize, f64)> = table
+        .stations
+        .iter()
+        .filter_map(|station| {
+            let given = station.half_breadths.iter().zip(&table.waterlines).filter(|(c, _)| c.value().is_some());
+            let points = station.outlines.iter().flatten();
+            let count = given.clone().count() + points.clone().count();
+            let highest = given.map(|(_, &z)| z).chain(points.map(|p| p.z)).fold(f64::NEG_INFINITY, f64::max);
+            let edge = station.deck_height.filter(|z| z.is_finite()).unwrap_or(highest);
+            (count > 0 && edge.is_finite()).then_some((count, edge))
+        })
+        .collect();
+    let fullest = edges.iter().map(|e| e.0).max()?;
+    edges.iter().filter(|e| 2 * e.0 >= fullest).map(|e| e.1).min_by(f64::total_cmp)
+}
+
+/// A design draught for a body from `bottom` (or the base line, where it lies below that) up to `edge`.
+pub(super) fn draught_guess(bottom: f64, edge: f64) -> f64 {
+    let base = bottom.max(0.0);
+    let guess = base + DRAUGHT_SHARE * (edge - base);
+    if guess > 0.0 { guess } else { edge - bottom }
+}
+
 /// L_PP, B, T and D: stated, or L_PP between the ends of the waterline at T, B twice the greatest half-breadth, T seven tenths
-/// of the height, D the top. What was not stated is noted.
+/// of the height up to the lowest upper edge of a section, D the top. What was not stated is noted.
 pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
     let stated = &table.stated;
     let usable = |value: Option<f64>| value.filter(|v| v.is_finite() && *v > 0.0);
@@ -19,9 +45,10 @@ pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<Str
         if top > 0.0 { top } else { top - bottom }
     });
     let draught = usable(stated.draught).unwrap_or_else(|| {
-        let guess = bottom.max(0.0) + DRAUGHT_SHARE * (top - bottom.max(0.0));
-        let guess = if guess > 0.0 { guess } else { top - bottom };
-        notes.push(format!("no draught is stated: T = {guess:.3} m, seven tenths of the height"));
+        let guess = draught_guess(bottom, lowest_edge(table).unwrap_or(top).clamp(bottom, top));
+        notes.push(format!(
+            "no draught is stated: T = {guess:.3} m, seven tenths of the height up to the lowest upper edge of a section"
+        ));
         guess
     });
     let breadth = usable(stated.breadth).unwrap_or_else(|| {

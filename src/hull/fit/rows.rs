@@ -12,6 +12,12 @@ use super::monotone::monotone_cubic;
 /// Slack of a doubtful cell against one that must be met, as a part of the energy scale of the fit.
 const DOUBTFUL: f64 = 1.0;
 
+/// An end nearer to the last station than this part of the station's distance to the next one inside is at the station.
+const AT_STATION: f64 = 0.05;
+
+/// An outermost station nearer to the next one than this part of the following space is crowded.
+const CROWDED: f64 = 0.1;
+
 /// An offset on a waterline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site {
@@ -132,12 +138,13 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         (0..table.stations.len()).filter(|&i| table.stations[i].station.x.is_finite()).collect();
     order.sort_by(|&a, &b| table.stations[a].station.x.total_cmp(&table.stations[b].station.x));
     order.dedup_by(|a, b| table.stations[*a].station.x <= table.stations[*b].station.x);
+    let mut notes = Vec::new();
+    crowded_ends(table, &mut order, &mut notes);
     let mut heights: Vec<usize> = (0..table.waterlines.len()).filter(|&j| table.waterlines[j].is_finite()).collect();
     heights.sort_by(|&a, &b| table.waterlines[a].total_cmp(&table.waterlines[b]));
     heights.dedup_by(|a, b| table.waterlines[*a] <= table.waterlines[*b]);
     let mut rows = Vec::new();
     let mut assumed: Vec<(Origin, usize, f64)> = Vec::new();
-    let mut notes = Vec::new();
     for &j in &heights {
         let line = Waterline { table, order: &order, j };
         if let Some(row) = row(&line, &mut assumed, &mut notes) {
@@ -177,6 +184,33 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         return Err(FitError::TooFew { stations, waterlines: rows.len(), least: 2 });
     }
     Ok(Rows { rows, notes })
+}
+
+/// Leaves out an outermost station that stands close to the next one and is much narrower: both are cut through a raking transom
+/// (or a blunt stem), and no fair line passes through the two.
+fn crowded_ends(table: &OffsetTable, order: &mut Vec<usize>, notes: &mut Vec<String>) {
+    for fore in [false, true] {
+        let at = |n: usize| if fore { order[order.len() - 1 - n] } else { order[n] };
+        if order.len() < 4 {
+            return;
+        }
+        let x = |n: usize| table.stations[at(n)].station.x;
+        let (space, following) = ((x(1) - x(0)).abs(), (x(2) - x(1)).abs());
+        let (outer, inner) = (&table.stations[at(0)].half_breadths, &table.stations[at(1)].half_breadths);
+        let narrow = outer
+            .iter()
+            .zip(inner)
+            .filter_map(|(a, b)| a.value().zip(b.value()))
+            .any(|(outer, inner)| outer > 0.0 && outer < 0.5 * inner);
+        if space < CROWDED * following && narrow {
+            notes.push(format!(
+                "the station at x = {:.3} m stands {space:.3} m from the next and is much narrower: it cuts the transom and is left out of the surface",
+                x(0)
+            ));
+            let gone = if fore { order.len() - 1 } else { 0 };
+            order.remove(gone);
+        }
+    }
 }
 
 fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mut Vec<String>) -> Option<Row> {
@@ -270,11 +304,17 @@ fn end(
         return Some((End { x: line.x(next), y: 0.0 }, Origin::Zero));
     }
     if let Some(at) = profile_crossing(line, k, step) {
-        // A profile that leaves the waterline at the station itself: a level keel ends there with its breadth.
-        if (at - x).abs() <= 1e-9 * (1.0 + x.abs()) {
+        // A profile that leaves the waterline at the station itself, or so near that the waterline could not close without a
+        // jump: a level keel ends there with its breadth.
+        let inner = k.checked_add_signed(-step).filter(|&n| n < line.order.len()).map(|n| (line.x(n) - x).abs());
+        let near = inner.map_or(0.0, |spacing| AT_STATION * spacing);
+        if (at - x).abs() <= near.max(1e-9 * (1.0 + x.abs())) {
             return Some((End { x, y }, Origin::Profile));
         }
-        return Some((End { x: at, y: 0.0 }, Origin::Profile));
+        // Where between the two stations the profile rises is not known. A waterline that would have to close more steeply than
+        // at 45 degrees is round there and closes later, at most half-way.
+        let reach = (at - x).abs().max(y.min(0.5 * (line.x(next) - x).abs()));
+        return Some((End { x: x + reach.copysign(at - x), y: 0.0 }, Origin::Profile));
     }
     // Straight on, not beyond the next station.
     let beyond = line.x(next);

@@ -32,6 +32,7 @@ mod published;
 #[cfg(test)]
 mod tests;
 
+use super::particulars::{draught_guess, lowest_edge};
 use super::{CellResidual, Chart, FitError, Fitted};
 use crate::hull::cell::{Entry, LineKind, Marks};
 use crate::hull::form::Hull;
@@ -88,8 +89,9 @@ fn has_rocker(table: &OffsetTable) -> bool {
 /// # Errors
 /// [`FitError::TooFew`] below two stations with a section, [`FitError::Hull`] when the surface is no hull.
 pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
-    let net = Net::new(table)?;
-    let hull = Hull::new(&table.name, net.particulars(table), net.surface.clone(), net.deck()?)?;
+    let mut net = Net::new(table)?;
+    let particulars = net.particulars(table);
+    let hull = Hull::new(&table.name, particulars, net.surface.clone(), net.deck()?)?;
     Ok(Fitted { hull, chart: Chart::Upright, cells: net.cells(table), notes: net.notes })
 }
 
@@ -157,15 +159,38 @@ impl Net {
         }
     }
 
-    /// Stated dimensions, and those of the surface where nothing is stated: T is up to the highest keel-to-edge height.
-    fn particulars(&self, table: &OffsetTable) -> PrincipalParticulars {
+    /// Stated dimensions, and where nothing is stated: L_PP between the outermost stations, B twice the greatest half-breadth, D
+    /// the highest point, T seven tenths of the height up to the lowest upper edge. What was not stated is noted.
+    fn particulars(&mut self, table: &OffsetTable) -> PrincipalParticulars {
         let size = size(&self.profiles);
         let (first, last) = (&self.profiles[0], &self.profiles[self.profiles.len() - 1]);
+        let (length, lowest) =
+            (last.x - first.x, self.surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
+        let top = lowest + size.depth;
+        let notes = &mut self.notes;
+        let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
+            value.unwrap_or_else(|| {
+                notes.push(format!("no {what} is stated: {guess:.3} m, {how}"));
+                guess
+            })
+        };
+        let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
+        let stated = &table.stated;
         PrincipalParticulars {
-            length_between_perpendiculars: table.stated.length_between_perpendiculars.unwrap_or(last.x - first.x),
-            breadth: table.stated.breadth.unwrap_or(2.0 * size.breadth),
-            draught: table.stated.draught.unwrap_or(size.depth),
-            depth: table.stated.depth.unwrap_or(size.depth),
+            length_between_perpendiculars: or(
+                stated.length_between_perpendiculars,
+                "length",
+                length,
+                "between the outermost stations",
+            ),
+            breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
+            draught: or(
+                stated.draught,
+                "draught",
+                draught_guess(lowest, edge),
+                "seven tenths of the height up to the lowest upper edge of a section",
+            ),
+            depth: or(stated.depth, "depth", if top > 0.0 { top } else { size.depth }, "the highest point"),
         }
     }
 
