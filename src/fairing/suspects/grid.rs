@@ -96,8 +96,8 @@ impl Grid {
     }
 
     /// Whether hull comes up to a cell from before and from behind on a line and does not shrink to nothing there, as it does
-    /// between a bulb and the stem: straight lines through the two nearest offsets of either side reach at least half the
-    /// nearest.
+    /// between a bulb and the stem: straight lines through the two nearest offsets of either side reach at least a fifth of
+    /// the nearest.
     fn bridges(&self, along: Along, cell: usize) -> bool {
         let at = self.coordinate(along, cell);
         let hull = |steps: isize| {
@@ -107,7 +107,7 @@ impl Grid {
         [-1, 1].into_iter().all(|side| {
             let Some((s, near)) = hull(side) else { return false };
             let reached = hull(2 * side).map_or(near, |(t, far)| near + (near - far) * (at - s) / (s - t));
-            reached / near >= 0.5
+            reached / near >= 0.2
         })
     }
 

@@ -12,7 +12,9 @@ const LEAST_SCORE: f64 = 3.0;
 const LEAST_PROBABILITY: f64 = 0.5;
 /// Wrong cells that a table is expected to have before any has been found in it. It stands well below what misprints alone would
 /// say: what looks like the only error of a table is oftener a feature of the hull that no predictor follows.
-const UNFOUND: f64 = 0.013;
+const UNFOUND: f64 = 0.01;
+/// Wrong cells that are expected besides those found once one is certain.
+const FURTHER: f64 = 1.5;
 /// How much stronger the evidence for a suspect must be before it speaks for errors elsewhere.
 const WITNESS: f64 = 10.0;
 /// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
@@ -213,9 +215,15 @@ impl Search<'_> {
     fn readings(&self, verdict: &Verdict) -> Vec<Reading> {
         let cell = verdict.cell;
         let list = repairs(&self.texts[cell], self.writing);
-        let found: f64 = self.beliefs.iter().sum::<f64>() - self.beliefs[cell];
-        let wrong = ((UNFOUND + found) / self.given).min(MOST);
+        let wrong = (self.expected_elsewhere(cell) / self.given).min(MOST);
         readings(verdict, self.written[cell], &self.texts[cell], &list, &self.copies(cell), self.quantum, wrong)
+    }
+
+    /// Wrong cells that the rest of the table makes likely: UNFOUND, those found, and FURTHER when any of them is one.
+    fn expected_elsewhere(&self, cell: usize) -> f64 {
+        let others = || self.beliefs.iter().enumerate().filter(|&(other, &b)| other != cell && b > 0.0).map(|(_, &b)| b);
+        let none: f64 = others().map(|belief| 1.0 - belief).product();
+        UNFOUND + others().sum::<f64>() + FURTHER * (1.0 - none)
     }
 
     /// Probability that a cell is wrong, from its verdict and from what else has been found.
@@ -227,9 +235,8 @@ impl Search<'_> {
     /// What a suspect says for errors elsewhere in the table: its probability on its own evidence, with odds a further WITNESS
     /// lower, so that features of the hull do not vouch for each other.
     fn belief(&self, verdict: &Verdict) -> f64 {
-        let found: f64 = self.beliefs.iter().sum::<f64>() - self.beliefs[verdict.cell];
         let p = self.probability(verdict);
-        let odds = p / (1.0 - p).max(1e-12) * UNFOUND / (UNFOUND + found) / WITNESS;
+        let odds = p / (1.0 - p).max(1e-12) * UNFOUND / self.expected_elsewhere(verdict.cell) / WITNESS;
         odds / (1.0 + odds)
     }
 
