@@ -3,7 +3,7 @@
 //! With the prediction p, its scale s and Student's law t_nu of the scale's degrees of freedom:
 //! * right as written: (1 - a) t_nu((w - p)/s)/s,
 //! * a slip of kind k that turned v into the written w: a P(k) P(v -> w | k) t_nu((v - p)/s)/s, summed over the v,
-//! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table,
+//! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table, at least 1 mm,
 //! * wrong and unexplained: a P(u)/(20 |w - p|), flat over the decade of what is wrong.
 //!
 //! a is the share of wrong cells that the rest of the table makes likely.
@@ -13,6 +13,8 @@ use super::reading::{Hypothesis, Repair};
 
 /// How much likelier a repeated text is when it was copied: neighbours are alike without that, too.
 const COPIED: f64 = 0.05;
+/// Quantum below which a repeated text says no more: flats repeat every decimal \[m\].
+const FLAT: f64 = 1e-3;
 
 /// A hypothesis about a cell with its probability.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +83,7 @@ pub(super) fn readings(
             hypothesis,
             text: String::new(),
             value: p,
-            probability: wrong * hypothesis.prior() * COPIED / quantum,
+            probability: wrong * hypothesis.prior() * COPIED / quantum.max(FLAT),
         });
     }
     list.push(Reading {

@@ -12,11 +12,11 @@ const LEAST_SCORE: f64 = 3.0;
 const LEAST_PROBABILITY: f64 = 0.5;
 /// Wrong cells that a table is expected to have before any has been found in it. It stands well below what misprints alone would
 /// say: what looks like the only error of a table is oftener a feature of the hull that no predictor follows.
-const UNFOUND: f64 = 0.01;
+const UNFOUND: f64 = 0.008;
 /// Wrong cells that are expected besides those found once one is certain.
 const FURTHER: f64 = 1.5;
 /// How much stronger the evidence for a suspect must be before it speaks for errors elsewhere.
-const WITNESS: f64 = 10.0;
+const WITNESS: f64 = 30.0;
 /// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
 const SHADOW_SCORE: f64 = 2.5;
 /// Reach of the shadow along the lines.
