@@ -221,7 +221,8 @@ impl Search<'_> {
 
     /// Wrong cells that the rest of the table makes likely: UNFOUND, those found, and FURTHER when any of them is one.
     fn expected_elsewhere(&self, cell: usize) -> f64 {
-        let others = || self.beliefs.iter().enumerate().filter(|&(other, &b)| other != cell && b > 0.0).map(|(_, &b)| b);
+        let others =
+            || self.beliefs.iter().enumerate().filter(|&(other, &b)| other != cell && b > 0.0).map(|(_, &b)| b);
         let none: f64 = others().map(|belief| 1.0 - belief).product();
         UNFOUND + others().sum::<f64>() + FURTHER * (1.0 - none)
     }
