@@ -6,7 +6,7 @@
 //! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table, at least 1 mm,
 //! * wrong and unexplained: a P(u)/(20 |w - p|), flat over the decade of what is wrong.
 //!
-//! a is the share of wrong cells that the rest of the table makes likely.
+//! a is the share of wrong cells that the rest of the table makes likely (head of `search.rs`).
 
 use super::judge::Verdict;
 use super::reading::{Hypothesis, Repair};

@@ -1,4 +1,14 @@
 //! The search for suspects: the strongest first, each set aside before the next is looked for, all of them heard again.
+//!
+//! How much evidence a cell needs depends on the rest of its table (empirical Bayes). With n offsets and beliefs b_k in the other
+//! suspects the share of wrong cells is taken as
+//!
+//!   a = (UNFOUND + sum b_k + FURTHER (1 - prod (1 - b_k))) / n,
+//!
+//! so that a table in which nothing is certain needs odds of n/UNFOUND from the cell alone, and one with a certain error a few
+//! hundred times less. A belief is the probability from the cell's own evidence, discounted by WITNESS. The price: the only
+//! error of a table has to be larger to be found than one among several. The three constants were chosen on seeded tables
+//! with planted errors (tests/suspects.rs says how), not derived.
 
 use super::grid::{Along, Grid};
 use super::judge::{Judge, Verdict};
