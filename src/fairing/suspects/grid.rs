@@ -69,10 +69,14 @@ impl Grid {
     }
 
     /// Zeros that hang together with the edge of the table, or with cells without hull, say that there is no hull; a zero
-    /// among offsets is an offset.
+    /// among offsets is an offset, and so is one that the hull bridges.
     fn set_zeros_aside(&mut self) {
         let (rows, width) = (self.x.len(), self.z.len());
-        let zero = |grid: &Self, cell: usize| grid.state[cell] == State::Given && grid.value[cell].abs() < 1e-12;
+        let enclosed: Vec<bool> =
+            (0..self.value.len()).map(|cell| Along::BOTH.into_iter().any(|along| self.bridges(along, cell))).collect();
+        let zero = |grid: &Self, cell: usize| {
+            grid.state[cell] == State::Given && grid.value[cell].abs() < 1e-12 && !enclosed[cell]
+        };
         let mut waiting = Vec::new();
         for cell in 0..self.value.len() {
             let (i, j) = (cell / width, cell % width);
@@ -89,6 +93,22 @@ impl Grid {
             self.state[cell] = State::Beyond;
             waiting.extend(self.neighbours(cell).filter(|&n| zero(self, n)).collect::<Vec<_>>());
         }
+    }
+
+    /// Whether hull comes up to a cell from before and from behind on a line and does not shrink to nothing there, as it does
+    /// between a bulb and the stem: straight lines through the two nearest offsets of either side reach at least a fifth of
+    /// the nearest.
+    fn bridges(&self, along: Along, cell: usize) -> bool {
+        let at = self.coordinate(along, cell);
+        let hull = |steps: isize| {
+            let other = self.shifted(along, cell, steps, 0).filter(|&other| self.value[other].abs() >= 1e-12)?;
+            Some((self.coordinate(along, other), self.value[other]))
+        };
+        [-1, 1].into_iter().all(|side| {
+            let Some((s, near)) = hull(side) else { return false };
+            let reached = hull(2 * side).map_or(near, |(t, far)| near + (near - far) * (at - s) / (s - t));
+            reached / near >= 0.2
+        })
     }
 
     fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {

@@ -100,6 +100,10 @@ const NONE: u32 = u32::MAX;
 struct Direction {
     along: Along,
     stencils: Vec<Vec<Option<Stencil>>>,
+    /// Gain of each stencil, 0 where there is none: read far oftener than the weights.
+    gains: Vec<Vec<f64>>,
+    /// The line that a cell lies on.
+    line: Vec<u32>,
     /// The two lines beside a cell, with the weights of linear interpolation between them.
     beside: Vec<[(u32, f64); 2]>,
     around: Vec<[u32; AROUND.len()]>,
@@ -146,7 +150,16 @@ impl Direction {
             }
             sides[cell] = [1, 2].map(|far| [-far, far].into_iter().all(|s| grid.shifted(along, cell, s, 0).is_some()));
         }
-        Self { along, stencils: stencils(grid, along), beside, around, sides, residuals: Vec::new() }
+        let stencils = stencils(grid, along);
+        let gain = |stencil: &Option<Stencil>| stencil.as_ref().map_or(0.0, |stencil| stencil.gain);
+        let gains = stencils.iter().map(|list| list.iter().map(gain).collect()).collect();
+        let line = (0..grid.len())
+            .map(|cell| match along {
+                Along::Station => index(Some(grid.place(cell).0)),
+                Along::Waterline => index(Some(grid.place(cell).1)),
+            })
+            .collect();
+        Self { along, stencils, gains, line, beside, around, sides, residuals: Vec::new() }
     }
 }
 
@@ -229,24 +242,24 @@ impl Judge {
     /// The residual at `n` once the cell `c` is less by `e`; `same` says that both are on one line.
     fn residual(&self, d: usize, p: usize, n: usize, c: usize, e: f64) -> Option<f64> {
         let direction = &self.directions[d];
-        let stencil = direction.stencils[p][n].as_ref()?;
+        if direction.gains[p][n] <= 0.0 {
+            return None;
+        }
         let r = direction.residuals[p][n];
         if n == c {
             return Some(r - e);
         }
-        let width = self.grid.z.len();
-        let same = match direction.along {
-            Along::Station => n / width == c / width,
-            Along::Waterline => n % width == c % width,
-        };
-        Some(if same { r + stencil.weight(c) * e } else { r })
+        if direction.line[n] != direction.line[c] {
+            return Some(r);
+        }
+        Some(r + direction.stencils[p][n].as_ref()?.weight(c) * e)
     }
 
     /// The residual and its gain at `n`; levelled less that of the lines beside it.
     fn read(&self, d: usize, p: usize, levelled: bool, n: usize, c: usize, e: f64) -> Option<(f64, f64)> {
         let direction = &self.directions[d];
         let mut r = self.residual(d, p, n, c, e)?;
-        let mut gain = direction.stencils[p][n].as_ref()?.gain;
+        let mut gain = direction.gains[p][n];
         if levelled {
             let mut lines = 0;
             for &(m, share) in direction.beside[n].iter().filter(|&&(m, _)| m != NONE) {
@@ -255,7 +268,7 @@ impl Judge {
                     return None;
                 }
                 r -= share * self.residual(d, p, m, c, e)?;
-                gain += share * share * direction.stencils[p][m].as_ref()?.gain;
+                gain += share * share * direction.gains[p][m];
                 lines += 1;
             }
             if lines == 0 {

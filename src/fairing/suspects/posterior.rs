@@ -3,19 +3,18 @@
 //! With the prediction p, its scale s and Student's law t_nu of the scale's degrees of freedom:
 //! * right as written: (1 - a) t_nu((w - p)/s)/s,
 //! * a slip of kind k that turned v into the written w: a P(k) P(v -> w | k) t_nu((v - p)/s)/s, summed over the v,
-//! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table,
+//! * the text of a neighbour, when it is that very text: 0.05 a P(k) over the quantum of the table, at least 1 mm,
 //! * wrong and unexplained: a P(u)/(20 |w - p|), flat over the decade of what is wrong.
 //!
-//! a is how many cells of a table are wrong before it is looked at.
+//! a is the share of wrong cells that the rest of the table makes likely (head of `search.rs`).
 
 use super::judge::Verdict;
 use super::reading::{Hypothesis, Repair};
 
-/// Share of wrong cells in tables as they come: one in two hundred.
-const WRONG: f64 = 0.005;
-
 /// How much likelier a repeated text is when it was copied: neighbours are alike without that, too.
 const COPIED: f64 = 0.05;
+/// Quantum below which a repeated text says no more: flats repeat every decimal \[m\].
+const FLAT: f64 = 1e-3;
 
 /// A hypothesis about a cell with its probability.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +47,8 @@ fn student(t: f64, nu: f64) -> f64 {
     (constant - 0.5 * (nu + 1.0) * (t * t / nu).ln_1p()).exp()
 }
 
-/// The hypotheses about a cell, most probable first. `copies` are kinds of neighbours whose text the cell repeats.
+/// The hypotheses about a cell, most probable first. `copies` are kinds of neighbours whose text the cell repeats,
+/// `wrong` is the share of wrong cells that the rest of the table makes likely.
 pub(super) fn readings(
     verdict: &Verdict,
     written: f64,
@@ -56,6 +56,7 @@ pub(super) fn readings(
     repairs: &[Repair],
     copies: &[Hypothesis],
     quantum: f64,
+    wrong: f64,
 ) -> Vec<Reading> {
     let (p, s, nu) = (written - verdict.residual, verdict.scale, verdict.freedom);
     let density = |value: f64| student((value - p) / s, nu) / s;
@@ -63,7 +64,7 @@ pub(super) fn readings(
         hypothesis: Hypothesis::Noise,
         text: text.to_owned(),
         value: written,
-        probability: (1.0 - WRONG) * density(written),
+        probability: (1.0 - wrong) * density(written),
     }];
     for hypothesis in Hypothesis::ALL {
         let kind: Vec<&Repair> = repairs.iter().filter(|repair| repair.hypothesis == hypothesis).collect();
@@ -73,7 +74,7 @@ pub(super) fn readings(
                 hypothesis,
                 text: repair.text.clone(),
                 value: repair.value,
-                probability: WRONG * hypothesis.prior() * repair.weight / total * density(repair.value),
+                probability: wrong * hypothesis.prior() * repair.weight / total * density(repair.value),
             });
         }
     }
@@ -82,14 +83,14 @@ pub(super) fn readings(
             hypothesis,
             text: String::new(),
             value: p,
-            probability: WRONG * hypothesis.prior() * COPIED / quantum,
+            probability: wrong * hypothesis.prior() * COPIED / quantum.max(FLAT),
         });
     }
     list.push(Reading {
         hypothesis: Hypothesis::Unexplained,
         text: String::new(),
         value: p,
-        probability: WRONG * Hypothesis::Unexplained.prior() / (20.0 * verdict.residual.abs().max(s)),
+        probability: wrong * Hypothesis::Unexplained.prior() / (20.0 * verdict.residual.abs().max(s)),
     });
     // What two slips explain alike goes to the likelier: a swap is also two wrong digits, a misread digit a wrong one.
     let total: f64 = list.iter().map(|reading| reading.probability).sum();
