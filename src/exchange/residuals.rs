@@ -1,10 +1,11 @@
-//! `residuals.csv`: every cell of a table beside the surface fitted to it.
+//! `residuals.csv`: every cell of a table, and every point of its sections, beside the surface fitted to it.
 
 use super::number::{cell, line};
 use crate::hull::{Entry, Fitted, OffsetTable};
 
-/// One row a cell: station, x, waterline, half-breadth of the table (empty where it is to be predicted), of the surface, and
-/// surface minus table, all in metres.
+/// One row a cell: station, x, height of its waterline, half-breadth of the table (empty where it is to be predicted), of the
+/// surface, and surface minus table, all in metres. Points of sections ([`Fitted::points`]) follow in the same columns with
+/// their own heights.
 #[must_use]
 pub fn residuals_csv(table: &OffsetTable, fitted: &Fitted) -> String {
     let head = ["station", "x [m]", "waterline [m]", "table [m]", "surface [m]", "residual [m]"];
@@ -22,6 +23,17 @@ pub fn residuals_csv(table: &OffsetTable, fitted: &Fitted) -> String {
             cell(given),
             cell(Some(residual.half_breadth)),
             cell(residual.residual),
+        ]));
+    }
+    for point in fitted.points(table) {
+        let Some(station) = table.stations.get(point.station) else { continue };
+        text.push_str(&line(&[
+            station.station.name.clone(),
+            cell(Some(station.station.x)),
+            cell(Some(point.height)),
+            cell(Some(point.given)),
+            cell(Some(point.half_breadth)),
+            cell(Some(point.residual())),
         ]));
     }
     text

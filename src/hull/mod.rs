@@ -20,8 +20,8 @@ pub use area::SectionalAreaCurve;
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
 pub(crate) use charted::advance;
 pub use fit::{
-    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations, QuadraticNet,
-    SettingProblem, SettingProblems, UniformBicubic, VolumeEstimate,
+    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations,
+    PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate,
 };
 pub use form::{Hull, HullError};
 pub use functional::Functional;

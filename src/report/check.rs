@@ -20,6 +20,9 @@ const NAMED: usize = 3;
 /// Hypotheses less probable than this are not named.
 const LEAST_NAMED: f64 = 0.005;
 
+/// Warnings that say how a file was read, not that a cell is wrong.
+const ABOUT_READING: [&str; 6] = ["W320", "W330", "W331", "W332", "W333", "W334"];
+
 /// What is wrong with a table, by rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CheckProblem {
@@ -51,9 +54,13 @@ pub struct Check {
 pub fn check_table(path: &Path) -> Result<Check, Failure> {
     match read_table_file(path) {
         Ok((table, notes)) => {
-            // A warning about a cell is a problem; that profiles are missing is none of a table that is only checked.
-            let (located, general): (Vec<_>, Vec<_>) =
-                notes.into_iter().partition(|note| note.severity == exchange::Severity::Warning && note.row.is_some());
+            // A warning about a cell is a problem; that profiles are missing, or a column not used, is none of a table that is
+            // only checked.
+            let (located, general): (Vec<_>, Vec<_>) = notes.into_iter().partition(|note| {
+                note.severity == exchange::Severity::Warning
+                    && note.row.is_some()
+                    && !ABOUT_READING.contains(&note.code)
+            });
             Ok(Check {
                 suspects: Some(suspects(&table)),
                 table: Some(table),
@@ -92,6 +99,18 @@ impl Check {
         self.suspects.as_ref().map_or(&[], |result| &result.suspects)
     }
 
+    /// The number of offsets that were judged.
+    #[must_use]
+    pub fn judged(&self) -> usize {
+        self.suspects.as_ref().map_or(0, |result| result.verdicts.iter().flatten().flatten().count())
+    }
+
+    /// The number of points of sections in the table; these are not judged.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.table.as_ref().map_or(0, points)
+    }
+
     /// The failure that ends the program when there are suspects or problems, those that were accepted apart.
     ///
     /// # Errors
@@ -109,6 +128,39 @@ fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
+fn points(table: &OffsetTable) -> usize {
+    table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum()
+}
+
+/// Suspects of a table in one line, the most severe with its place; none without suspects.
+pub(super) fn suspects_line(table: &OffsetTable, found: &Suspects) -> Option<String> {
+    let worst = found.suspects.first()?;
+    let station = table.stations.get(worst.station)?;
+    let waterline = table.waterlines.get(worst.waterline)?;
+    Some(format!(
+        "{}: run `check`; the worst is station {}, waterline {waterline:.3} m: written {}, {:.4} m, expected {:.4} m",
+        counted(found.suspects.len(), "suspect cell"),
+        station.station.name,
+        worst.written,
+        worst.value,
+        worst.verdict.expected
+    ))
+}
+
+/// The same as JSON: `{"count", "worst": {"station", "waterline", "written", "value", "expected"}}`.
+pub(super) fn suspects_json(table: &OffsetTable, found: &Suspects) -> Value {
+    let worst = found.suspects.first().and_then(|worst| {
+        Some(json!({
+            "station": table.stations.get(worst.station)?.station.name,
+            "waterline": table.waterlines.get(worst.waterline)?,
+            "written": worst.written,
+            "value": worst.value,
+            "expected": worst.verdict.expected,
+        }))
+    });
+    json!({ "count": found.suspects.len(), "worst": worst })
+}
+
 fn place(table: &OffsetTable, suspect: &Suspect) -> Option<Written> {
     table.stations[suspect.station].half_breadths[suspect.waterline].written.clone()
 }
@@ -122,7 +174,7 @@ fn probability(p: f64) -> String {
 pub fn check_page(check: &Check) -> String {
     let mut page = String::new();
     if let (Some(table), Some(result)) = (&check.table, &check.suspects) {
-        let judged = result.verdicts.iter().flatten().flatten().count();
+        let judged = check.judged();
         let name = if table.name.is_empty() { "table" } else { &table.name };
         page.push_str(&format!(
             "{name}: {} stations, {} waterlines, {judged} offsets judged; noise {:.2} mm\n",
@@ -133,7 +185,15 @@ pub fn check_page(check: &Check) -> String {
         for suspect in &result.suspects {
             page.push_str(&suspect_lines(table, suspect));
         }
-        if result.suspects.is_empty() {
+        let points = points(table);
+        if points > 0 {
+            page.push_str(&format!(
+                "{points} points of sections are NOT judged: check knows offsets on waterlines only\n"
+            ));
+        }
+        if judged == 0 {
+            page.push_str("nothing was judged; this table may hold any error\n");
+        } else if result.suspects.is_empty() {
             page.push_str("no suspects\n");
         }
     }
@@ -188,7 +248,10 @@ pub fn check_json(check: &Check) -> Value {
         .map(|problem| json!({ "code": problem.code, "row": problem.row, "message": problem.message }))
         .collect();
     let sigma = check.suspects.as_ref().map(|result| result.noise);
-    json!({ "noise": { "sigma": sigma }, "suspects": suspects, "problems": problems, "lines": [] })
+    json!({
+        "judged": check.judged(), "points_not_judged": check.points(),
+        "noise": { "sigma": sigma }, "suspects": suspects, "problems": problems, "lines": [],
+    })
 }
 
 fn suspect_json(table: &OffsetTable, suspect: &Suspect) -> Value {

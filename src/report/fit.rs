@@ -5,17 +5,20 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
+use super::check::{suspects_json, suspects_line};
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
+use super::sanity;
 use super::source::{read_bytes, read_table_file, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
-    self, ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv,
-    row_json, write_hull,
+    ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
+    write_hull,
 };
-use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable};
+use crate::fairing::{Suspects, suspects};
+use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, VolumeEstimate};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
 
@@ -28,6 +31,8 @@ pub struct FitJob {
     pub method: MethodFile,
     /// What was detected and assumed when the table was read.
     pub reading: Vec<TableProblem>,
+    /// Cells that their neighbours contradict; the fit takes them as they are.
+    pub suspects: Suspects,
     /// File of the table.
     table_file: PathBuf,
     /// The files that were read; the first is the one that the command named.
@@ -39,6 +44,10 @@ pub struct FitJob {
 pub struct FitOutputs {
     /// The hull, its cells and what was assumed.
     pub fitted: Fitted,
+    /// How well the table tells the volume at the design draught.
+    pub estimate: VolumeEstimate,
+    /// Where the surface leaves its data.
+    pub warnings: Vec<String>,
     /// Hydrostatics at the design draught.
     pub design_row: Hydrostatics,
     /// The hydrostatic table.
@@ -127,13 +136,37 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     stated.breadth = over.breadth.or(stated.breadth);
     stated.draught = draught.or(over.draught).or(stated.draught);
     stated.depth = over.depth.or(stated.depth);
-    Ok(FitJob { table, method, reading: notes, table_file, inputs })
+    let suspects = suspects(&table);
+    Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs })
 }
 
 /// A remark about the table without the name of its file.
 fn remark(problem: &TableProblem) -> String {
-    let TableProblem { code, message, remedy, .. } = problem;
-    if remedy.is_empty() { format!("{code} {message}") } else { format!("{code} {message}. {remedy}") }
+    let TableProblem { code, row, message, remedy, .. } = problem;
+    let row = row.map(|row| format!("row {row}: ")).unwrap_or_default();
+    let (gap, remedy) = if remedy.is_empty() { ("", "") } else { (". ", remedy.trim_end_matches('.')) };
+    format!("{code} {row}{message}{gap}{remedy}")
+}
+
+/// Points of sections beside the surface: number, root mean square and the one that is missed most.
+struct PointMisfit {
+    count: usize,
+    rms: f64,
+    worst: PointResidual,
+}
+
+impl PointMisfit {
+    /// None without points.
+    fn new(points: &[PointResidual]) -> Option<Self> {
+        let mut worst = *points.first()?;
+        for point in points {
+            if point.residual().abs() > worst.residual().abs() {
+                worst = *point;
+            }
+        }
+        let squares: f64 = points.iter().map(|point| point.residual().powi(2)).sum();
+        Some(Self { count: points.len(), rms: (squares / points.len() as f64).sqrt(), worst })
+    }
 }
 
 fn chart_word(chart: Chart) -> &'static str {
@@ -145,23 +178,48 @@ fn chart_word(chart: Chart) -> &'static str {
 
 fn refusal(job: &FitJob, error: FitError) -> Failure {
     let file = &job.table_file;
-    Failure::Input(match error {
+    let mut messages = match error {
         FitError::Settings(problems) => job.method.diagnose(&problems.0, &file.display().to_string()),
         FitError::Hull(error) => {
             let message = format!("the {} surface over this table is no hull: {error}", job.method.method.as_str());
             vec![problem("E163", file, message, "Another method, or other settings of it, may do".to_owned())]
         }
         other => vec![problem("E162", file, other.to_string(), String::new())],
-    })
+    };
+    // A misprint may be the reason.
+    if let Some(line) = suspects_line(&job.table, &job.suspects) {
+        messages.push(Diagnostic { severity: Severity::Warning, ..problem("W164", file, line, String::new()) });
+    }
+    Failure::Input(messages)
 }
 
 /// Contents of `fit.json`.
-fn summary(job: &FitJob, fitted: &Fitted, row: &Hydrostatics, conventions: &Conventions) -> Value {
+fn summary(
+    job: &FitJob,
+    fitted: &Fitted,
+    estimate: &VolumeEstimate,
+    warnings: &[String],
+    row: &Hydrostatics,
+    conventions: &Conventions,
+) -> Value {
     let misfit = fitted.misfit();
     let worst = misfit.worst.and_then(|cell| {
         let station = &job.table.stations.get(cell.station)?.station;
         let waterline = job.table.waterlines.get(cell.waterline)?;
         Some(json!({ "station": station.name, "x": station.x, "waterline": waterline, "residual": cell.residual }))
+    });
+    let points = PointMisfit::new(&fitted.points(&job.table)).map(|points| {
+        let worst = &points.worst;
+        let station = job.table.stations.get(worst.station).map(|s| &s.station);
+        json!({
+            "compared": points.count,
+            "max": worst.residual().abs(),
+            "rms": points.rms,
+            "worst": {
+                "station": station.map(|s| &s.name), "x": station.map(|s| s.x), "z": worst.height,
+                "given": worst.given, "surface": worst.half_breadth, "residual": worst.residual(),
+            },
+        })
     });
     json!({
         "name": job.table.name,
@@ -176,6 +234,12 @@ fn summary(job: &FitJob, fitted: &Fitted, row: &Hydrostatics, conventions: &Conv
             "rms": misfit.rms,
             "worst": worst,
         },
+        "points": points,
+        "volume_error": {
+            "total": estimate.total(), "stations": estimate.stations, "waterlines": estimate.waterlines,
+        },
+        "suspects": suspects_json(&job.table, &job.suspects),
+        "warnings": warnings,
         "notes": fitted.notes,
         "reading": job.reading.iter().map(remark).collect::<Vec<_>>(),
         "design": row_json(row),
@@ -197,7 +261,9 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     draughts.push(particulars.draught);
     let mut table = CurvesOfForm::new(&fitted.hull, &draughts, &conventions);
     let design_row = table.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
-    let summary = summary(job, &fitted, &design_row, &conventions);
+    let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, particulars.draught);
+    let warnings = sanity::warnings(&job.table, &fitted.hull, &design_row);
+    let summary = summary(job, &fitted, &estimate, &warnings, &design_row, &conventions);
 
     let surface = fitted.surface_table(&job.table);
     let endings = surface.endings.iter().flatten().any(Option::is_some);
@@ -214,12 +280,52 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
     let manifest = manifest_file(input, &files)?;
     files.push(manifest);
-    Ok(FitOutputs { fitted, design_row, table, summary, files })
+    Ok(FitOutputs { fitted, estimate, warnings, design_row, table, summary, files })
 }
 
 /// A length \[m\] that may be as small as rounding.
 fn small(value: f64) -> String {
     if value < 5e-7 && value > 0.0 { format!("{value:.0e}") } else { format!("{value:.4}") }
+}
+
+/// Remarks about the table that the page shows.
+const MOST_REMARKS: usize = 12;
+
+/// What the surface leaves at the cells and at the points of sections.
+fn misfit_lines(job: &FitJob, fitted: &Fitted) -> String {
+    let mut lines = String::new();
+    let misfit = fitted.misfit();
+    let points = PointMisfit::new(&fitted.points(&job.table));
+    if misfit.given + misfit.predicted > 0 || points.is_none() {
+        let worst = misfit.worst.and_then(|cell| {
+            let station = &job.table.stations.get(cell.station)?.station;
+            let waterline = job.table.waterlines.get(cell.waterline)?;
+            Some(format!(" (station {}, x {} m, waterline {waterline} m)", station.name, station.x))
+        });
+        let predicted =
+            if misfit.predicted > 0 { format!("; {} cells predicted", misfit.predicted) } else { String::new() };
+        let line = format!(
+            "{} cells, missed by {} m at most{}, {} m RMS{predicted}.",
+            misfit.given,
+            small(misfit.largest()),
+            worst.filter(|_| misfit.largest() >= 5e-7).unwrap_or_default(),
+            small(misfit.rms)
+        );
+        lines.push_str(&wrapped(&line, 2));
+    }
+    if let Some(points) = points {
+        let worst = &points.worst;
+        let station = job.table.stations.get(worst.station).map(|s| s.station.name.as_str()).unwrap_or_default();
+        let line = format!(
+            "{} points of sections, missed in half-breadth by {} m at most (station {station}, z {:.3} m), {} m RMS.",
+            points.count,
+            small(worst.residual().abs()),
+            worst.height,
+            small(points.rms)
+        );
+        lines.push_str(&wrapped(&line, 2));
+    }
+    lines
 }
 
 /// The page of `fit`, at most 80 columns wide.
@@ -232,27 +338,21 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
     let mut page = format!("{name} ({}, {} chart)\n", job.method.method.as_str(), chart_word(fitted.chart));
     let length = p.length_between_perpendiculars;
     page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.breadth, p.draught, p.depth));
-    let misfit = fitted.misfit();
-    let worst = misfit.worst.and_then(|cell| {
-        let station = &job.table.stations.get(cell.station)?.station;
-        let waterline = job.table.waterlines.get(cell.waterline)?;
-        Some(format!(" (station {}, x {} m, waterline {waterline} m)", station.name, station.x))
-    });
-    let predicted =
-        if misfit.predicted > 0 { format!("; {} cells predicted", misfit.predicted) } else { String::new() };
-    page.push_str(&wrapped(
-        &format!(
-            "{} cells, missed by {} m at most{}, {} m RMS{predicted}.",
-            misfit.given,
-            small(misfit.largest()),
-            worst.filter(|_| misfit.largest() >= 5e-7).unwrap_or_default(),
-            small(misfit.rms)
-        ),
-        2,
-    ));
-    let warnings = job.reading.iter().filter(|p| p.severity != exchange::Severity::Note).map(remark);
-    for note in fitted.notes.iter().cloned().chain(warnings) {
+    page.push_str(&misfit_lines(job, fitted));
+    page.push_str(&wrapped(&format!("{}.", outputs.estimate.words()), 2));
+    let suspects = suspects_line(&job.table, &job.suspects);
+    for warning in outputs.warnings.iter().chain(&suspects) {
+        page.push_str(&wrapped(&format!("WARNING: {warning}"), 2));
+    }
+    for note in &fitted.notes {
         page.push_str(&wrapped(&format!("- {note}"), 2));
+    }
+    for note in job.reading.iter().take(MOST_REMARKS) {
+        page.push_str(&wrapped(&format!("- {}", remark(note)), 2));
+    }
+    if job.reading.len() > MOST_REMARKS {
+        let more = job.reading.len() - MOST_REMARKS;
+        page.push_str(&format!("- {more} more remarks about the table: fit.json, \"reading\"\n"));
     }
     page.push('\n');
     page.push_str(&quantities(&outputs.design_row, conventions, length));

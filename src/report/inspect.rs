@@ -99,6 +99,13 @@ fn write_page(page: &mut String, name: &str, inspection: &Inspection) -> std::fm
             )?;
         }
     }
+    for cut in &inspection.narrow {
+        writeln!(page, "{} is not counted: no breadth (half-breadth below B/1000 all along)", named(cut))?;
+    }
+    for curve in inspection.curves.iter().filter(|curve| curve.without_breadth > 0.0) {
+        let length = fixed(curve.without_breadth, 3);
+        writeln!(page, "{} counts without {length} m at its ends, where it has no breadth", named(&curve.cut))?;
+    }
     for cut in &inspection.empty {
         writeln!(page, "{} does not cut the side of the hull in a curve", named(cut))?;
     }
@@ -161,12 +168,13 @@ fn curve_json(curve: &CurveReport) -> Value {
         "variation_energy": curve.variation,
         "flats": flats,
         "knuckles": curve.knuckles,
+        "without_breadth": curve.without_breadth,
     })
 }
 
 /// An inspection as JSON: `{"name", "tolerance", "curves": [{"kind", "at", "branch", "length", "inflections",
 /// "inflections_at", "extrema", "max_curvature", "max_step", "bending_energy", "variation_energy", "flats", "knuckles",
-/// ...}], "totals": {"stations": {...}}, "empty": [...], "net": [{"line", "index", "at", "signs", "changes", "enclosed"}],
+/// ...}], "totals": {"stations": {...}}, "empty": [...], "no_breadth": [...], "net": [{"line", "index", "at", "signs", "changes", "enclosed"}],
 /// "surface": {...}}`; lengths \[m\], curvatures \[1/m\], points \[x, y, z\].
 #[must_use]
 pub fn inspection_json(name: &str, inspection: &Inspection) -> Value {
@@ -213,6 +221,7 @@ pub fn inspection_json(name: &str, inspection: &Inspection) -> Value {
         "curves": inspection.curves.iter().map(curve_json).collect::<Vec<_>>(),
         "totals": totals,
         "empty": inspection.empty.iter().map(|cut| json!({ "kind": kind(cut), "at": position(cut) })).collect::<Vec<_>>(),
+        "no_breadth": inspection.narrow.iter().map(|cut| json!({ "kind": kind(cut), "at": position(cut) })).collect::<Vec<_>>(),
         "net": net,
         "surface": measures,
     })

@@ -9,6 +9,7 @@ mod generate;
 mod inspect;
 mod markdown;
 mod page;
+mod sanity;
 mod self_test;
 mod source;
 mod validate;

@@ -4,9 +4,11 @@ use std::fs;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use super::check::suspects_line;
 use super::failure::Failure;
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
+use crate::fairing::suspects;
 use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section};
 use crate::hydrostatics::Conventions;
 use crate::parametric::{Family, Generated};
@@ -178,7 +180,7 @@ fn fitted(path: &Path) -> Result<Source, Failure> {
     let fitted = Hull::fit(&table, &FitMethod::default())
         .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
     let notes = notes.iter().filter(|note| note.severity == exchange::Severity::Warning).map(ToString::to_string);
-    let notes = notes.chain(fitted.notes).collect();
+    let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
     Ok(Source { hull: fitted.hull, conventions: Conventions::default(), notes })
 }
 

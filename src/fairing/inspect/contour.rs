@@ -176,18 +176,96 @@ impl<'a> Locator<'a> {
     }
 }
 
+/// Points of a piece at which the half-breadth is looked at.
+const LOOKS: usize = 8;
+
+/// Where a section has breadth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Breadth {
+    /// Half-breadths below this are none \[m\].
+    pub(super) least: f64,
+    /// A stretch without breadth at an end is left out when it is longer than this \[m\]: every fine end has a short one.
+    pub(super) longest: f64,
+}
+
+impl Breadth {
+    /// The first parameter of `pieces` at which the curve has breadth, and the length up to it; none without such a place.
+    fn begins(self, pieces: &[[f64; 2]], point: &impl Fn(f64) -> Point) -> Option<(f64, f64)> {
+        let mut length = 0.0;
+        let mut before: Option<(f64, Point)> = None;
+        for &[from, to] in pieces {
+            for k in 0..=LOOKS {
+                let t = from + (to - from) * k as f64 / LOOKS as f64;
+                let here = point(t);
+                if here[1].abs() >= self.least {
+                    let Some((start, _)) = before else { return Some((t, 0.0)) };
+                    let (mut low, mut high) = (start, t);
+                    for _ in 0..50 {
+                        let middle = 0.5 * (low + high);
+                        if point(middle)[1].abs() >= self.least { high = middle } else { low = middle }
+                    }
+                    return Some((high, length));
+                }
+                if let Some((_, last)) = before {
+                    let step = minus(here, last);
+                    length += dot(step, step).sqrt();
+                }
+                before = Some((t, here));
+            }
+        }
+        None
+    }
+
+    /// The pieces of a curve without its ends that have no breadth, and the length left out; no piece where there is no breadth
+    /// at all. A closed curve has no ends.
+    pub(super) fn clip(
+        self,
+        mut pieces: Vec<[f64; 2]>,
+        closed: bool,
+        point: impl Fn(f64) -> Point,
+    ) -> (Vec<[f64; 2]>, f64) {
+        let reversed: Vec<[f64; 2]> = pieces.iter().rev().map(|&[from, to]| [to, from]).collect();
+        let ends = (self.begins(&pieces, &point), self.begins(&reversed, &point));
+        let (Some((first, ahead)), Some((last, behind))) = ends else { return (Vec::new(), 0.0) };
+        let mut left_out = 0.0;
+        if !closed && ahead > self.longest {
+            pieces.retain(|piece| piece[1] > first);
+            if let Some(piece) = pieces.first_mut() {
+                piece[0] = piece[0].max(first);
+            }
+            left_out += ahead;
+        }
+        if !closed && behind > self.longest {
+            pieces.retain(|piece| piece[0] < last);
+            if let Some(piece) = pieces.last_mut() {
+                piece[1] = piece[1].min(last);
+            }
+            left_out += behind;
+        }
+        (pieces, left_out)
+    }
+}
+
 /// A section curve with its plane: points in space are `origin` + x `axes[0]` + y `axes[1]`.
 #[derive(Debug)]
 pub(super) struct Trace {
     pub(super) profile: Profile,
+    /// Length of the ends that have no breadth \[m\].
+    pub(super) left_out: f64,
     origin: Point,
     pub(super) axes: [Point; 2],
 }
 
 impl Trace {
     /// The branch of the section by the plane with unit normal `n`, which it keeps to within `tolerance` \[m\]. None for a
-    /// branch that has no curvature anywhere.
-    pub(super) fn new(locator: &Locator, branch: &Branch, n: Point, tolerance: f64) -> Option<Self> {
+    /// branch that has no curvature, or no `breadth`, anywhere.
+    pub(super) fn new(
+        locator: &Locator,
+        branch: &Branch,
+        n: Point,
+        tolerance: f64,
+        breadth: Option<Breadth>,
+    ) -> Option<Self> {
         // The axis forward, or outboard where the plane is across the ship.
         let along: Point = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let out = minus(along, n.map(|c| c * dot(n, along)));
@@ -198,6 +276,10 @@ impl Trace {
         let flat = |p: Point| -> [f64; 2] { axes.map(|axis| dot(p, axis)) };
         let knots = breaks(branch.curve.knots());
         let pieces: Vec<[f64; 2]> = knots.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        let (pieces, left_out) = match breadth {
+            Some(breadth) => breadth.clip(pieces, branch.closed, |t| branch.curve.derivatives::<1>(t)[0]),
+            None => (pieces, 0.0),
+        };
         let mut near: Option<[f64; 2]> = None;
         let profile = Profile::sample(&pieces, branch.closed, |t| {
             let [point, velocity] = branch.curve.derivatives::<2>(t);
@@ -208,7 +290,7 @@ impl Trace {
             let point = flat(minus(point, origin));
             Some(Local { point, velocity: flat(velocity), curvature: kappa, slope: turned * slope })
         })?;
-        Some(Self { profile, origin, axes })
+        Some(Self { profile, left_out, origin, axes })
     }
 
     /// The point of the plane in space.

@@ -6,8 +6,9 @@
 //!
 //! Accuracy: curvature to rounding; lengths and energies of a piece to the Clenshaw-Curtis rule of 13 points (1e-10 for
 //! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points.
-//! Limit: at the end stations of a fitted table, where the half-breadth shrinks to nothing, the surface can turn within microns of
-//! the keel line; the curvature and the energies of such a station are those of this edge and say nothing about fairness.
+//! Where the half-breadth shrinks to nothing, as at the end stations of a table, the surface can turn within microns of the
+//! centreplane, which says nothing about fairness. A curve whose half-breadth is below B/1000 all along is therefore not
+//! counted, and of other curves the ends where it is are left out if they are longer than B/50; both are told.
 //! Cost: one section and about 30 evaluations of third derivatives for each patch that it crosses.
 
 mod contour;
@@ -20,10 +21,15 @@ pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, n
 pub use profile::{Findings, Local, Place, Profile, Stretch};
 
 use crate::hull::{Cut, Face, Hull, default_buttocks, default_stations, default_waterlines};
-use contour::{Locator, Trace};
+use contour::{Breadth, Locator, Trace};
 
 /// Deviation of the section curves from surface and plane \[m\], in lengths between perpendiculars.
 const SECTION: f64 = 1e-11;
+
+/// Half-breadths below this are none, in moulded breadths.
+const NO_BREADTH: f64 = 1e-3;
+/// Longest end without breadth that still counts, in moulded breadths.
+const LONGEST_END: f64 = 0.02;
 
 /// What can be seen in a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,6 +139,8 @@ pub struct CurveReport {
     pub flats: Vec<Flat>,
     /// Knuckles \[m\].
     pub knuckles: Vec<[f64; 3]>,
+    /// Length of the ends that have no breadth and were left out of everything above \[m\].
+    pub without_breadth: f64,
 }
 
 /// What is found on a hull.
@@ -144,6 +152,8 @@ pub struct Inspection {
     pub curves: Vec<CurveReport>,
     /// Planes that do not cut the side of the hull, or along which it lies in the plane.
     pub empty: Vec<Cut>,
+    /// Planes whose section has a curve that was not counted: the half-breadth is below B/1000 all along.
+    pub narrow: Vec<Cut>,
     /// Signs of the control polygon.
     pub net: Vec<PolygonSigns>,
     /// Curvature of the surface.
@@ -167,30 +177,48 @@ impl Inspection {
     #[must_use]
     pub fn new(hull: &Hull, planes: &Planes, tolerance: f64) -> Self {
         let locator = Locator::new(hull.surface());
-        let (mut curves, mut empty) = (Vec::new(), Vec::new());
+        let (mut curves, mut empty, mut narrow) = (Vec::new(), Vec::new(), Vec::new());
         for cut in planes.cuts() {
-            let found = inspect_plane(hull, &locator, cut, planes, tolerance);
-            if found.is_empty() {
+            let (found, thin) = inspect_plane(hull, &locator, cut, planes, tolerance);
+            if thin {
+                narrow.push(cut);
+            } else if found.is_empty() {
                 empty.push(cut);
             }
             curves.extend(found);
         }
         let net = net_signs(hull.surface(), ON_CHORD * tolerance);
-        Self { tolerance, curves, empty, net, surface: SurfaceMeasures::of(hull) }
+        Self { tolerance, curves, empty, narrow, net, surface: SurfaceMeasures::of(hull) }
     }
 }
 
-fn inspect_plane(hull: &Hull, locator: &Locator, cut: Cut, planes: &Planes, tolerance: f64) -> Vec<CurveReport> {
-    let Some((normal, _)) = cut.plane() else { return Vec::new() };
+/// The curves of a plane, and whether one was not counted for want of breadth.
+fn inspect_plane(
+    hull: &Hull,
+    locator: &Locator,
+    cut: Cut,
+    planes: &Planes,
+    tolerance: f64,
+) -> (Vec<CurveReport>, bool) {
+    let Some((normal, _)) = cut.plane() else { return (Vec::new(), false) };
     let close = SECTION * hull.particulars().length_between_perpendiculars;
     let section = hull.section(cut, close);
     let across = matches!(cut, Cut::Station { .. });
     // What lies on the side; the flats of the body are flat.
     let branches = section.branches.iter().filter(|branch| branch.face == Face::Side);
+    let moulded = hull.particulars().breadth;
+    // A buttock has one half-breadth, whichever was asked for.
+    let breadth = (!matches!(cut, Cut::Buttock { .. }))
+        .then_some(Breadth { least: NO_BREADTH * moulded, longest: LONGEST_END * moulded });
     let mut reports = Vec::new();
+    let mut thin = false;
     for (index, branch) in branches.enumerate() {
         // The traced curve may stand off the surface by its tolerance; a hundred of them is another place.
-        let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close) else { continue };
+        let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close, breadth) else {
+            let narrow = |b: Breadth| branch.curve.points().iter().all(|point| point[1].abs() < b.least);
+            thin |= breadth.is_some_and(narrow);
+            continue;
+        };
         let (axis, offset) = trace.coordinate(if across { 2 } else { 0 });
         let ordinates = if across { &planes.waterlines } else { &planes.stations };
         let marks: Vec<f64> = ordinates.iter().map(|mark| mark - offset).collect();
@@ -219,7 +247,8 @@ fn inspect_plane(hull: &Hull, locator: &Locator, cut: Cut, planes: &Planes, tole
                 })
                 .collect(),
             knuckles: space(&found.knuckles),
+            without_breadth: trace.left_out,
         });
     }
-    reports
+    (reports, thin)
 }

@@ -1,15 +1,44 @@
-//! How well a table fixes its volume, found from the table itself.
+//! How well a table fixes a figure of its hull, found from the table itself.
 //!
-//! The hull is fitted again from every second station, and again from every second waterline. An error that falls with the
-//! square of the spacing is a third of what the volume changes by (Richardson 1911); the surface is better than that where the
-//! hull is smooth, so that the estimate is on the safe side there. It says nothing of errors that all lines share: ends of
-//! waterlines and bottoms that the table does not give.
+//! The hull is fitted again from every second station, and again from every second waterline (or point of a section). An
+//! error that falls with the square of the spacing is a third of what the figure changes by (Richardson 1911); the surface is
+//! better than that where the hull is smooth, so that the estimate is on the safe side there. It says nothing of errors that
+//! all lines share: ends of waterlines and bottoms that the table does not give. Cost: two more fits.
 
 use super::super::{Functional, Hull, OffsetTable};
 use super::method::FitMethod;
 
 /// Fewest lines of which every second one can be left out.
 const LEAST: usize = 5;
+
+/// The hulls of a table without every second line.
+#[derive(Debug, Clone)]
+pub struct Thinned {
+    /// From every second station, the first and the last among them; none with fewer than five stations, or where they make
+    /// no hull.
+    pub stations: Option<Hull>,
+    /// From every second waterline (the lowest, the highest and the one at the draught stay) and every second point of a
+    /// section; none with fewer than five, or where they make no hull.
+    pub waterlines: Option<Hull>,
+}
+
+impl Thinned {
+    /// Both fits of `table` by `method`; `draught` \[m\] is the waterline that stays.
+    #[must_use]
+    pub fn new(table: &OffsetTable, method: &FitMethod, draught: f64) -> Self {
+        let fit = |thin: OffsetTable| Hull::fit(&thin, method).ok().map(|fitted| fitted.hull);
+        Self {
+            stations: every_second_station(table).and_then(fit),
+            waterlines: every_second_waterline(table, draught).and_then(fit),
+        }
+    }
+
+    /// Richardson's estimate of the error of `fine`, where half as many lines give `coarse`: |coarse - fine| / 3, in their unit.
+    #[must_use]
+    pub fn error(fine: f64, coarse: f64) -> f64 {
+        (coarse - fine).abs() / 3.0
+    }
+}
 
 /// Estimated relative errors of the volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,59 +52,76 @@ pub struct VolumeEstimate {
 }
 
 impl VolumeEstimate {
-    /// The estimate for `hull`, the fit of `table`, below `draught` \[m\].
+    /// The estimate for `hull`, the fit of `table` by `method`, below `draught` \[m\].
     #[must_use]
-    pub fn new(table: &OffsetTable, hull: &Hull, draught: f64) -> Self {
+    pub fn new(table: &OffsetTable, method: &FitMethod, hull: &Hull, draught: f64) -> Self {
         let volume = Functional::Volume.value(hull, draught);
-        let error = |coarse: OffsetTable| {
-            let fitted = Hull::fit(&coarse, &FitMethod::Graded).ok()?;
-            let other = Functional::Volume.value(&fitted.hull, draught);
-            (volume > 0.0).then(|| (other - volume).abs() / (3.0 * volume))
+        let thinned = Thinned::new(table, method, draught);
+        let error = |coarse: &Hull| {
+            let other = Functional::Volume.value(coarse, draught);
+            (volume > 0.0).then(|| Thinned::error(volume, other) / volume)
         };
         Self {
             volume,
-            stations: every_second_station(table).and_then(error),
-            waterlines: every_second_waterline(table, draught).and_then(error),
+            stations: thinned.stations.as_ref().and_then(error),
+            waterlines: thinned.waterlines.as_ref().and_then(error),
         }
+    }
+
+    /// Both errors together; none where one of them cannot be told.
+    #[must_use]
+    pub fn total(&self) -> Option<f64> {
+        Some(self.stations? + self.waterlines?)
     }
 
     /// The estimate in words.
     #[must_use]
     pub fn words(&self) -> String {
-        let part = |value: Option<f64>| value.map_or("not to be told".to_owned(), |e| format!("{:.2} %", 100.0 * e));
-        format!(
-            "The table fixes the volume to about {} by its stations and {} by its waterlines (fits from every second one).",
-            part(self.stations),
-            part(self.waterlines)
-        )
+        let percent = |value: f64| format!("{:.2} %", 100.0 * value);
+        let part = |value: Option<f64>| value.map_or("cannot be told".to_owned(), percent);
+        let whole = self.total().map_or_else(
+            || "The error of the volume".to_owned(),
+            |e| format!("The table tells the volume to about {}", percent(e)),
+        );
+        format!("{whole} (stations {}, waterlines {})", part(self.stations), part(self.waterlines))
     }
 }
 
-/// Every second station; the first and the last stay.
-fn every_second_station(table: &OffsetTable) -> Option<OffsetTable> {
-    let count = table.stations.len();
-    let mut coarse = table.clone();
-    let mut index = 0;
-    coarse.stations.retain(|_| {
-        index += 1;
-        index % 2 == 1 || index == count
-    });
-    (count >= LEAST).then_some(coarse)
+/// Whether the line `k` of `count` stays when every second one is left out; both ends stay.
+fn stays(k: usize, count: usize) -> bool {
+    k.is_multiple_of(2) || k + 1 == count
 }
 
-/// Every second waterline; the lowest, the highest and the one at the draught stay.
+/// The items of `list` whose index is kept.
+fn kept<T: Clone>(list: &[T], keep: impl Fn(usize) -> bool) -> Vec<T> {
+    list.iter().enumerate().filter(|(k, _)| keep(*k)).map(|(_, item)| item.clone()).collect()
+}
+
+/// Every second station.
+fn every_second_station(table: &OffsetTable) -> Option<OffsetTable> {
+    let count = table.stations.len();
+    (count >= LEAST).then(|| OffsetTable { stations: kept(&table.stations, |k| stays(k, count)), ..table.clone() })
+}
+
+/// Every second waterline, and every second point of a section.
 fn every_second_waterline(table: &OffsetTable, draught: f64) -> Option<OffsetTable> {
     let count = table.waterlines.len();
     let slack = 1e-9 * draught.abs();
-    let kept: Vec<bool> =
-        (0..count).map(|j| j % 2 == 0 || j + 1 == count || (table.waterlines[j] - draught).abs() <= slack).collect();
-    let keep = |j: usize| kept.get(j).copied().unwrap_or(false);
-    let mut coarse = table.clone();
-    coarse.waterlines = (0..count).filter(|&j| kept[j]).map(|j| table.waterlines[j]).collect();
-    coarse.endings = table.endings.iter().enumerate().filter(|(j, _)| keep(*j)).map(|(_, e)| *e).collect();
-    for (column, source) in coarse.stations.iter_mut().zip(&table.stations) {
-        let cells = source.half_breadths.iter().enumerate();
-        column.half_breadths = cells.filter(|(j, _)| keep(*j)).map(|(_, c)| c.clone()).collect();
+    // A short list would lose what it says.
+    let keep = |j: usize| {
+        count < LEAST || stays(j, count) || table.waterlines.get(j).is_some_and(|z| (z - draught).abs() <= slack)
+    };
+    let mut thin = table.clone();
+    let mut fewer = false;
+    thin.waterlines = kept(&table.waterlines, keep);
+    thin.endings = kept(&table.endings, keep);
+    fewer |= thin.waterlines.len() < count;
+    for column in &mut thin.stations {
+        column.half_breadths = kept(&column.half_breadths, keep);
+        for outline in column.outlines.iter_mut().filter(|outline| outline.len() >= LEAST) {
+            *outline = kept(outline, |k| stays(k, outline.len()));
+            fewer = true;
+        }
     }
-    (count >= LEAST && coarse.waterlines.len() < count).then_some(coarse)
+    fewer.then_some(thin)
 }

@@ -1,5 +1,6 @@
 //! What a fit makes of the cells of its table.
 
+use super::outlines::{self, PointResidual};
 use super::{CellResidual, Fitted};
 use crate::hull::cell::{Cell, Entry};
 use crate::hull::offsets::OffsetTable;
@@ -43,6 +44,13 @@ impl Fitted {
         }
         misfit.rms = (misfit.rms / misfit.given.max(1) as f64).sqrt();
         misfit
+    }
+
+    /// The points of sections that the surface is to pass through: outermost points above the bottom, at which the hull
+    /// reaches. Empty for tables without such points.
+    #[must_use]
+    pub fn points(&self, table: &OffsetTable) -> Vec<PointResidual> {
+        outlines::point_residuals(table, &self.hull).0
     }
 
     /// The table with the half-breadths of the surface in its own cells; cells without a hull stay blank. Ends of waterlines are

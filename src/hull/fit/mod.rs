@@ -20,12 +20,13 @@ use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
 use crate::spline::SplineError;
-pub use estimate::VolumeEstimate;
+pub use estimate::{Thinned, VolumeEstimate};
 pub use method::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
     UniformBicubic,
 };
 pub use misfit::Misfit;
+pub use outlines::PointResidual;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]

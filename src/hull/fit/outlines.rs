@@ -139,27 +139,56 @@ pub(super) fn with_waterlines(table: &OffsetTable) -> OffsetTable {
     result
 }
 
-/// What the hull leaves at the outermost points of the sections above its bottom: how many there are, root mean square and largest
-/// distance in half-breadth \[m\].
-pub(super) fn note(table: &OffsetTable, hull: &Hull) -> String {
-    let (mut count, mut sum, mut worst) = (0usize, 0.0, 0.0f64);
+/// A point of a section beside the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointResidual {
+    /// Index of the station in the table.
+    pub station: usize,
+    /// Height of the point \[m\].
+    pub height: f64,
+    /// Half-breadth of the point \[m\].
+    pub given: f64,
+    /// Half-breadth of the surface at its height \[m\].
+    pub half_breadth: f64,
+}
+
+impl PointResidual {
+    /// Surface minus table \[m\].
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.half_breadth - self.given
+    }
+}
+
+/// The outermost points of the sections above the bottom of the hull, and the number of all points. Points of the bottom and of
+/// lines that close a section across are no part of the side, and points where the hull does not reach have no residual.
+pub(super) fn point_residuals(table: &OffsetTable, hull: &Hull) -> (Vec<PointResidual>, usize) {
+    let (mut list, mut all) = (Vec::new(), 0usize);
     let floor = hull.bottom() + CLOSEST * (hull.top() - hull.bottom());
-    for station in &table.stations {
-        for point in station.outlines.iter().flatten().filter(usable).filter(|p| p.z > floor) {
-            // Lines that close a section across are no part of the side.
+    for (index, station) in table.stations.iter().enumerate() {
+        for point in station.outlines.iter().flatten().filter(usable) {
+            all += 1;
+            if point.z <= floor {
+                continue;
+            }
             let widest =
                 station.outlines.iter().filter_map(|branch| half_breadth(branch, point.z, 1e-9)).fold(0.0, f64::max);
             if point.y >= widest - 1e-6
                 && let Some(y) = hull.half_breadth(station.station.x, point.z)
             {
-                count += 1;
-                sum += (y - point.y) * (y - point.y);
-                worst = worst.max((y - point.y).abs());
+                list.push(PointResidual { station: index, height: point.z, given: point.y, half_breadth: y });
             }
         }
     }
-    let mean = (sum / count.max(1) as f64).sqrt();
+    (list, all)
+}
+
+/// What is and what is not compared with the points of the sections.
+pub(super) fn note(table: &OffsetTable, hull: &Hull) -> String {
+    let (list, all) = point_residuals(table, hull);
     format!(
-        "sections given as points: the surface keeps {mean:.4} m (root mean square) from {count} points in half-breadth, {worst:.3} m at most"
+        "sections given as points: {} of {all} points are outermost points of the side and compared with the surface; the others lie on \
+         the bottom, inside, or beyond the hull",
+        list.len()
     )
 }

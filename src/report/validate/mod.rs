@@ -1,8 +1,8 @@
 //! Validation: tables of offsets of known hulls, fitted, against what is published about these hulls.
 //!
-//! Beside each figure stands an estimate of what the table itself leaves open: the change of the figure when every second
-//! station is left out plus the change when every second waterline (or point of a section) is, both fitted afresh. Where
-//! that is larger than a difference, the difference says nothing about the fit.
+//! Beside each figure stands an estimate of what the table itself leaves open ([`Thinned`]): a third of the change of the
+//! figure when every second station is left out plus a third of the change when every second waterline (or point of a
+//! section) is, both fitted afresh. Where that is larger than a difference, the difference says nothing about the fit.
 
 mod page;
 mod reference;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::source::read_table_file;
 use crate::exchange::Severity;
-use crate::hull::{Chart, FitMethod, Hull, OffsetTable};
+use crate::hull::{Chart, FitMethod, Hull, OffsetTable, PointResidual, Thinned};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
 pub use page::{validation_csv, validation_json, validation_page};
 pub use reference::Tolerance;
@@ -62,7 +62,7 @@ pub struct Comparison {
     pub theirs: f64,
     /// Ours.
     pub ours: Option<f64>,
-    /// Change when lines of the table are left out.
+    /// Estimated error from the spacing of stations and of waterlines together, see [`Thinned`].
     pub left_out: Option<f64>,
     /// What it may differ by.
     pub tolerance: Option<Tolerance>,
@@ -71,6 +71,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// The verdict, and why when there is none.
+    #[must_use]
+    pub fn judgement(&self) -> String {
+        match (self.verdict, self.tolerance) {
+            (Verdict::NotJudged, None) => "not judged: no tolerance".to_owned(),
+            (Verdict::NotJudged, Some(_)) => "not judged: fewer than 3 waterlines".to_owned(),
+            (verdict, _) => verdict.as_str().to_owned(),
+        }
+    }
+
     /// Ours less theirs.
     #[must_use]
     pub fn difference(&self) -> Option<f64> {
@@ -98,7 +108,7 @@ pub struct Case {
     pub table: String,
     /// Chart of the fit; none when nothing could be fitted.
     pub chart: Option<Chart>,
-    /// Largest |surface - table| \[m\].
+    /// Largest |surface - table| over cells and points of sections \[m\].
     pub residual: Option<f64>,
     /// The figures.
     pub comparisons: Vec<Comparison>,
@@ -223,15 +233,16 @@ fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Resu
     let fitted = Hull::fit(&table, &FitMethod::default()).map_err(|error| error.to_string())?;
     notes.extend(fitted.notes.iter().cloned());
     let rows = rows(&fitted.hull, &draughts);
-    let thinner: Vec<Vec<Hydrostatics>> = [without_stations(&table), without_waterlines(&table)]
-        .iter()
-        .filter_map(|table| Hull::fit(table, &FitMethod::default()).ok())
-        .map(|thin| self::rows(&thin.hull, &draughts))
+    let thinned = Thinned::new(&table, &FitMethod::default(), fitted.hull.particulars().draught);
+    let thinner: Vec<Vec<Hydrostatics>> = [&thinned.stations, &thinned.waterlines]
+        .into_iter()
+        .flatten()
+        .map(|thin| self::rows(thin, &draughts))
         .collect();
     let length = fitted.hull.particulars().length_between_perpendiculars;
     let comparisons = reference.figures.iter().enumerate().map(|(k, figure)| {
         let ours = value(figure, &rows[k], length);
-        let changes = thinner.iter().map(|rows| Some((value(figure, &rows[k], length)? - ours?).abs()));
+        let changes = thinner.iter().map(|rows| Some(Thinned::error(ours?, value(figure, &rows[k], length)?)));
         // Both, or nothing is said.
         let left_out = changes.sum::<Option<f64>>().filter(|_| thinner.len() == 2);
         compare(figure, ours, left_out, &table)
@@ -240,7 +251,9 @@ fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Resu
     if !reference.unread.is_empty() {
         notes.push(format!("not compared: {}", reference.unread.join(", ")));
     }
-    let residual = fitted.cells.iter().filter_map(|cell| cell.residual).map(f64::abs).reduce(f64::max);
+    let points = fitted.points(&table);
+    let residuals = fitted.cells.iter().filter_map(|cell| cell.residual);
+    let residual = residuals.chain(points.iter().map(PointResidual::residual)).map(f64::abs).reduce(f64::max);
     Ok(Case {
         name: name.to_owned(),
         title: reference.title.clone(),
@@ -301,31 +314,4 @@ fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &Of
         tolerance: figure.tolerance,
         verdict,
     }
-}
-
-/// Whether the line `k` of `count` stays when every second one is left out; both ends stay.
-fn stays(k: usize, count: usize) -> bool {
-    k.is_multiple_of(2) || k + 1 == count
-}
-
-fn every_second<T: Clone>(list: &[T]) -> Vec<T> {
-    let kept = list.iter().enumerate().filter(|(k, _)| stays(*k, list.len()));
-    kept.map(|(_, item)| item.clone()).collect()
-}
-
-fn without_stations(table: &OffsetTable) -> OffsetTable {
-    OffsetTable { stations: every_second(&table.stations), ..table.clone() }
-}
-
-fn without_waterlines(table: &OffsetTable) -> OffsetTable {
-    let mut thin = table.clone();
-    thin.waterlines = every_second(&table.waterlines);
-    thin.endings = every_second(&table.endings);
-    for column in &mut thin.stations {
-        column.half_breadths = every_second(&column.half_breadths);
-        for outline in &mut column.outlines {
-            *outline = every_second(outline);
-        }
-    }
-    thin
 }

@@ -69,7 +69,7 @@ pub fn validation_page(cases: &[Case]) -> String {
 }
 
 fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
-    writeln!(page, "| case | quantity | T m | theirs | ours | difference | left out | tolerance | verdict |")?;
+    writeln!(page, "| case | quantity | T m | theirs | ours | difference | table | tolerance | verdict |")?;
     writeln!(page, "|---|---|---|---|---|---|---|---|---|")?;
     for case in cases {
         for c in &case.comparisons {
@@ -87,7 +87,7 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
                 difference(c),
                 left_out(c),
                 tolerance(c),
-                c.verdict.as_str()
+                c.judgement()
             )?;
         }
         if let Some(failure) = &case.failure {
@@ -97,7 +97,16 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
     writeln!(page)?;
     writeln!(
         page,
-        "`left out` is the change when every second station is left out plus that when every second waterline is.\n"
+        "`table` is what the table leaves open, estimated: a third (Richardson) of the change when every second station is left \
+         out plus a third of that when every second waterline or point is, each fitted afresh.\n"
+    )?;
+    writeln!(
+        page,
+        "Coefficients are on Lpp and moulded breadth B at every draught, Cp on the largest section. Programs like Maxsurf refer \
+         Cb, Cp and Cm to the length and the breadth of their own waterline at each draught; such coefficients differ from ours \
+         by these conventions and are no measure of the fit: volumes are. Not judged are figures for which the reference states \
+         no tolerance, and draughts that fewer than three waterlines of the table reach up to: below the first waterline above \
+         the base line a table says nothing.\n"
     )?;
     for case in cases {
         let residual =
@@ -109,12 +118,12 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
             if let Some(percent) = c.percent().filter(|percent| percent.abs() > GOAL) {
                 let told = match c.left_out {
                     Some(change) if 100.0 * change / c.theirs.abs() >= percent.abs() => {
-                        "leaving lines out changes it by more: the table does not tell"
+                        "the table leaves more than that open"
                     }
                     Some(_) => {
-                        "leaving lines out changes it by less: theirs is another hull, or the lines do not show what differs"
+                        "the table leaves less than that open: theirs is another hull, or the lines do not show what differs"
                     }
-                    None => "the table without these lines makes no hull",
+                    None => "no estimate: the table without every second line makes no hull",
                 };
                 writeln!(
                     page,
