@@ -164,7 +164,7 @@ fn notes_of_the_reading_reach_the_user() {
         text += &format!("{x},0,{},{},{y}\n", y / 2, 3 * y / 4);
     }
     fs::write(&path, text).unwrap();
-    for job in [vec!["hydro", "-T", "1.5"], vec!["offsets", "--stations", "10", "--waterlines", "1"]] {
+    for job in [vec!["hydro", "--draughts", "1.5"], vec!["offsets", "--stations", "10", "--waterlines", "1"]] {
         let arguments = [&job[..1], &[path.to_str().unwrap()], &job[1..]].concat();
         let out = Command::new(env!("CARGO_BIN_EXE_loftsman")).args(&arguments).output().unwrap();
         let said = String::from_utf8(out.stderr).unwrap();

@@ -238,6 +238,9 @@ impl Problems {
 
     /// The table with its notes, or every problem, in the order of rows and columns.
     pub(super) fn finish(mut self, table: Option<OffsetTable>) -> Result<ReadTable, Vec<TableProblem>> {
+        if let Some(table) = &table {
+            self.magnitudes(table);
+        }
         self.list.sort_by_key(|problem| (problem.row.unwrap_or(0), problem.column.unwrap_or(0)));
         if self.silent > 0 {
             let message = format!("{} problems more", self.silent);
@@ -255,9 +258,6 @@ impl Problems {
                 message,
                 remedy,
             });
-        }
-        if let Some(table) = &table {
-            self.magnitudes(table);
         }
         match table {
             Some(table) if self.errors == 0 => Ok(ReadTable { table, notes: self.list }),

@@ -38,6 +38,7 @@ pub(super) fn read(
         let mut problems = super::problem::Problems::new(name);
         super::checks::particulars(&read.table, &mut problems);
         read.notes.extend(problems.finish().unwrap_or_default());
+        read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
         read
     }))
 }

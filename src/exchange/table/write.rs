@@ -10,7 +10,7 @@ use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
     TableLayout,
 };
-use crate::units::{CellEntry, CellReading, CellRules, Notation, parse_cell};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
 /// In which notation and layout a table is to be written; its own where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -77,6 +77,19 @@ pub fn only_sections(table: &OffsetTable) -> bool {
     table.stations.iter().any(|s| !s.outlines.is_empty()) && !table.stations.iter().any(cells)
 }
 
+/// The most digits after the decimal sign of the texts of the offsets.
+fn digits(table: &OffsetTable) -> usize {
+    let cells = table.stations.iter().flat_map(|s| s.half_breadths.iter().chain(&s.heights));
+    let digits = cells.filter_map(|cell| {
+        let written = cell.written.as_ref()?;
+        match parse_cell(&written.text, table.form.cell_rules()).ok()?.writing {
+            CellWriting::Plain { decimals } => Some(decimals),
+            _ => None,
+        }
+    });
+    digits.max().unwrap_or(0)
+}
+
 /// Comment lines with the name and the stated particulars.
 fn stated_lines(table: &OffsetTable) -> Vec<String> {
     let name: String = table.name.chars().filter(|c| !c.is_control()).collect();
@@ -134,6 +147,11 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         form.station_heads.clear();
         form.preamble.retain(|line| stays(line, form.separator));
         (form.corner, form.buttock_corner) = (None, None);
+        if !renotated {
+            // Texts are written anew; none loses a digit.
+            let most = digits(table);
+            form.decimals = form.decimals.map(|digits| digits.max(most));
+        }
         if form.full_breadths && !renotated {
             // Half of the last digit is a digit more.
             form.decimals = form.decimals.map(|digits| digits + 1);
