@@ -29,4 +29,4 @@ pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
-pub use table_form::{Kept, Order, Origin, Rows, SideKind, SideLine, TableForm, TableLayout};
+pub use table_form::{Kept, Order, Origin, Program, Rows, SideKind, SideLine, TableForm, TableLayout};

@@ -17,6 +17,21 @@ pub enum TableLayout {
     Other,
 }
 
+/// A program whose text format is read and written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Program {
+    /// GHS geometry.
+    Ghs,
+    /// BRITFAIR offsets.
+    Britfair,
+    /// PIAS hull text.
+    Pias,
+    /// PDSTRIP geometry.
+    Pdstrip,
+    /// FREE!ship, a round hull as points of sections.
+    Freeship,
+}
+
 /// What the rows of a matrix are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Rows {
@@ -121,6 +136,8 @@ pub struct TableForm {
     pub decimals: Option<usize>,
     /// Shape of the file.
     pub layout: TableLayout,
+    /// The program of the layout [`TableLayout::Other`], where its format can be written.
+    pub program: Option<Program>,
     /// What the rows of a matrix are.
     pub rows: Rows,
     /// Order of the stations in the file.
@@ -174,6 +191,7 @@ impl Default for TableForm {
             notation: Notation::Metres,
             decimals: None,
             layout: TableLayout::Matrix,
+            program: None,
             rows: Rows::Stations,
             station_order: Order::Rising,
             waterline_order: Order::Rising,

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::source::read_table_file;
-use crate::exchange::{Severity, TableWriting, WrittenTable, write_table};
+use crate::exchange::{Severity, TableWriting, WrittenTable, only_sections, write_table};
+use crate::hull::TableLayout;
 
 /// A converted table, and what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,9 +19,17 @@ pub struct Converted {
 /// Reads the table of a file and writes it in the notation and layout that are asked for, its own where none is.
 ///
 /// # Errors
-/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table; [`Failure::Usage`] when the layout that is asked
+/// for cannot hold the table.
 pub fn convert_table(path: &Path, writing: TableWriting) -> Result<Converted, Failure> {
     let (table, notes) = read_table_file(path)?;
+    let sections = only_sections(&table);
+    if sections && writing.layout.is_some_and(|layout| layout != TableLayout::Tidy) {
+        return Err(Failure::Usage(
+            "the table gives sections as points, which a matrix cannot hold; write a tidy table (--layout tidy)"
+                .to_owned(),
+        ));
+    }
     let written = write_table(&table, writing);
     // A missing profile does not matter to a table that stays a table.
     let mut messages: Vec<String> =
@@ -37,9 +46,13 @@ pub fn convert_table(path: &Path, writing: TableWriting) -> Result<Converted, Fa
     if !table.lines.is_empty() && written.text.matches(",KN,").count() + written.text.matches(",TL,").count() == 0 {
         messages.push(format!("{} lines are not written; a tidy table holds them (--layout tidy)", table.lines.len()));
     }
-    if table.stations.iter().any(|s| !s.outlines.is_empty())
-        && writing.layout.is_none_or(|l| l != crate::hull::TableLayout::Tidy)
-    {
+    let points = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
+    let tidy = sections || writing.layout.unwrap_or(table.form.layout) == TableLayout::Tidy;
+    // Every tidy table has this column; none of the other programs' formats has it.
+    let own = sections && !written.text.contains("curve");
+    if sections && !own && writing.layout.is_none() && table.form.layout != TableLayout::Tidy {
+        messages.push(format!("sections as points: {points} points are written as a tidy table"));
+    } else if points > 0 && !tidy && !own {
         messages.push("sections given as points are not written; a tidy table holds them (--layout tidy)".to_owned());
     }
     Ok(Converted { written, messages })

@@ -179,7 +179,8 @@ fn fitted(path: &Path) -> Result<Source, Failure> {
     let (table, notes) = read_table_file(path)?;
     let fitted = Hull::fit(&table, &FitMethod::default())
         .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
-    let notes = notes.iter().filter(|note| note.severity == exchange::Severity::Warning).map(ToString::to_string);
+    // What was detected, as units and orders, decides the hull as much as what was assumed.
+    let notes = notes.iter().map(ToString::to_string);
     let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
     Ok(Source { hull: fitted.hull, conventions: Conventions::default(), notes })
 }

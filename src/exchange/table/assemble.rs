@@ -14,6 +14,8 @@ use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, par
 
 /// Two positions nearer than this are one \[m\].
 pub(super) const SAME: f64 = 1e-6;
+/// No length of a ship is larger \[m\].
+pub(super) const LARGEST: f64 = 1e5;
 
 /// Reads the fields of one table.
 pub(super) struct Reader<'a> {
@@ -21,21 +23,26 @@ pub(super) struct Reader<'a> {
     pub(super) form: TableForm,
     pub(super) units: Units,
     pub(super) problems: &'a mut Problems,
-    /// Digits after the decimal sign of the offsets at most.
-    decimals: usize,
+    /// How often offsets have so many digits after the decimal sign; more than the last count as the last.
+    digits: [usize; 18],
+    /// Offsets as plain numbers, and in feet, inches and eighths.
+    writings: [usize; 2],
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(settings: &'a Settings, mut form: TableForm, units: Units, problems: &'a mut Problems) -> Self {
         (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
         form.full_breadths = settings.full.unwrap_or(false);
-        Self { settings, form, units, problems, decimals: 0 }
+        Self { settings, form, units, problems, digits: [0; 18], writings: [0; 2] }
     }
 
     fn reading(&mut self, field: &Field, unit: Notation) -> Option<CellReading> {
         let rules = CellRules { unit, decimal_comma: self.form.decimal_comma };
         match parse_cell(&field.text, rules) {
-            Ok(reading) => Some(reading),
+            Ok(reading) => match reading.entry {
+                CellEntry::Length(value) => self.bounded(field, value).then_some(reading),
+                _ => Some(reading),
+            },
             Err(error) => {
                 let code = if matches!(error, crate::units::CellError::DecimalComma { .. }) { "E308" } else { "E301" };
                 self.problems.error_at(code, field, error.to_string(), &error.remedy());
@@ -44,12 +51,28 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Whether a length can be one of a ship; an error otherwise.
+    fn bounded(&mut self, field: &Field, value: f64) -> bool {
+        let good = value.abs() <= LARGEST;
+        if !good {
+            let size = if value.abs() < 1e9 { format!("{value}") } else { format!("{value:e}") };
+            let message = format!("a length of {size} m is no ship's; at most {LARGEST} m are read");
+            self.problems.error_at("E315", field, message, "Correct the number, or its unit");
+        }
+        good
+    }
+
     /// A cell of half-breadths (`half`), or of heights.
     pub(super) fn cell(&mut self, field: &Field, half: bool) -> Cell {
         let unit = if half { self.units.y } else { self.units.z };
         let Some(reading) = self.reading(field, unit) else { return Cell::default() };
-        if let CellWriting::Plain { decimals } = reading.writing {
-            self.decimals = self.decimals.max(decimals);
+        match reading.writing {
+            CellWriting::Plain { decimals } => {
+                self.digits[decimals.min(17)] += 1;
+                self.writings[0] += 1;
+            }
+            CellWriting::Eighths => self.writings[1] += 1,
+            CellWriting::WithUnit | CellWriting::Nothing => {}
         }
         let share = if half && self.form.full_breadths { 0.5 } else { 1.0 };
         let entry = match reading.entry {
@@ -118,9 +141,17 @@ impl<'a> Reader<'a> {
         (list.len() == fields.len()).then_some(list)
     }
 
-    /// Digits of the offsets, when they are written as decimal numbers.
+    /// The form with the notation and the digits that most offsets have.
+    ///
+    /// Whole numbers count where there are no others: a 6 among numbers with two decimals is 6.00. Of two numbers of digits
+    /// that are as frequent the larger is taken.
     pub(super) fn finish(mut self) -> TableForm {
-        self.form.decimals = (self.form.notation != Notation::FeetInchesEighths).then_some(self.decimals);
+        let [plain, eighths] = self.writings;
+        if eighths > plain {
+            self.form.notation = Notation::FeetInchesEighths;
+        }
+        let most = (1..self.digits.len()).filter(|&d| self.digits[d] > 0).max_by_key(|&d| (self.digits[d], d));
+        self.form.decimals = (self.form.notation != Notation::FeetInchesEighths).then_some(most.unwrap_or(0));
         self.form
     }
 }
@@ -210,7 +241,10 @@ pub(super) fn assemble(
     let mut reader = Reader::new(settings, TableForm { origin, ..form }, units, problems);
     let mut table = OffsetTable::default();
     for block in blocks {
-        let Some(placed) = place(&block, &mut reader) else { continue };
+        let Some(placed) = place(&block, &mut reader) else {
+            only_read(&block, &mut reader);
+            continue;
+        };
         if block.across == Axis::Waterline && !table.waterlines.is_empty() {
             let message = "a second block of half-breadths".to_owned();
             reader.problems.error_at(
@@ -228,6 +262,23 @@ pub(super) fn assemble(
     Some(table)
 }
 
+/// Reads the cells of a block that has no place in a table, for what is wrong with them.
+fn only_read(block: &Block, reader: &mut Reader<'_>) {
+    let half = block.across == Axis::Waterline;
+    for line in &block.stations {
+        line.cells.iter().for_each(|field| {
+            reader.cell(field, half);
+        });
+        for (side, field) in block.sides.iter().zip(&line.sides) {
+            let breadth = matches!(side.kind, SideKind::FlatOfBottom | SideKind::DeckHalfBreadth);
+            reader.length(field, if breadth { reader.units.y } else { reader.units.z });
+        }
+    }
+    for field in block.endings.iter().flat_map(|(_, line)| &line.cells) {
+        reader.length(field, reader.units.x);
+    }
+}
+
 fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
     let what = if block.across == Axis::Waterline { "waterline" } else { "buttock" };
     let lines: Vec<Field> = block.stations.iter().map(|line| line.head.clone()).collect();
@@ -242,6 +293,13 @@ fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
     let (heads, stations) = (heads?, stations?);
     let across: Vec<f64> = heads.into_iter().map(|p| reader.across(p)).collect();
     let xs: Vec<f64> = stations.into_iter().map(|p| reader.along(p)).collect();
+    let mut good = true;
+    for (field, &value) in block.heads.iter().zip(&across).chain(lines.iter().zip(&xs)) {
+        good &= reader.bounded(field, value);
+    }
+    if !good {
+        return None;
+    }
     let across_order = order(&across, &block.heads, what, reader.problems);
     let station_order = order(&xs, &lines, "station", reader.problems);
     Some(Placed { xs, across, station_order: station_order?, across_order: across_order? })

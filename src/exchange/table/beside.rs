@@ -36,13 +36,18 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     };
     let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
     let near = |name: &str| nearest(name, TABLES.into_iter());
-    if !names.iter().any(|name| TABLES.contains(name) || near(name).is_some()) {
+    let is_key = |name: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(name));
+    // A file of nothing but keys lacks their heading; a design has tables of its own.
+    let bare = names.iter().any(|name| is_key(name))
+        && document.get_ref().values().all(|value| !matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)));
+    if !bare && !names.iter().any(|name| TABLES.iter().any(|t| t.eq_ignore_ascii_case(name)) || near(name).is_some()) {
         let message =
             format!("{name} beside the table has no [table], [endings], [transom] or [[line]] and is not read");
         return beside.problems.note(message);
     }
     for (key, value) in document.get_ref() {
-        let (key, span) = (key.get_ref().as_ref(), key.span());
+        let (own, span) = (key.get_ref().as_ref(), key.span());
+        let key = TABLES.iter().find(|known| known.eq_ignore_ascii_case(own)).copied().unwrap_or(own);
         match (key, value.get_ref()) {
             ("table", DeValue::Table(table)) => beside.table(table, settings),
             ("endings", DeValue::Table(table)) => beside.endings(table, settings),
@@ -65,6 +70,10 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
                     format!("{}, expected a table", other.type_str()),
                     &format!("Write [{known}]"),
                 );
+            }
+            _ if is_key(key) => {
+                let message = "stands outside [table]".to_owned();
+                beside.problem(key, &span, message, "Put it below a line [table]");
             }
             _ => {
                 let remedy = near(key).map_or_else(
@@ -107,7 +116,7 @@ impl Beside<'_> {
     fn table(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
         for (key, value) in table {
             let name = key.get_ref().as_ref();
-            let Some(known) = KEYS.iter().find(|k| **k == name) else {
+            let Some(known) = KEYS.iter().find(|k| k.eq_ignore_ascii_case(name)) else {
                 self.unknown(name, &key.span(), &KEYS);
                 continue;
             };
@@ -145,7 +154,8 @@ impl Beside<'_> {
 
     fn endings(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
         for (key, value) in table {
-            let name = key.get_ref().as_ref();
+            let name = key.get_ref().to_ascii_lowercase();
+            let name = name.as_str();
             match name {
                 "stern" => settings.endings[0] = self.points(name, value.get_ref(), &value.span()),
                 "stem" => settings.endings[1] = self.points(name, value.get_ref(), &value.span()),
@@ -158,7 +168,8 @@ impl Beside<'_> {
         let mut plane = TransomPlane { x_base: 0.0, slope: 0.0 };
         let mut placed = false;
         for (key, value) in table {
-            let name = key.get_ref().as_ref();
+            let name = key.get_ref().to_ascii_lowercase();
+            let name = name.as_str();
             let content = number(value.get_ref());
             match (name, content) {
                 ("x", Some(x)) => (plane.x_base, placed) = (x, true),
@@ -182,7 +193,8 @@ impl Beside<'_> {
     fn line(&mut self, table: &DeTable<'_>, span: &Range<usize>, settings: &mut Settings) {
         let mut line = FeatureLine { name: String::new(), kind: LineKind::Knuckle, points: Vec::new() };
         for (key, value) in table {
-            let name = key.get_ref().as_ref();
+            let name = key.get_ref().to_ascii_lowercase();
+            let name = name.as_str();
             match (name, value.get_ref()) {
                 ("name", DeValue::String(text)) => line.name = text.to_string(),
                 ("kind", DeValue::String(text)) if text.as_ref() == "knuckle" => line.kind = LineKind::Knuckle,

@@ -61,6 +61,9 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
 /// What is wrong with a table, or should be known about it, once its numbers are read.
 pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
     breadths(table, full, problems);
+    if !problems.any_errors() {
+        particulars(table, problems);
+    }
     let offsets = table.stations.iter().flat_map(|s| s.half_breadths.iter().chain(&s.heights));
     let given = offsets.filter(|cell| cell.value().is_some()).count();
     let outlines = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
@@ -77,6 +80,55 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             let message = format!("only {below} waterlines up to T {draught} m: volumes from this table are coarse");
             problems.warning("W307", message, "");
         }
+    }
+}
+
+/// Stated particulars that contradict the table: a draught above its top, a breadth that differs from twice the largest
+/// half-breadth by more than 5 %, a length between perpendiculars that differs from the extent of the stations by more than a
+/// factor 1.5.
+pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
+    let stated = &table.stated;
+    let points = || table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
+    let heights = table.stations.iter().flat_map(|s| s.heights.iter().filter_map(Cell::value).chain(s.deck_height));
+    let top = table.waterlines.iter().copied().chain(points().map(|p| p.z)).chain(heights).reduce(f64::max);
+    if let (Some(draught), Some(top)) = (stated.draught, top)
+        && draught > top * 1.001 + SAME
+    {
+        let message = format!(
+            "T is stated as {draught} m, and the table ends {top:.3} m above the base line, {:.3} m below it",
+            draught - top
+        );
+        problems.warning("W308", message, "Correct T, or give the waterlines up to it");
+    }
+    // Above the draught a hull may flare beyond its moulded breadth.
+    let limit = stated.draught.map_or(f64::INFINITY, |draught| draught * 1.001 + SAME);
+    let largest_to = |limit: f64| {
+        let cells = table.stations.iter().flat_map(|s| s.half_breadths.iter().zip(&table.waterlines));
+        let cells = cells.filter(|(_, z)| **z <= limit).filter_map(|(cell, _)| cell.value());
+        cells.chain(points().filter(|p| p.z <= limit).map(|p| p.y)).reduce(f64::max)
+    };
+    if let (Some(breadth), Some(all)) = (stated.breadth, largest_to(f64::INFINITY)) {
+        let below = largest_to(limit).unwrap_or(all);
+        let found = if 2.0 * all < 0.95 * breadth { 2.0 * all } else { 2.0 * below };
+        if (2.0 * all < 0.95 * breadth || found > 1.05 * breadth) && found > 0.0 {
+            let message = format!(
+                "B is stated as {breadth} m, and twice the largest half-breadth is {found:.3} m: {:+.1} %",
+                100.0 * (found / breadth - 1.0)
+            );
+            problems.warning("W309", message, "Correct B, or the unit of the half-breadths");
+        }
+    }
+    let xs = || table.stations.iter().map(|s| s.station.x);
+    if let (Some(length), Some(low), Some(high)) =
+        (stated.length_between_perpendiculars, xs().reduce(f64::min), xs().reduce(f64::max))
+        && table.stations.len() > 2
+        && (high - low > 1.5 * length || length > 1.5 * (high - low))
+    {
+        let message = format!(
+            "L_PP is stated as {length} m, and the stations extend over {:.3} m, from x = {low:.3} to {high:.3} m",
+            high - low
+        );
+        problems.warning("W310", message, "Correct Lpp, or the unit, the spacing or the number of the stations");
     }
 }
 

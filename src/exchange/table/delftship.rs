@@ -23,7 +23,8 @@ fn rows(text: &str) -> Vec<Line<'_>> {
 /// Whether this is such a table: ten lines of one number, with 0 or 1 in lines three to seven.
 pub(super) fn recognise(_name: &str, text: &str) -> bool {
     let mut numbers = Vec::new();
-    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()).take(HEAD) {
+    let mut rows = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    for line in rows.by_ref().take(HEAD) {
         match super::fields::plain_number(line) {
             Some(value) => numbers.push(value),
             None => return false,
@@ -31,7 +32,9 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
     }
     let whole = |v: &f64| v.fract().abs() < 1e-12 && *v >= 1.0;
     let flag = |v: &f64| v.abs() < 1e-12 || (v - 1.0).abs() < 1e-12;
-    numbers.len() == HEAD && numbers[..2].iter().all(whole) && numbers[2..7].iter().all(flag)
+    // The positions of at least two stations stand in one line.
+    let several = rows.next().is_none_or(|line| line.split_whitespace().count() > 1);
+    several && numbers.len() == HEAD && numbers[..2].iter().all(whole) && numbers[2..7].iter().all(flag)
 }
 
 /// The fields after the head.

@@ -208,8 +208,39 @@ impl Problems {
         }
     }
 
+    /// Lengths that are none of a ship, once they are metres.
+    fn magnitudes(&mut self, table: &OffsetTable) {
+        let beyond = |value: f64| value.is_nan() || value.abs() > super::assemble::LARGEST;
+        let remedy = "Correct the number, or its unit.";
+        let message = |value: f64| format!("a length of {value:e} m is no ship's");
+        for &value in table.waterlines.iter().chain(&table.buttocks).filter(|v| beyond(**v)) {
+            self.error("E321", Place::FILE, "", message(value), remedy);
+        }
+        for station in &table.stations {
+            let x = station.station.x;
+            let points = station.outlines.iter().flatten().flat_map(|p| [p.y, p.z]);
+            if let Some(value) = std::iter::once(x).chain(points).find(|v| beyond(*v)) {
+                let message = format!("station '{}': {}", station.station.name, message(value));
+                self.error("E321", Place::FILE, "", message, remedy);
+            }
+            for cell in station.half_breadths.iter().chain(&station.heights) {
+                if let Some(value) = cell.value().filter(|v| beyond(*v)) {
+                    let place = cell
+                        .written
+                        .as_ref()
+                        .map_or(Place::FILE, |w| Place { row: Some(w.row), column: Some(w.column) });
+                    let found = cell.written.as_ref().map_or("", |w| w.text.as_str());
+                    self.error("E321", place, found, message(value), remedy);
+                }
+            }
+        }
+    }
+
     /// The table with its notes, or every problem, in the order of rows and columns.
     pub(super) fn finish(mut self, table: Option<OffsetTable>) -> Result<ReadTable, Vec<TableProblem>> {
+        if let Some(table) = &table {
+            self.magnitudes(table);
+        }
         self.list.sort_by_key(|problem| (problem.row.unwrap_or(0), problem.column.unwrap_or(0)));
         if self.silent > 0 {
             let message = format!("{} problems more", self.silent);

@@ -1,24 +1,23 @@
 //! The text formats of other programs, in the order in which they are tried.
 
+use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
 use super::{ReadTable, TableProblem, britfair, delftship, freeship, ghs, pdstrip, pias, points, ratio, seaway};
+use crate::hull::{OffsetTable, Program};
 
-/// Whether a text is in a format, and the table in it.
-type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>);
+/// Whether a text is in a format, the table in it, and the program, where its format can be written.
+type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>, Option<Program>);
 
 const FORMATS: [Format; 9] = [
-    (ghs::recognise, ghs::read),
-    (britfair::recognise, britfair::read),
-    (seaway::recognise, seaway::read),
-    (pdstrip::recognise, pdstrip::read),
-    (delftship::recognise, delftship::read),
-    (pias::recognise, pias::read),
-    (freeship::recognise, freeship::read),
-    (ratio::recognise, ratio::read),
-    (points::recognise, points::read),
+    (ghs::recognise, ghs::read, Some(Program::Ghs)),
+    (britfair::recognise, britfair::read, Some(Program::Britfair)),
+    (seaway::recognise, seaway::read, None),
+    (pdstrip::recognise, pdstrip::read, Some(Program::Pdstrip)),
+    (delftship::recognise, delftship::read, None),
+    (pias::recognise, pias::read, Some(Program::Pias)),
+    (freeship::recognise, freeship::read, Some(Program::Freeship)),
+    (ratio::recognise, ratio::read, None),
+    (points::recognise, points::read, None),
 ];
-
-/// Larger files are no hulls of these formats \[bytes\].
-const LARGEST: usize = 64 << 20;
 
 /// The table in a file of another program; none when it is in none of these formats.
 ///
@@ -29,14 +28,75 @@ pub(super) fn read(
     bytes: &[u8],
     beside: Option<(&str, &str)>,
 ) -> Option<Result<ReadTable, Vec<TableProblem>>> {
-    if bytes.len() > LARGEST {
+    // The reader of fields says what is wrong with longer files.
+    if bytes.len() > LARGEST_TABLE || super::xlsx::is_xlsx(bytes) {
         return None;
     }
     let text = String::from_utf8_lossy(bytes);
-    if let Some((beside, particulars)) = beside.filter(|_| ratio::recognise(name, &text)) {
+    let read = recognised(name, &text, beside)?;
+    Some(read.map(|mut read| {
+        let mut problems = super::problem::Problems::new(name);
+        super::checks::particulars(&read.table, &mut problems);
+        read.notes.extend(problems.finish().unwrap_or_default());
+        read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
+        read
+    }))
+}
+
+/// The table in a text of one of the formats.
+fn recognised(name: &str, text: &str, beside: Option<(&str, &str)>) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+    if let Some((beside, particulars)) = beside.filter(|_| ratio::recognise(name, text)) {
         let stated = ratio::read_particulars(beside, particulars);
-        return Some(stated.and_then(|stated| ratio::read_with(name, &text, &stated)));
+        return Some(stated.and_then(|stated| ratio::read_with(name, text, &stated)));
     }
-    let (_, read) = FORMATS.iter().find(|(recognise, _)| recognise(name, &text))?;
-    Some(read(name, &text))
+    let (_, read, program) = FORMATS.iter().find(|(recognise, _, _)| recognise(name, text))?;
+    let fields = text.split([' ', '\t', ',', ';']).take(2 * MOST_CELLS + 1).filter(|part| !part.is_empty()).count();
+    if text.lines().take(MOST_ROWS + 1).count() > MOST_ROWS || fields > MOST_CELLS {
+        let mut problems = super::problem::Problems::new(name);
+        problems.error("E312", format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
+        return Some(Err(problems.finish().err().unwrap_or_default()));
+    }
+    Some(read(name, text).map(|mut read| {
+        // Only sections can be written by the writers of these formats.
+        let sections = read.table.stations.iter().any(|s| !s.outlines.is_empty()) && read.table.lines.is_empty();
+        read.table.form.program = program.filter(|_| sections);
+        read
+    }))
+}
+
+/// The file of a table in the format of a program, when reading it gives the sections of the table: as many, with as many
+/// points. The differences of what is read are the largest and the root mean square of those of the points, and the largest
+/// of the positions \[m\].
+pub(super) fn write(table: &OffsetTable, program: Program) -> Option<super::WrittenTable> {
+    let text = match program {
+        Program::Ghs => ghs::write(table),
+        Program::Britfair => britfair::write(table),
+        Program::Pias => pias::write(table),
+        Program::Pdstrip => pdstrip::write(table),
+        Program::Freeship => freeship::write(table),
+    };
+    let (_, read, _) = FORMATS.iter().find(|(_, _, of)| *of == Some(program))?;
+    let back = read("", &text).ok()?.table;
+    let mut rounding = super::Rounding::default();
+    let mut squares = 0.0;
+    if back.stations.len() != table.stations.len() {
+        return None;
+    }
+    for (a, b) in table.stations.iter().zip(&back.stations) {
+        let (here, there): (Vec<_>, Vec<_>) =
+            (a.outlines.iter().flatten().collect(), b.outlines.iter().flatten().collect());
+        if here.len() != there.len() {
+            return None;
+        }
+        rounding.largest_of_positions = rounding.largest_of_positions.max((a.station.x - b.station.x).abs());
+        for (p, q) in here.into_iter().zip(there) {
+            let distance = (p.y - q.y).hypot(p.z - q.z);
+            rounding.cells += 1;
+            rounding.largest = rounding.largest.max(distance);
+            squares += distance * distance;
+        }
+    }
+    rounding.root_mean_square = (squares / rounding.cells.max(1) as f64).sqrt();
+    // A difference beyond any rounding is another hull.
+    (rounding.largest.max(rounding.largest_of_positions) < 1e-3).then_some(super::WrittenTable { text, rounding })
 }

@@ -110,13 +110,12 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
         };
         problems.error_in_row("E307", row[0].row, message, remedy);
     }
-    if !wrong.is_empty() {
-        return None;
-    }
+    // The other rows, and what stands in these, are looked at all the same.
     let even = part.iter().map(|row| {
         let mut row: Vec<Field> = row.iter().take(width).cloned().collect();
+        let line = row.first().map_or(0, |field| field.row);
         while row.len() < width {
-            row.push(Field { text: String::new(), row: row[0].row, column: row.len() + 1 });
+            row.push(Field { text: String::new(), row: line, column: row.len() + 1 });
         }
         row
     });
@@ -124,7 +123,7 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
 }
 
 /// What the rows are, and why.
-fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static str) {
+fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> (Rows, &'static str) {
     let rows_of = |axis: Axis| if axis.is_station() { Rows::Stations } else { Rows::Waterlines };
     let other = |axis: Axis| if axis.is_station() { Rows::Waterlines } else { Rows::Stations };
     if let Some(rows) = settings.rows {
@@ -156,9 +155,36 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static st
     if let Some(axis) = most(&mut fields[0].iter().skip(1)) {
         return (other(axis), "by the words of the headers");
     }
-    if let Some(axis) = most(&mut fields.iter().skip(1).map(|row| &row[0])).or(corner.rows) {
+    if let Some(axis) = most(&mut fields.iter().skip(1).map(|row| &row[0])) {
         return (rows_of(axis), "by the words of the headers");
     }
+    let tapers = tapering(fields);
+    if let Some(axis) = corner.rows {
+        let rows = rows_of(axis);
+        let (here, there) = match rows {
+            Rows::Stations => ("stations", "column"),
+            Rows::Waterlines => ("waterlines", "row"),
+        };
+        // One header over both directions says less than a hull that tapers to its ends.
+        if tapers.is_some_and(|by_numbers| by_numbers != rows) {
+            let message = format!(
+                "rows are taken as {here} by the first header '{}', but the numbers taper to the first and the last {there} only, \
+                 as if the stations stood the other way",
+                fields[0][0].trimmed()
+            );
+            problems.warning("W320", message, "Declare rows = \"stations\" or rows = \"waterlines\"");
+        }
+        return (rows, "by the words of the headers");
+    }
+    match tapers {
+        Some(Rows::Stations) => (Rows::Stations, "because the numbers taper to the first and the last row"),
+        Some(Rows::Waterlines) => (Rows::Waterlines, "because the numbers taper to the first and the last column"),
+        None => (Rows::Stations, "assumed; the headers do not say it"),
+    }
+}
+
+/// What the rows are by the numbers: a hull tapers to its ends; none when they taper both ways or not at all.
+fn tapering(fields: &[Vec<Field>]) -> Option<Rows> {
     let (mut by_row, mut by_column) = (vec![0.0; fields.len() - 1], vec![0.0; fields[0].len().saturating_sub(1)]);
     for (i, row) in fields.iter().skip(1).enumerate() {
         for (j, field) in row.iter().skip(1).enumerate() {
@@ -174,9 +200,9 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings) -> (Rows, &'static st
         _ => false,
     };
     match (tapers(&by_row), tapers(&by_column)) {
-        (true, false) => (Rows::Stations, "because the numbers taper to the first and the last row"),
-        (false, true) => (Rows::Waterlines, "because the numbers taper to the first and the last column"),
-        _ => (Rows::Stations, "assumed; the headers do not say it"),
+        (true, false) => Some(Rows::Stations),
+        (false, true) => Some(Rows::Waterlines),
+        _ => None,
     }
 }
 
@@ -208,7 +234,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         problems.error_at("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
         return None;
     }
-    let (rows, reason) = orientation(&fields, settings);
+    let (rows, reason) = orientation(&fields, settings, problems);
     let fields = if rows == Rows::Waterlines { transposed(fields) } else { fields };
     // Names and positions of waterlines may stand in two lines, and those of stations too.
     let word = |field: &Field| !field.text.bytes().any(|b| b.is_ascii_digit()) && !field.is_blank();

@@ -11,6 +11,7 @@ mod britfair;
 mod checks;
 mod delftship;
 mod fields;
+mod foreign;
 mod formats;
 mod freeship;
 mod ghs;
@@ -40,7 +41,7 @@ pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
 pub use ratio::{read_particulars, read_with as read_fractions};
-pub use write::{Rounding, TableWriting, WrittenTable, write_table};
+pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table};
 pub use xlsx::MOST_UNPACKED;
 
 use self::grid::Grid;
@@ -71,10 +72,19 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
 /// # Errors
 /// Every problem of both files at once, in the order of rows and columns.
 pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
+    let mut problems = Problems::new(name);
+    if let Some(format) = foreign::format(name, bytes) {
+        let message = format!("{format} is not read");
+        problems.error(
+            "E300",
+            message,
+            "Give a table of offsets, or sections, as CSV, XLSX or a text format of offsets",
+        );
+        return Err(problems.finish().err().unwrap_or_default());
+    }
     if let Some(read) = formats::read(name, bytes, beside) {
         return read;
     }
-    let mut problems = Problems::new(name);
     let mut settings = Settings::default();
     if let Some((name, text)) = beside {
         beside::read(name, text, &mut settings, &mut problems);
@@ -117,14 +127,6 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         problems.error("E300", "the file is empty".to_owned(), "Give the table as CSV, TSV or XLSX");
         return None;
     }
-    let decimal_comma = settings.decimal_comma.unwrap_or_else(|| commas(&grid.rows, grid.separator));
-    let form = TableForm {
-        separator: grid.separator,
-        decimal_comma,
-        carriage_returns: grid.carriage_returns,
-        open_end: grid.open_end,
-        ..TableForm::default()
-    };
     let layout = settings.layout.unwrap_or_else(|| {
         if tidy::is_tidy(&grid.rows) {
             TableLayout::Tidy
@@ -134,6 +136,16 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
             TableLayout::Matrix
         }
     });
+    // The comma of a pair stands between its two numbers.
+    let decimal_comma =
+        layout != TableLayout::Pairs && settings.decimal_comma.unwrap_or_else(|| commas(&grid.rows, grid.separator));
+    let form = TableForm {
+        separator: grid.separator,
+        decimal_comma,
+        carriage_returns: grid.carriage_returns,
+        open_end: grid.open_end,
+        ..TableForm::default()
+    };
     let mut table = match layout {
         TableLayout::Tidy => {
             problems.note("one offset a row".to_owned());
@@ -151,7 +163,9 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
     table.stated = settings.stated;
     table.lines.extend(settings.lines.iter().cloned());
     table.transom = settings.transom;
-    checks::endings(&mut table, settings, problems);
+    if !table.waterlines.is_empty() || !problems.any_errors() {
+        checks::endings(&mut table, settings, problems);
+    }
     if table.form.station_order == Order::Falling {
         problems.note("stations are written from forward aft; their order is turned".to_owned());
     }

@@ -40,23 +40,27 @@ pub(super) fn read(
     let mut rows = rows.iter().filter(|row| !row.is_empty());
     let header = rows.next()?;
     let mut heads: Vec<(Field, Position)> = Vec::new();
+    let mut unread: Vec<usize> = Vec::new();
     for field in header.iter().filter(|f| !f.is_blank()) {
         match position(field.trimmed(), false) {
             Ok(position) => heads.push((field.clone(), position)),
             Err(error) => {
                 let message = format!("the header of a station names no position: {error}");
                 problems.error_at("E310", field, message, "Write STN and its number, or its distance");
+                unread.push(field.column);
             }
         }
     }
-    if problems.any_errors() || heads.is_empty() {
+    if heads.is_empty() {
         return None;
     }
     // Points of each station as fields.
     let mut points: Vec<Vec<(Field, Field)>> = heads.iter().map(|_| Vec::new()).collect();
     for field in rows.flatten().filter(|f| !f.is_blank()) {
         let Some(station) = heads.binary_search_by_key(&field.column, |(head, _)| head.column).ok() else {
-            problems.error_at("E307", field, "a pair without a station above it".to_owned(), "");
+            if !unread.contains(&field.column) {
+                problems.error_at("E307", field, "a pair without a station above it".to_owned(), "");
+            }
             continue;
         };
         let Some((y, z)) = pair(&field.text) else {
@@ -76,7 +80,6 @@ pub(super) fn read(
     let mut reader = Reader::new(settings, form, units, problems);
     let xs: Vec<f64> = positions.into_iter().map(|p| reader.along(p)).collect();
     let fields: Vec<Field> = heads.iter().map(|(field, _)| field.clone()).collect();
-    let order = super::assemble::order(&xs, &fields, "station", reader.problems)?;
     let mut table = OffsetTable::default();
     for ((field, x), points) in fields.iter().zip(&xs).zip(&points) {
         let mut station = StationOffsets::new(field.trimmed(), *x);
@@ -91,6 +94,7 @@ pub(super) fn read(
         station.outlines.push(outline);
         table.stations.push(station);
     }
+    let order = super::assemble::order(&xs, &fields, "station", reader.problems)?;
     let kept: Vec<Kept> =
         fields.iter().zip(&xs).map(|(f, &value)| Kept { text: f.trimmed().to_owned(), value }).collect();
     reader.form.station_heads = kept;

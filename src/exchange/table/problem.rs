@@ -15,8 +15,12 @@
 //! | E311 | a convention that is not known, or cannot be |
 //! | E312 | a table that is too large |
 //! | E313 | a table with too little in it |
+//! | E315 | a length that is no ship's |
 //! | W306 | no profiles of stem and stern |
 //! | W307 | few waterlines below the draught |
+//! | W308 | a draught above the top of the table |
+//! | W309 | a breadth that is not that of the table |
+//! | W310 | a length between perpendiculars that is not that of the table |
 //! | W320 | something was assumed that changes numbers |
 //! | N321 | what was detected: layout, separator, order, units |
 

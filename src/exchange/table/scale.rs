@@ -12,6 +12,9 @@ const LARGEST_HALF_BREADTH: f64 = 120.0;
 const LARGEST_HEIGHT: f64 = 120.0;
 /// No hull is longer \[m\].
 const LARGEST_LENGTH: f64 = 1000.0;
+/// Heights and lengths in half-breadths, as most ships have them.
+const USUAL_HEIGHT: f64 = 1.0;
+const USUAL_LENGTH: f64 = 12.0;
 /// Numbers smaller than this, with decimals, are no millimetres.
 const SMALLEST_MILLIMETRES: f64 = 25.0;
 
@@ -82,7 +85,7 @@ pub(super) fn units(
     let offsets = declared.unwrap_or_else(|| {
         if y.eighths > 0 {
             Notation::FeetInchesEighths
-        } else if y.largest > LARGEST_HALF_BREADTH {
+        } else if y.largest > LARGEST_HALF_BREADTH || beyond(y, z, x, stations_are_numbers) {
             problems.note(format!("no unit is declared; half-breadths up to {} are taken as millimetres", y.largest));
             Notation::Millimetres
         } else {
@@ -91,10 +94,15 @@ pub(super) fn units(
         }
     });
     contradiction("half-breadth", offsets, y, LARGEST_HALF_BREADTH, declared.is_some(), problems);
-    let mut positions = |what: &str, own: Option<Notation>, size: Size, largest: f64| {
+    let mut positions = |what: &str, own: Option<Notation>, size: Size, largest: f64, usual: f64| {
         let unit = own.unwrap_or_else(|| {
             let same = if offsets == Notation::FeetInchesEighths { Notation::Feet } else { offsets };
-            if same == Notation::Millimetres && size.largest <= largest && size.plain > 0 && !both {
+            let metres = match declared {
+                // Without a declaration each direction is judged by its size.
+                None => nearer_in_metres(size.largest, 1e-3 * y.largest, usual),
+                Some(_) => !both,
+            };
+            if same == Notation::Millimetres && size.largest <= largest && size.plain > 0 && metres {
                 problems
                     .note(format!("half-breadths are millimetres; {what}s up to {} are taken as metres", size.largest));
                 Notation::Metres
@@ -109,10 +117,30 @@ pub(super) fn units(
         contradiction(what, unit, size, largest, own.or(declared).is_some(), problems);
         unit
     };
-    let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT);
+    let z = positions("height", settings.z_units.or(corner.unit.filter(|_| both)), z, LARGEST_HEIGHT, USUAL_HEIGHT);
     let own = settings.x_units.or(corner.unit);
-    let x = if stations_are_numbers { own.unwrap_or(offsets) } else { positions("distance", own, x, LARGEST_LENGTH) };
+    let x = if stations_are_numbers {
+        own.unwrap_or(offsets)
+    } else {
+        positions("distance", own, x, LARGEST_LENGTH, USUAL_LENGTH)
+    };
     Units { x, y: offsets, z }
+}
+
+/// Whether positions up to `largest` are nearer to `usual` half-breadths \[m\] as metres than as millimetres.
+fn nearer_in_metres(largest: f64, half_breadth: f64, usual: f64) -> bool {
+    let off = |length: f64| (length / (usual * half_breadth)).ln().abs();
+    !(largest > 0.0 && half_breadth > 0.0) || off(largest) <= off(1e-3 * largest)
+}
+
+/// Whether half-breadths are beyond any ship against its height and, where it is known, its length: they have another unit.
+fn beyond(y: Size, z: Size, x: Size, stations_are_numbers: bool) -> bool {
+    y.plain > 0
+        && z.largest > 0.0
+        && y.largest > 50.0 * USUAL_HEIGHT * z.largest
+        && !stations_are_numbers
+        && x.largest > 0.0
+        && y.largest > 50.0 / USUAL_LENGTH * x.largest
 }
 
 /// Says when numbers cannot be of the unit that is declared for them.

@@ -102,6 +102,18 @@ pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
 /// The table of the sections, with every problem found so far and of their order.
 pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec<TableProblem>> {
     let Body { name, stated, mut sections, origin, unit } = body;
+    if sections.len() > super::grid::MOST_LINES {
+        let message = format!("{} sections; a table has at most {}", sections.len(), super::grid::MOST_LINES);
+        problems.error("E320", Place::FILE, "", message, "");
+        return problems.finish(None);
+    }
+    for section in &sections {
+        let points = section.branches.iter().flatten().flat_map(|p| [p.y, p.z]);
+        if let Some(value) = std::iter::once(section.x).chain(points).find(|v| v.abs() > super::assemble::LARGEST) {
+            let message = format!("a length of {value:e} m is no ship's");
+            problems.error("E321", section.place, "", message, "Correct the number, or its unit.");
+        }
+    }
     check_order(&mut sections, &mut problems);
     if sections.len() < 2 && !problems.has_errors() {
         let message = format!("{} sections are no hull", sections.len());

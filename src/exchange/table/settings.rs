@@ -33,7 +33,8 @@
 //! points = [[0.0, 3.1, 0.8], [20.0, 4.0, 0.6]]
 //! ```
 //!
-//! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`. A comment that is no `key = value`
+//! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`, or several: `# Lpp = 20 m, B = 6 m`;
+//! capital and small letters are the same. A comment that is no `key = value`
 //! with a single word before the sign is a comment.
 
 use super::header::From;
@@ -125,7 +126,7 @@ pub(super) fn suggestion(text: &str) -> String {
 impl Settings {
     /// Takes the settings among the comment lines of a table.
     pub(super) fn comments(&mut self, comments: &[(usize, String)], problems: &mut Problems) {
-        for (row, comment) in comments {
+        for (row, comment) in comments.iter().flat_map(|(row, comment)| parts(comment).map(move |part| (row, part))) {
             let Some((key, value)) = comment.split_once('=') else { continue };
             let (key, value) = (key.trim(), value.trim().trim_matches('"'));
             if key.is_empty() || value.is_empty() || key.contains(|c: char| !c.is_alphanumeric() && c != '_') {
@@ -196,6 +197,18 @@ impl Settings {
         }
         Ok(())
     }
+}
+
+/// The parts `key = value` of a comment, divided by commas or semicolons; the whole where any part is no such thing.
+fn parts(comment: &str) -> impl Iterator<Item = &str> {
+    let pair = |part: &str| {
+        part.split_once('=').is_some_and(|(key, value)| {
+            let key = key.trim();
+            !value.trim().is_empty() && !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_')
+        })
+    };
+    let several = comment.split([',', ';']).all(pair);
+    comment.split(move |c| several && matches!(c, ',' | ';'))
 }
 
 fn found(value: &Value) -> String {

@@ -11,7 +11,8 @@
 //! | `DECK` | the height z of the deck at side and the half-breadth y there, either |
 //! | `STERN`, `STEM` | x of the profile at the height z |
 //!
-//! `flag` holds marks: `K`, `T`, `!`, `?`, `()`; they may stand in the cell of y as well. Distances along diagonals
+//! `flag` holds marks: `K`, `T`, `!`, `?`, `()`; they may stand in the cell of y as well. The flag `B` begins a further branch
+//! of a section. Distances along diagonals
 //! (`DG`) have no place in the table and are announced. The order of rows is free.
 
 use super::assemble::{Reader, SAME};
@@ -94,8 +95,8 @@ fn rows_of<'g>(rows: &'g [Vec<Field>], blank: &'g Field, problems: &mut Problems
             continue;
         };
         let flag = field(5);
-        if !flag.trimmed().chars().all(|c| matches!(c, 'K' | 'T' | '!' | '?' | '(' | ')' | ' ')) {
-            problems.error_at("E301", flag, "not a flag".to_owned(), "Flags are K, T, !, ? and ()");
+        if !flag.trimmed().chars().all(|c| matches!(c, 'K' | 'T' | '!' | '?' | '(' | ')' | 'B' | ' ')) {
+            problems.error_at("E301", flag, "not a flag".to_owned(), "Flags are K, T, !, ?, () and B");
         }
         let flag = flag.trimmed().to_owned();
         records.push(Record { station: field(0), x: field(1), curve, z: field(3), y: field(4), flag });
@@ -155,6 +156,7 @@ pub(super) fn read(
             Ok(position) => reader.along(position),
             Err(error) => {
                 reader.problems.error_at("E310", field, format!("no position of a station: {error}"), "");
+                reader.cell(if record.curve == "BT" { record.z } else { record.y }, record.curve != "BT");
                 continue;
             }
         };
@@ -278,11 +280,11 @@ fn put(
     }
     match record.curve {
         "SEC" => {
-            if station.outlines.is_empty() {
+            if station.outlines.is_empty() || record.flag.contains('B') && !station.outlines[0].is_empty() {
                 station.outlines.push(Vec::new());
             }
-            if let (Some(y), Some(z)) = (given, other) {
-                station.outlines[0].push(OutlinePoint { y, z, marks: cell.marks });
+            if let (Some(y), Some(z), Some(outline)) = (given, other, station.outlines.last_mut()) {
+                outline.push(OutlinePoint { y, z, marks: cell.marks });
             }
         }
         "KEEL" => station.keel_height = other,
@@ -326,10 +328,16 @@ pub(super) fn records(table: &OffsetTable, writer: &mut Writer) -> Vec<Vec<Strin
                 records.push(row(name, &x, "BT", z, y));
             }
         }
-        for point in station.outlines.iter().flatten() {
-            let cell = Cell { entry: Entry::Given(point.y), marks: point.marks, written: None };
-            let (z, y) = (writer.length(point.z, z_unit), writer.cell(&cell, true));
-            records.push(row(name, &x, "SEC", z, y));
+        for (branch, outline) in station.outlines.iter().enumerate() {
+            for (index, point) in outline.iter().enumerate() {
+                let cell = Cell { entry: Entry::Given(point.y), marks: point.marks, written: None };
+                let (z, y) = (writer.length(point.z, z_unit), writer.cell(&cell, true));
+                let mut record = row(name, &x, "SEC", z, y);
+                if let Some(flag) = record.last_mut().filter(|_| branch > 0 && index == 0) {
+                    "B".clone_into(flag);
+                }
+                records.push(record);
+            }
         }
         let none = String::new;
         for (kind, curve) in

@@ -1,8 +1,8 @@
 //! Writing tables of offsets back: in their own notation, layout, order and headers, or in others.
 //!
 //! A text of the file is written again wherever it still says what the table holds; only changed cells are written anew.
-//! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs, or of another
-//! program's format, becomes a matrix.
+//! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs
+//! becomes a matrix; sections of points keep the format of their program, or become a tidy table.
 
 use super::header::side_name;
 use super::tidy;
@@ -10,7 +10,7 @@ use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
     TableLayout,
 };
-use crate::units::{CellEntry, Notation, parse_cell};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
 /// In which notation and layout a table is to be written; its own where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,13 +70,59 @@ fn stays(line: &str, separator: char) -> bool {
     }
 }
 
-/// Writes a table.
+/// Whether a table has sections of points and neither half-breadths at waterlines nor heights at buttocks.
+#[must_use]
+pub fn only_sections(table: &OffsetTable) -> bool {
+    let cells = |s: &StationOffsets| s.half_breadths.iter().chain(&s.heights).any(|cell| cell.value().is_some());
+    table.stations.iter().any(|s| !s.outlines.is_empty()) && !table.stations.iter().any(cells)
+}
+
+/// The most digits after the decimal sign of the texts of the offsets.
+fn digits(table: &OffsetTable) -> usize {
+    let cells = table.stations.iter().flat_map(|s| s.half_breadths.iter().chain(&s.heights));
+    let digits = cells.filter_map(|cell| {
+        let written = cell.written.as_ref()?;
+        match parse_cell(&written.text, table.form.cell_rules()).ok()?.writing {
+            CellWriting::Plain { decimals } => Some(decimals),
+            _ => None,
+        }
+    });
+    digits.max().unwrap_or(0)
+}
+
+/// Comment lines with the name and the stated particulars.
+fn stated_lines(table: &OffsetTable) -> Vec<String> {
+    let name: String = table.name.chars().filter(|c| !c.is_control()).collect();
+    let stated = &table.stated;
+    let values = [
+        ("Lpp", stated.length_between_perpendiculars),
+        ("B", stated.breadth),
+        ("T", stated.draught),
+        ("D", stated.depth),
+    ];
+    let name = Some(name.trim()).filter(|name| !name.is_empty()).map(|name| format!("# name = {name}"));
+    let usable = |value: &f64| *value > 0.0 && *value < 1e5;
+    let values = values.into_iter().filter_map(|(key, value)| Some(format!("# {key} = {} m", value.filter(usable)?)));
+    name.into_iter().chain(values).collect()
+}
+
+/// Writes a table. Sections of points in another program's format are written in that format where it can be, and as a tidy
+/// table otherwise; a matrix, when it is asked for, does not hold them.
 #[must_use]
 pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let mut form = table.form.clone();
     let notation = writing.notation.unwrap_or(form.notation);
+    let sections = only_sections(table);
+    if let (None, None, TableLayout::Other, Some(program)) =
+        (writing.layout, writing.notation, form.layout, form.program)
+        && let Some(written) = super::formats::write(table, program)
+    {
+        return written;
+    }
     let layout = match writing.layout.unwrap_or(form.layout) {
         TableLayout::Tidy => TableLayout::Tidy,
+        // A matrix has no place for points.
+        TableLayout::Pairs | TableLayout::Other if sections => TableLayout::Tidy,
         TableLayout::Matrix | TableLayout::Pairs | TableLayout::Other => TableLayout::Matrix,
     };
     let renotated = notation != form.notation;
@@ -101,6 +147,11 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         form.station_heads.clear();
         form.preamble.retain(|line| stays(line, form.separator));
         (form.corner, form.buttock_corner) = (None, None);
+        if !renotated {
+            // Texts are written anew; none loses a digit.
+            let most = digits(table);
+            form.decimals = form.decimals.map(|digits| digits.max(most));
+        }
         if form.full_breadths && !renotated {
             // Half of the last digit is a digit more.
             form.decimals = form.decimals.map(|digits| digits + 1);
@@ -111,6 +162,9 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         if layout != form.layout {
             (form.rows, form.station_order, form.waterline_order) = (Rows::Stations, Order::Rising, Order::Rising);
             form.preamble.clear();
+        }
+        if layout == TableLayout::Tidy && form.layout == TableLayout::Other {
+            form.preamble = stated_lines(table);
         }
         for side in form.side_columns.iter_mut().chain(&mut form.side_rows).chain(&mut form.buttock_columns) {
             if side.kind != SideKind::Name {
@@ -149,16 +203,25 @@ impl Writer {
         let unit = if half { self.form.notation } else { self.form.z_notation };
         let mut rules = self.form.cell_rules();
         rules.unit = unit;
-        let value_of = |text: &str| match parse_cell(text, rules) {
+        let value_in = |text: &str, rules: CellRules| match parse_cell(text, rules) {
             Ok(reading) => match reading.entry {
                 CellEntry::Length(value) => Some((Some(sign * value / factor), reading)),
                 CellEntry::Absent | CellEntry::Unknown => Some((None, reading)),
             },
             Err(_) => None,
         };
-        if let Some(written) = cell.written.as_ref().filter(|_| self.own)
-            && let Some((value, reading)) = value_of(&written.text)
-        {
+        let value_of = |text: &str| value_in(text, rules);
+        let parsed = cell.written.as_ref().filter(|_| self.own).and_then(|written| {
+            // Among feet, inches and eighths a plain number has the unit of the headers.
+            let plain = CellRules { unit: self.form.z_notation, ..rules };
+            let same = |read: &(Option<f64>, CellReading)| match (read.0, cell.entry) {
+                (Some(a), Entry::Given(b)) => (a - b).abs() <= 1e-12 * b.abs().max(1.0),
+                _ => false,
+            };
+            let other = || value_in(&written.text, plain).filter(|read| half && same(read));
+            Some((written, value_of(&written.text).filter(same).or_else(other).or_else(|| value_of(&written.text))?))
+        });
+        if let Some((written, (value, reading))) = parsed {
             let marks = Marks {
                 doubtful: reading.doubtful,
                 locked: reading.locked,
@@ -210,7 +273,7 @@ impl Writer {
             return text.to_owned();
         }
         let text = self.length(value, unit);
-        let rules = crate::units::CellRules { unit, decimal_comma: self.form.decimal_comma };
+        let rules = CellRules { unit, decimal_comma: self.form.decimal_comma };
         if let Ok(reading) = parse_cell(&text, rules)
             && let CellEntry::Length(back) = reading.entry
         {
