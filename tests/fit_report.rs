@@ -81,7 +81,10 @@ fn suspects_and_remarks_stand_on_the_page() {
 #[test]
 fn a_surface_that_leaves_its_data_is_told() {
     // With half of its breadth stated, the waterplane is larger than Lpp B.
-    let (_, outputs, page) = fitted("tests/data/wigley/offsets.csv", |job| job.table.stated.breadth = Some(5.0));
+    let (_, outputs, page) = fitted("tests/data/wigley/offsets.csv", |job| {
+        job.table.stated.breadth = Some(5.0);
+        job.table.stated.draught = Some(6.25);
+    });
     assert!(outputs.warnings.iter().any(|w| w.contains("waterplane coefficient") && w.contains("1.33")), "{page}");
     assert!(page.contains("WARNING: the waterplane coefficient"), "{page}");
 }
