@@ -416,3 +416,23 @@ fn a_bulk_carrier_has_flat_sides_and_few_inflections() {
     assert_eq!(midship.inflections.len(), 0, "{midship:?}");
     assert!(!midship.flats.is_empty(), "{midship:?}");
 }
+
+#[test]
+fn what_has_no_breadth_is_not_counted() {
+    let hull = analytic::wigley("Wigley", &Dimensions { depth: 9.0, ..dimensions(100.0, 10.0, 6.25) }).unwrap().hull;
+    // Half-breadths at x = 0.01 m stay below 5 (1 - 0.9998^2) = 2 mm, at x = 5 m they reach 0.95 m.
+    let planes = Planes { stations: vec![0.01, 5.0], waterlines: vec![6.25], ..Planes::default() };
+    let inspection = Inspection::new(&hull, &planes, 1e-3);
+    assert_eq!(inspection.narrow, [Cut::Station { x: 0.01 }]);
+    assert!(inspection.empty.is_empty());
+    assert_eq!(inspection.curves.len(), 2);
+    assert!(inspection.curves.iter().all(|curve| curve.without_breadth.abs() < 1e-12), "fine ends stay");
+    // The end station of this table lies on the centreplane up to 6.5 m.
+    let table = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
+    let hull = loftsman::report::read_source(&table).unwrap().hull;
+    let planes = Planes { stations: vec![121.92], waterlines: vec![2.0, 4.0], ..Planes::default() };
+    let inspection = Inspection::new(&hull, &planes, 5e-3);
+    let end = at(&inspection, "station").next().expect("the part above has breadth");
+    assert!(end.without_breadth > 5.0 && end.length < 4.0, "{} {}", end.without_breadth, end.length);
+    assert!(end.bending < 1.0 && end.variation < 1.0, "{} {}", end.bending, end.variation);
+}

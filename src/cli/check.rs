@@ -8,8 +8,9 @@ use super::stream;
 use crate::report::{Failure, accept, check_files, check_json, check_page, check_table, write_all};
 
 #[derive(Debug, Args)]
+#[command(after_help = AFTER)]
 pub(super) struct Arguments {
-    /// Table of offsets: CSV, TSV or XLSX
+    /// Table of offsets, in any of the formats below
     table: PathBuf,
     /// One JSON object
     #[arg(long)]
@@ -30,6 +31,16 @@ pub(super) struct Arguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const AFTER: &str = "\
+Judged are offsets on waterlines, each against its neighbours on the station and on the waterline; sections as points are read \
+but not judged, and the page and the JSON say so (judged, points_not_judged).
+JSON: judged, points_not_judged, noise, suspects (id, station, waterline, row, column, written, expected, score, hypothesis, \
+proposed, probability, hypotheses), problems (code, row, message), lines.
+Exit code 5 with suspects or with problems of cells; remarks on how the file was read do not count.
+Read are CSV and TSV (matrix, one offset a line, sections as points), XLSX, GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text \
+of FREE!ship, tables of DELFTship, and tables of fractions of the half-breadth; a TOML file of the same name beside a table \
+may say what it leaves open.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let check = check_table(&arguments.table)?;

@@ -11,8 +11,9 @@ use crate::report::{Failure, convert_table};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
+#[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
-    /// Table of offsets: CSV, TSV or XLSX
+    /// Table of offsets, in any of the formats below
     table: PathBuf,
     /// File to write instead of stdout
     output: Option<PathBuf>,

@@ -10,6 +10,7 @@ use crate::plot::Figure;
 use crate::report::{Failure, fit_outputs, fit_page, read_fit, write_run};
 
 #[derive(Debug, Args)]
+#[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
     /// A table of offsets, or a method file (TOML) that names one
     #[arg(value_name = "TABLE|METHOD")]

@@ -11,8 +11,9 @@ use crate::report::{Failure, hydrostatics_page, read_source};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
+#[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets
+    /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
     hull: PathBuf,
     /// Draughts above the base line [m], as 1:9:1
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]

@@ -22,6 +22,13 @@ use clap::{Parser, Subcommand};
 
 use crate::report::Failure;
 
+/// The tables of offsets that are read, for the help of every command that takes one.
+const TABLES: &str = "\
+Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlines, one offset a line, or sections as points), \
+XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
+DELFTship, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
+say what it leaves open (units, axes, Lpp, B, T).";
+
 /// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.
 #[derive(Debug, Parser)]
 #[command(name = "loftsman", version, max_term_width = 100, after_help = EXIT_CODES)]

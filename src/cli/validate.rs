@@ -34,7 +34,8 @@ wetted_surface_m2, tpc_t_per_cm; with _implied, _other, _pchip or _trapezoid beh
 the name for an absolute one (lcb_percent_lpp, lcb_m for all centres of buoyancy), volume_percent, cb_percent, \
 wetted_surface_percent ... for one in %. [sign_trap] says that columns ..._printed count centres + aft. A file \
 *hydrostatics.csv with a column T_m is a published table with the same names. What has no tolerance is not judged, nor is \
-a draught with fewer than three waterlines up to it. Exit code 5 when a tolerance is exceeded.";
+a draught with fewer than three waterlines up to it. Our coefficients are on Lpp and moulded B; those of programs that refer \
+them to the waterline at each draught (Maxsurf) differ by that. Exit code 5 when a tolerance is exceeded.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let cases = validate(&arguments.folders)?;

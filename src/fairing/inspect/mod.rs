@@ -9,6 +9,8 @@
 //! Where the half-breadth shrinks to nothing, as at the end stations of a table, the surface can turn within microns of the
 //! centreplane, which says nothing about fairness. A curve whose half-breadth is below B/1000 all along is therefore not
 //! counted, and of other curves the ends where it is are left out if they are longer than B/50; both are told.
+//! Limit: at the edge of a narrow flat of bottom near the ends a fitted surface may turn within centimetres. Such turns count,
+//! and rule the sums of squared curvature; the place of the largest curvature tells.
 //! Cost: one section and about 30 evaluations of third derivatives for each patch that it crosses.
 
 mod contour;

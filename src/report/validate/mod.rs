@@ -240,9 +240,15 @@ fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Resu
         .map(|thin| self::rows(thin, &draughts))
         .collect();
     let length = fitted.hull.particulars().length_between_perpendiculars;
+    // How far the table was moved when it was read.
+    let moved = reference.aftmost.zip(table.stations.first()).map_or(0.0, |(x, first)| first.station.x - x);
+    if moved.abs() > 1e-3 {
+        notes.push(format!("centres that count from the x of the file are compared there: AP is at x {:.3} m", -moved));
+    }
+    let origin = Frame { length, moved };
     let comparisons = reference.figures.iter().enumerate().map(|(k, figure)| {
-        let ours = value(figure, &rows[k], length);
-        let changes = thinner.iter().map(|rows| Some(Thinned::error(ours?, value(figure, &rows[k], length)?)));
+        let ours = value(figure, &rows[k], origin);
+        let changes = thinner.iter().map(|rows| Some(Thinned::error(ours?, value(figure, &rows[k], origin)?)));
         // Both, or nothing is said.
         let left_out = changes.sum::<Option<f64>>().filter(|_| thinner.len() == 2);
         compare(figure, ours, left_out, &table)
@@ -271,14 +277,24 @@ fn rows(hull: &Hull, draughts: &[f64]) -> Vec<Hydrostatics> {
     CurvesOfForm::new(hull, draughts, &Conventions::default()).rows
 }
 
+/// Where centres are measured from.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    /// Lpp \[m\].
+    length: f64,
+    /// Our x less that of the file \[m\].
+    moved: f64,
+}
+
 /// Our value of a figure, measured as theirs is.
-fn value(figure: &Figure, row: &Hydrostatics, length: f64) -> Option<f64> {
+fn value(figure: &Figure, row: &Hydrostatics, Frame { length, moved }: Frame) -> Option<f64> {
     let quantity = QUANTITIES.iter().find(|quantity| quantity.key == figure.known.key)?;
     let value = (quantity.value)(row).filter(|value| value.is_finite())?;
     Some(match figure.known.origin {
         Origin::Plain => value,
         Origin::Forward => value - 0.5 * length,
         Origin::Aft => 0.5 * length - value,
+        Origin::Table => value - moved,
     })
 }
 
@@ -304,6 +320,7 @@ fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &Of
             Origin::Plain => "",
             Origin::Forward => "from midship, + forward",
             Origin::Aft => "from midship, + aft",
+            Origin::Table => "from x = 0 of the file",
         },
         unit: quantity.map_or("", |quantity| quantity.unit),
         basis: figure.section,

@@ -5,7 +5,7 @@
 //! [table]
 //! file = "sections.csv"                   # else sections.csv, else offsets.csv
 //! [particulars]
-//! lpp = 121.92                            # also lbp; beam; depth; draught (also z_waterline, lwl_draught)
+//! lpp = 121.92                            # also lbp; beam; depth; draught (also z_waterline, lwl_draught); x_min
 //! [published]                             # figures at that draught; any section whose name ends in `published`, and `exact`
 //! cb = 0.6
 //! source = "Todd 1953"
@@ -18,7 +18,8 @@
 //!
 //! `[check]` holds figures of other integrations of the same table; it is used where nothing is published. `[sign_trap]` says
 //! that centres in columns named `..._printed` count positive towards the aft end. A file `*hydrostatics.csv` beside it is
-//! a published table: its columns have the same names, its draughts are `T_m`.
+//! a published table: its columns have the same names, its draughts are `T_m`. `lcb_x_m` counts from the origin of x in the
+//! table; `x_min` of `[particulars]` is the x of the aftmost station there, for readers that put AP elsewhere.
 
 use toml::{Table, Value};
 
@@ -31,6 +32,8 @@ pub(super) enum Origin {
     Forward,
     /// From midship, + aft.
     Aft,
+    /// From the origin of x in the table, + forward.
+    Table,
 }
 
 /// A name that figures have in these files.
@@ -55,7 +58,7 @@ const fn known(
     Known { written, key, origin, absolute, percent }
 }
 
-const KNOWN: [Known; 20] = [
+const KNOWN: [Known; 21] = [
     known(&["volume_m3"], "DISPVOL", Origin::Plain, "volume_m3", "volume_percent"),
     known(&["displacement_t"], "DISPM", Origin::Plain, "displacement_t", "displacement_percent"),
     known(&["cb"], "CB", Origin::Plain, "cb", "cb_percent"),
@@ -63,7 +66,8 @@ const KNOWN: [Known; 20] = [
     known(&["cp"], "CP", Origin::Plain, "cp", "cp_percent"),
     known(&["cwp"], "CWP", Origin::Plain, "cwp", "cwp_percent"),
     known(&["lcb_percent_lpp_fwd"], "XCBPC", Origin::Plain, "lcb_percent_lpp", ""),
-    known(&["lcb_from_ap_m", "lcb_x_m"], "XCB", Origin::Plain, "lcb_m", ""),
+    known(&["lcb_from_ap_m"], "XCB", Origin::Plain, "lcb_m", ""),
+    known(&["lcb_x_m"], "XCB", Origin::Table, "lcb_m", ""),
     known(&["lcb_m"], "XCB", Origin::Forward, "lcb_m", ""),
     known(&["lcb_m_aft_of_midship"], "XCB", Origin::Aft, "lcb_m", ""),
     known(&["lcf_m"], "XWL", Origin::Forward, "lcf_m", ""),
@@ -109,6 +113,8 @@ pub(super) struct Reference {
     pub(super) breadth: Option<f64>,
     pub(super) draught: Option<f64>,
     pub(super) depth: Option<f64>,
+    /// x of the aftmost station as it is written, in the frame of the figures that count from it.
+    pub(super) aftmost: Option<f64>,
     pub(super) figures: Vec<Figure>,
     /// Numbers under names that are not known here.
     pub(super) unread: Vec<String>,
@@ -220,6 +226,7 @@ pub(super) fn read(text: &str, published_table: Option<&str>) -> Result<Referenc
         breadth: first(&root, &sizes, &["beam", "B"]),
         draught: first(&root, &sizes, &["draught", "lwl_draught", "z_waterline", "T"]),
         depth: first(&root, &sizes, &["depth", "D"]),
+        aftmost: first(&root, &sizes, &["x_min"]),
         ..Reference::default()
     };
     let mut reader = Reader { root: &root, reversed: root.contains_key("sign_trap"), reference };
