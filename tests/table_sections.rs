@@ -68,9 +68,12 @@ fn ship() -> OffsetTable {
     }
 }
 
+/// A writer of a program's text.
+type Writer = fn(&OffsetTable) -> String;
+
 #[test]
 fn formats_with_a_writer_are_written_in_their_own() {
-    let all: [(&str, fn(&OffsetTable) -> String); 5] = [
+    let all: [(&str, Writer); 5] = [
         ("a.gf", write_ghs),
         ("a.bri", write_britfair),
         ("a.pias", write_pias),
