@@ -11,15 +11,12 @@
 //! A draught costs O(nodes in u (columns + nodes in v)).
 
 use super::volume::{Body, Node, count_along, count_up, node_at, nodes};
-use super::waterplane::Waterplane;
+use super::waterplane::{Waterplane, largest};
 use crate::hull::{Hull, Immersion, Piece, UpperEnd, advance};
 use crate::numeric::{bracketed_root, gauss_legendre};
 
 /// Nodes in s between the line u_0 and midship.
 const BAND_NODES: usize = 6;
-
-/// Intervals in which a piece is searched for its largest breadth.
-const SAMPLES: usize = 8;
 
 /// A waterline whose velocity is below this part of the mean of J has its direction from points beside it.
 const STANDSTILL: f64 = 1e-7;
@@ -298,7 +295,7 @@ impl Plane {
     fn extents(&self, hull: &Hull, immersion: &Immersion) -> Waterplane {
         let Some([aft, fore]) = self.ends else { return Waterplane::default() };
         let x = |u: f64| hull.surface().eval(u, immersion.end(u))[0];
-        let breadth = self.widest.map_or(0.0, |(known, piece)| largest(hull, immersion, &piece, known));
+        let breadth = self.widest.map_or(0.0, |(known, piece)| largest_on(hull, immersion, &piece, known));
         Waterplane {
             length: x(fore.to) - x(aft.from),
             breadth: 2.0 * breadth,
@@ -317,29 +314,11 @@ fn velocity(hull: &Hull, immersion: &Immersion, u: f64) -> [f64; 2] {
     if at.dv[2] > 0.0 || at.du[2].abs() > 0.0 { [across(0), across(1)] } else { [at.du[0], at.du[1]] }
 }
 
-/// The largest y of the waterline on a piece and at its ends, at least `known`: the roots of dy between samples, by bisection.
-fn largest(hull: &Hull, immersion: &Immersion, piece: &Piece, known: f64) -> f64 {
+/// The largest y of the waterline on a piece and at its ends, at least `known`.
+fn largest_on(hull: &Hull, immersion: &Immersion, piece: &Piece, known: f64) -> f64 {
     let y = |u: f64| hull.surface().eval(u, immersion.end(u))[1];
-    let slope = |u: f64| velocity(hull, immersion, u)[1];
-    let mut best = known.max(y(piece.from)).max(y(piece.to));
-    for k in 0..SAMPLES {
-        let at = |k: usize| piece.from + (piece.to - piece.from) * k as f64 / SAMPLES as f64;
-        let (mut low, mut high) = (at(k), at(k + 1));
-        if slope(low) < 0.0 || slope(high) > 0.0 {
-            continue;
-        }
-        // The value is settled to rounding when the place is to its square root.
-        for _ in 0..30 {
-            let middle = 0.5 * (low + high);
-            if slope(middle) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        best = best.max(y(0.5 * (low + high)));
-    }
-    best
+    let known = known.max(y(piece.from)).max(y(piece.to));
+    largest(y, |u| velocity(hull, immersion, u)[1], piece.from, piece.to, known)
 }
 
 /// Angle between the waterline and the centreplane at its end `u` \[deg\]; where the waterline stands still there in the parameters,

@@ -142,7 +142,8 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
         }
     }
     let Some([aft, fore]) = wet else { return Waterplane::default() };
-    let breadth = best_piece.map_or(0.0, |(from, to)| 2.0 * largest(&line, from, to, best));
+    let (y, slope) = (|u: f64| line.eval(u)[1], |u: f64| line.derivatives::<2>(u)[1][1]);
+    let breadth = best_piece.map_or(0.0, |(from, to)| 2.0 * largest(y, slope, from, to, best));
     Waterplane {
         area: 2.0 * sums[0],
         moment: 2.0 * sums[1],
@@ -155,10 +156,9 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
     }
 }
 
-/// The largest y near [from, to], at least `known`: the roots of y_u between samples, by bisection.
-fn largest(line: &BsplineCurve<3>, from: f64, to: f64, known: f64) -> f64 {
+/// The largest y near [from, to], at least `known`: the roots of its slope between samples, by bisection.
+pub(super) fn largest(y: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, from: f64, to: f64, known: f64) -> f64 {
     const SAMPLES: usize = 8;
-    let slope = |u: f64| line.derivatives::<2>(u)[1][1];
     let mut best = known;
     for k in 0..SAMPLES {
         let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
@@ -175,7 +175,7 @@ fn largest(line: &BsplineCurve<3>, from: f64, to: f64, known: f64) -> f64 {
                 high = middle;
             }
         }
-        best = best.max(line.eval(0.5 * (low + high))[1]);
+        best = best.max(y(0.5 * (low + high)));
     }
     best
 }
