@@ -82,6 +82,7 @@ pub mod hydrostatics;
 pub mod numeric;
 pub mod parametric;
 pub mod plot;
+pub mod qp;
 pub mod report;
 pub mod spline;
 pub mod units;

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 14] = [
+const FLOORS: [(&str, usize); 15] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
+    ("qp", 1),
     ("qp", 1),
     ("hull", 2),
     ("hydrostatics", 3),

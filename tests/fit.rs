@@ -3,6 +3,7 @@
 //! Published hulls outside the repository are read from the folder that LOFTSMAN_DATA names, or `../shared/data`; where there is
 //! none, these tests say so and pass.
 
+use loftsman::exchange::read_table;
 use loftsman::hull::{Cell, FitMethod, Fitted, Functional, Hull, OffsetTable, StationOffsets};
 use proptest::prelude::*;
 use std::path::PathBuf;
@@ -179,5 +180,42 @@ proptest! {
                 prop_assert!(cell.half_breadth.is_finite());
             }
         }
+    }
+}
+
+/// A table of section outlines of the repository, or of the folder of published hulls.
+fn outlines(path: &str) -> Option<OffsetTable> {
+    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(path);
+    let path = if own.is_file() { own } else { folder()?.join(path) };
+    let name = path.file_name()?.to_string_lossy().into_owned();
+    Some(read_table(&name, &std::fs::read(&path).ok()?).expect("a readable table").table)
+}
+
+/// Sections with flat bottoms, bulbs, skegs and nearly level sterns: points met, nothing swings, published volumes. The hollows of meshes
+/// that are put on one height (GHS, trawler) leave a trace in half-breadth that is long where the section is nearly level.
+#[test]
+fn sections_are_followed_around_ledges_and_bulbs() {
+    let cases = [
+        ("s175/sections.csv", 9.5, 24_138.5, 0.003, 1e-9),
+        ("pdstrip_yacht/sections.csv", 0.965_2, 24.87, 0.003, 1e-6),
+        ("dtc/sections.csv", 14.5, 173_467.0, 0.001, 0.02),
+        ("dtmb5415/sections.csv", 6.15, 8469.0, 0.002, 0.05),
+        ("sterntrawler/sections.csv", 5.75, 1851.6, 0.002, 0.05),
+        ("formats/samples/ghs_hull_30fr.gf", 8.0, 9376.7, 0.005, 0.05),
+    ];
+    for (path, draught, volume, allowed, missed) in cases {
+        let Some(mut table) = outlines(path) else { continue };
+        table.stated.draught = Some(draught);
+        let fitted = fit(&table);
+        let found = Functional::Volume.value(&fitted.hull, draught);
+        let points = fitted.points(&table);
+        let worst = points.iter().map(|p| p.residual().abs()).fold(0.0, f64::max);
+        let rms = (points.iter().map(|p| p.residual().powi(2)).sum::<f64>() / points.len() as f64).sqrt();
+        println!("{path}: {:+.3} %, points to {worst:.1e} m, rms {rms:.1e} m", 100.0 * (found / volume - 1.0));
+        let greatest = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).map(|p| p.y).fold(0.0, f64::max);
+        let range = swings(&fitted.hull, greatest);
+        assert!(range[0] <= 0.0 && range[1] < 1e-3, "{path}: {range:?}");
+        assert!((found / volume - 1.0).abs() < allowed, "{path}: {found}");
+        assert!(rms < missed, "{path}: {rms}");
     }
 }

@@ -51,15 +51,17 @@ fn points_of_sections_have_residuals() {
 }
 
 #[test]
-fn sections_as_points_are_not_called_judged() {
+fn sections_as_points_are_judged_as_points() {
     let check = check_table(&carried("tests/data/s175/sections.csv")).expect("a table");
     let (page, json) = (check_page(&check), check_json(&check));
-    assert!(page.contains("NOT judged") && !page.contains("no suspects"), "{page}");
-    assert_eq!(json["judged"], 0);
-    assert!(json["points_not_judged"].as_u64().expect("a number") > 100);
-    assert!(check.verdict(&[]).is_ok());
+    assert!(page.contains("points of sections judged along their sections"), "{page}");
+    assert_eq!((&json["judged"], &json["heights_judged"]), (&0.into(), &0.into()));
+    let [judged, left] = ["points_judged", "points_not_judged"].map(|key| json[key].as_u64().expect("a number"));
+    let given: usize = check.table.iter().flat_map(|t| &t.stations).flat_map(|s| &s.outlines).map(Vec::len).sum();
+    assert!(judged > 100 && judged + left == given as u64, "{judged} + {left} of {given}");
     let grid = check_table(&carried("tests/data/series60_cb060/offsets.csv")).expect("a table");
-    assert!(grid.judged() > 100 && grid.points() == 0, "{} {}", grid.judged(), grid.points());
+    let [cells, heights, points] = grid.judged();
+    assert!(cells > 100 && heights == 0 && points == 0 && grid.points_not_judged() == 0, "{cells} {heights} {points}");
 }
 
 #[test]

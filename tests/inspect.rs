@@ -436,3 +436,25 @@ fn what_has_no_breadth_is_not_counted() {
     assert!(end.without_breadth > 5.0 && end.length < 4.0, "{} {}", end.without_breadth, end.length);
     assert!(end.bending < 1.0 && end.variation < 1.0, "{} {}", end.bending, end.variation);
 }
+
+/// Waterlines of the Wigley hull are parabolas y = a (1 - (2 x/L)^2): kappa = 8 a / L^2 amidships, on the convex side outward.
+#[test]
+fn a_parabola_has_its_curvature_outward() {
+    let dimensions =
+        loftsman::parametric::analytic::Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 6.25 };
+    let hull = loftsman::parametric::analytic::wigley("Wigley", &dimensions).unwrap().hull;
+    let found = loftsman::fairing::inspect::combs(
+        &hull,
+        &[loftsman::hull::Cut::Waterline { z: 6.25 }, loftsman::hull::Cut::Station { x: 50.0 }],
+        41,
+        1e-3,
+    );
+    assert_eq!(found.len(), 2);
+    let middle = found[0].teeth[20];
+    assert!((middle.at[0] - 50.0).abs() < 0.05, "{middle:?}");
+    assert!((middle.tooth[1] - 8.0 * 5.0 / 1e4).abs() < 1e-6 && middle.tooth[0].abs() < 1e-5, "{middle:?}");
+    for comb in &found {
+        assert!(comb.inflections.is_empty() && comb.teeth.len() == 41);
+        assert!(comb.teeth.iter().all(|tooth| tooth.tooth[1] > 0.0), "{:?}", comb.cut);
+    }
+}

@@ -33,10 +33,11 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-Judged are offsets on waterlines, each against its neighbours on the station and on the waterline; sections as points are read \
-but not judged, and the page and the JSON say so (judged, points_not_judged).
-JSON: judged, points_not_judged, noise, suspects (id, station, waterline, row, column, written, expected, score, hypothesis, \
-proposed, probability, hypotheses), problems (code, row, message), lines.
+Judged are offsets on waterlines (S1, S2, ...) and heights at buttocks (H1, ...), each against its neighbours in both directions, \
+and sections as points (P1, ...), each point against the section through the others.
+JSON: judged, heights_judged, points_judged, points_not_judged, noise, suspects (id, of half-breadth, height or point; station, \
+waterline or buttock, row, column, or branch, point, number, y, z; written, expected, score, hypothesis, proposed, probability, \
+hypotheses), problems (code, row, message), lines (kind knuckle or tangent, course waterline or station, at, from, to, gain).
 Exit code 5 with suspects or with problems of cells; remarks on how the file was read do not count.
 Read are CSV and TSV (matrix, one offset a line, sections as points), XLSX, GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text \
 of FREE!ship, tables of DELFTship, and tables of fractions of the half-breadth; a TOML file of the same name beside a table \

@@ -3,12 +3,15 @@
 
 mod check;
 mod convert;
+mod fair;
+mod fair_curve;
 mod fit;
 mod generate;
 mod hydro;
 mod inspect;
 mod new;
 mod offsets;
+mod run_files;
 mod schema;
 mod section;
 mod self_test;
@@ -46,11 +49,15 @@ enum Command {
     Check(check::Arguments),
     /// Generate a hull from a design file: hull, offsets, hydrostatics, summary, figures
     Generate(generate::Arguments),
+    /// Fair a table of offsets: hull, offsets, changes and a certificate, displacement and LCB held
+    Fair(fair::Arguments),
     /// Fit a hull to a table of offsets: hull, residuals, hydrostatics, figures
     Fit(fit::Arguments),
+    /// Fair one curve: a waterline, a sheer line, a curve of section areas
+    FairCurve(fair_curve::Arguments),
     /// Print a commented design file; without a name, list the names
     New(new::Arguments),
-    /// Print the JSON Schema of the design file or of the method file
+    /// Print the JSON Schema of the design, the method or the job file
     Schema(schema::Arguments),
     /// Hydrostatic table of a hull at any draughts
     Hydro(hydro::Arguments),
@@ -93,7 +100,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let done = match &cli.command {
         Command::Check(arguments) => check::run(arguments),
         Command::Generate(arguments) => generate::run(arguments),
+        Command::Fair(arguments) => fair::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
+        Command::FairCurve(arguments) => fair_curve::run(arguments),
         Command::New(arguments) => new::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),

@@ -1,9 +1,9 @@
-//! `loftsman schema [design|method]`
+//! `loftsman schema [design|method|job]`
 
 use clap::{Args, ValueEnum};
 
 use super::stream;
-use crate::config::{design_schema, method_schema};
+use crate::config::{design_schema, job_schema, method_schema};
 use crate::report::Failure;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -12,6 +12,8 @@ enum File {
     Design,
     /// The method file of `fit`
     Method,
+    /// The job file of `fair`
+    Job,
 }
 
 #[derive(Debug, Args)]
@@ -24,6 +26,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match arguments.file {
         File::Design => stream::data(&stream::json(&design_schema())?),
+        File::Job => stream::data(&stream::json(&job_schema())?),
         File::Method => stream::data(&stream::json(&method_schema())?),
     }
 }

@@ -17,7 +17,9 @@ pub(super) enum Raw {
     Text(String),
     /// A whole or decimal number.
     Number(f64),
-    /// true, false, a date.
+    /// true or false.
+    Switch(bool),
+    /// A date.
     Other(&'static str),
     /// An array with the place of each item.
     Array(Vec<(Raw, Range<usize>)>),
@@ -32,6 +34,7 @@ impl Raw {
             Self::Text(text) if text.chars().count() <= 40 => format!("\"{text}\""),
             Self::Text(_) => "a long text".into(),
             Self::Number(value) => format!("{value}"),
+            Self::Switch(_) => "a boolean".into(),
             Self::Other(kind) => format!("a {kind}"),
             Self::Array(items) => format!("a list of {}", items.len()),
             Self::Table(_) => "a table".into(),
@@ -79,6 +82,7 @@ fn raw(value: &DeValue<'_>) -> Raw {
                 .map(|(k, v)| (k.get_ref().to_string(), raw(v.get_ref()), k.span().start..v.span().end))
                 .collect(),
         ),
+        DeValue::Boolean(value) => Raw::Switch(*value),
         other => Raw::Other(other.type_str()),
     }
 }

@@ -33,6 +33,18 @@ pub enum Kind {
     Positions,
     /// Plain numbers.
     Numbers,
+    /// true or false.
+    Switch,
+    /// An area; plain numbers only, m^2.
+    Area,
+    /// What the first kind takes, or one of the words.
+    OrWord(&'static Kind, &'static [&'static str]),
+    /// Names of stations, waterlines or cells: a list of texts and numbers.
+    Names,
+    /// A table from names of stations, waterlines or cells to lengths.
+    NamedLengths,
+    /// Section areas: a list of [x, area] or [x, area, band], m and m^2.
+    SectionAreas,
     /// Shell plating: a table with thickness or factor.
     Shell,
     /// Names from the list, one or several, or `all`, or `none`.

@@ -7,6 +7,7 @@
 mod design;
 mod diagnostic;
 mod document;
+mod job;
 mod keys;
 mod method;
 mod reference;
@@ -17,8 +18,9 @@ mod wishes;
 
 pub use design::{Design, Output, StationZero, read};
 pub use diagnostic::{Diagnostic, Severity};
+pub use job::{JOB_KEYS, JobFile, Mark, Quantity, Spot, Wish, read_job, read_option};
 pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use method::{METHOD_KEYS, METHODS, MethodFile, read_method};
 pub use reference::{Reference, ReferenceRow};
-pub use schema::{design_schema, method_schema};
+pub use schema::{design_schema, job_schema, method_schema};
 pub use template::{TEMPLATES, template};

@@ -1,9 +1,10 @@
-//! The JSON Schema of the design file and of the method file (draft 2020-12), made from their lists of keys.
+//! The JSON Schema of the design file, of the method file and of the job file (draft 2020-12), made from their lists of keys.
 //!
 //! Keys are case-insensitive for the program; an editor sees them in their house spelling.
 
 use serde_json::{Map, Value, json};
 
+use super::job::JOB_KEYS;
 use super::keys::{FIGURES, KEYS, Key, Kind};
 use super::method::METHOD_KEYS;
 
@@ -43,6 +44,15 @@ fn value_schema(kind: Kind) -> Value {
             }
         ] }),
         Kind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
+        Kind::Switch => json!({ "type": "boolean" }),
+        Kind::Area => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        Kind::OrWord(inner, words) => json!({ "anyOf": [value_schema(*inner), { "enum": words }] }),
+        Kind::Names => json!({ "type": "array", "items": { "type": ["number", "string"] } }),
+        Kind::NamedLengths => json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } }),
+        Kind::SectionAreas => json!({
+            "type": "array",
+            "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 }
+        }),
         Kind::Shell => json!({
             "type": "object",
             "properties": { "thickness": { "type": ["number", "string"] }, "factor": { "type": ["number", "string"] } },
@@ -109,6 +119,14 @@ pub fn method_schema() -> Value {
     file_schema(METHOD_KEYS, "Method", "loftsman method file", description)
 }
 
+/// The JSON Schema of the job file.
+#[must_use]
+pub fn job_schema() -> Value {
+    let description =
+        "How a table of offsets is to be faired. Plain numbers are metres; keys may be written in upper or lower case.";
+    file_schema(JOB_KEYS, "Job", "loftsman job file", description)
+}
+
 fn file_schema(keys: &'static [Key], word: &str, title: &str, description: &str) -> Value {
     let mut schema = table_schema(keys, word, "");
     if let Some(object) = schema.as_object_mut() {
@@ -125,7 +143,7 @@ mod tests {
 
     #[test]
     fn every_key_stands_in_the_schema_with_its_description() {
-        for (schema, keys) in [(design_schema(), KEYS), (method_schema(), METHOD_KEYS)] {
+        for (schema, keys) in [(design_schema(), KEYS), (method_schema(), METHOD_KEYS), (job_schema(), JOB_KEYS)] {
             for key in keys {
                 let mut at = &schema;
                 for word in key.table.split('.').filter(|w| !w.is_empty()) {

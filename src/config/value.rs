@@ -33,17 +33,28 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::Positions => "{ from = 1, to = 9, step = 1 }, a list of lengths, or \"1:9:1\"".into(),
         Kind::Shell => "{ thickness = \"10 mm\" } or { factor = 1.006 }".into(),
         Kind::Numbers => "a list of numbers, as [0, 0, 1, 2, 2]".into(),
+        Kind::Switch => "true or false".into(),
+        Kind::Area => "an area: a plain number, m2".into(),
+        Kind::OrWord(inner, words) => format!("{}; or one of \"{}\"", expected(*inner), words.join("\", \"")),
+        Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
+        Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),
+        Kind::SectionAreas => "a list of [x, area] or [x, area, band], m and m2".into(),
         Kind::Figures => format!("\"all\", \"none\" or names of {}", FIGURES.join(", ")),
     }
 }
 
 fn accepts(kind: Kind, dimension: Dimension) -> bool {
+    if let Kind::OrWord(inner, _) = kind {
+        return accepts(*inner, dimension);
+    }
     match dimension {
         Dimension::None => true,
         Dimension::Percent => {
             matches!(kind, Kind::Number | Kind::NumberOrWord(_) | Kind::FractionOrLength | Kind::Interval)
         }
-        Dimension::Length => matches!(kind, Kind::Length | Kind::FractionOrLength | Kind::Positions),
+        Dimension::Length => {
+            matches!(kind, Kind::Length | Kind::FractionOrLength | Kind::Positions | Kind::NamedLengths)
+        }
         Dimension::Angle => matches!(kind, Kind::Angle | Kind::RawAngle),
         Dimension::Mass | Dimension::Volume => kind == Kind::Displacement,
         Dimension::Density => kind == Kind::Density,
@@ -198,6 +209,28 @@ impl Document<'_> {
         self.measure(path, &raw, &span, kind).map(Scalar::Measure)
     }
 
+    /// A number in the unit of the inner kind, or a word, of a key of the kind [`Kind::OrWord`].
+    pub(super) fn measure_or_word(&mut self, path: &str) -> Option<Scalar> {
+        let (raw, span, kind) = self.raw(path)?;
+        let Kind::OrWord(_, words) = kind else { return None };
+        if let Raw::Text(text) = &raw
+            && !text.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+        {
+            return self.one_of(path, text, &span, words).map(Scalar::Word);
+        }
+        self.measure(path, &raw, &span, kind).map(Scalar::Measure)
+    }
+
+    /// true or false.
+    pub(super) fn switch(&mut self, path: &str) -> Option<bool> {
+        let (raw, span, kind) = self.raw(path)?;
+        if let Raw::Switch(value) = raw {
+            return Some(value);
+        }
+        self.unexpected(path, &raw, &span, kind);
+        None
+    }
+
     /// Two rising fractions.
     pub(super) fn interval(&mut self, path: &str) -> Option<[f64; 2]> {
         let (raw, span, kind) = self.raw(path)?;
@@ -264,7 +297,7 @@ impl Document<'_> {
                     _ => Err("from, to and step are all needed".into()),
                 }
             }
-            Raw::Other(_) => {
+            Raw::Switch(_) | Raw::Other(_) => {
                 self.unexpected(path, &raw, &span, kind);
                 return None;
             }

@@ -1,7 +1,9 @@
 //! The wishes of a design for the hull of the family `cosh`, in metres and radians.
 
+use std::ops::Range;
+
 use super::document::{Document, Raw};
-use super::keys::preset_of;
+use super::keys::{Kind, preset_of};
 use super::value::{Scalar, expected};
 use crate::parametric::ShipType;
 use crate::parametric::cosh::{MidshipWish, Wishes};
@@ -105,10 +107,21 @@ fn centre_of_buoyancy(document: &mut Document<'_>, length: f64) -> Option<f64> {
         document.unexpected(path, &raw, &span, kind);
         return None;
     };
-    let text = text.trim();
-    if text.eq_ignore_ascii_case("auto") {
+    if text.trim().eq_ignore_ascii_case("auto") {
         return None;
     }
+    position_along(document, path, text, &span, kind).map(|[share, shift]| share * length + shift)
+}
+
+/// A position along the ship, "+0.8 %" or "41.0 m AP": x = share L_PP + shift \[m\].
+pub(super) fn position_along(
+    document: &mut Document<'_>,
+    path: &str,
+    text: &str,
+    span: &Range<usize>,
+    kind: Kind,
+) -> Option<[f64; 2]> {
+    let text = text.trim();
     let (number, datum) = match text.rsplit_once(char::is_whitespace) {
         Some((number, word)) if ["ap", "fp", "midship"].contains(&word.to_ascii_lowercase().as_str()) => {
             (number, word.to_ascii_lowercase())
@@ -116,18 +129,18 @@ fn centre_of_buoyancy(document: &mut Document<'_>, length: f64) -> Option<f64> {
         _ => (text, String::new()),
     };
     match (units::parse(number), datum.as_str()) {
-        (Ok(Measure { value, dimension: Dimension::Percent }), "" | "midship") => Some((0.5 + value) * length),
-        (Ok(Measure { value, dimension: Dimension::Percent }), "ap") => Some(value * length),
-        (Ok(Measure { value, dimension: Dimension::Length }), "" | "ap") => Some(value),
-        (Ok(Measure { value, dimension: Dimension::None }), "ap") => Some(value),
-        (Ok(Measure { value, dimension: Dimension::Length }), "fp") => Some(length - value),
-        (Ok(Measure { value, dimension: Dimension::Length }), "midship") => Some(0.5 * length + value),
+        (Ok(Measure { value, dimension: Dimension::Percent }), "" | "midship") => Some([0.5 + value, 0.0]),
+        (Ok(Measure { value, dimension: Dimension::Percent }), "ap") => Some([value, 0.0]),
+        (Ok(Measure { value, dimension: Dimension::Length }), "" | "ap") => Some([0.0, value]),
+        (Ok(Measure { value, dimension: Dimension::None }), "ap") => Some([0.0, value]),
+        (Ok(Measure { value, dimension: Dimension::Length }), "fp") => Some([1.0, -value]),
+        (Ok(Measure { value, dimension: Dimension::Length }), "midship") => Some([0.5, value]),
         (Ok(_), _) => {
-            document.unexpected(path, &raw, &span, kind);
+            document.unexpected(path, &Raw::Text(text.to_owned()), span, kind);
             None
         }
         (Err(error), _) => {
-            document.problem("E123", path, &span, format!("{path}: {error}"), format!("Expected {}.", expected(kind)));
+            document.problem("E123", path, span, format!("{path}: {error}"), format!("Expected {}.", expected(kind)));
             None
         }
     }

@@ -1,6 +1,8 @@
 //! Files that other programs, or this one, read and write: one file a format. Text in, values out, and back; the file
 //! system is the business of whoever calls.
 
+mod curve;
+mod fairing;
 mod hgf;
 mod hull_json;
 mod hydrostatics;
@@ -12,6 +14,8 @@ mod section;
 mod summary;
 mod table;
 
+pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
+pub use fairing::{RoundingEffect, changes_csv, fairing_json, reached, status_word};
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};

@@ -1,6 +1,28 @@
-//! What is unfair or wrong in a table or a hull: suspects among the offsets, inflections and energies of its curves.
+//! What is unfair or wrong in a table or a hull: suspects among the offsets, lines that break, inflections and energies of its
+//! curves.
 
+pub mod bends;
+pub mod constraint;
+pub mod curve;
+pub mod fair;
+pub mod guard;
+pub mod infeasible;
+pub mod inflections;
 pub mod inspect;
+pub mod job;
+pub mod least;
+mod lines;
+pub mod metric;
+pub mod model;
+pub mod pattern;
+pub mod program;
+pub mod refresh;
+pub mod smoothing;
+pub mod surface;
 mod suspects;
 
-pub use suspects::{CellVerdict, Hypothesis, Reading, Suspect, Suspects, suspects};
+pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
+pub use suspects::{
+    CellVerdict, Hypothesis, PointNumber, PointSuspect, PointSuspects, Reading, Suspect, Suspects, height_suspects,
+    point_suspects, suspects,
+};

@@ -1,11 +1,13 @@
 //! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems and least squares.
 
 mod banded;
+mod cholesky;
 mod least_squares;
 mod quadrature;
 mod root;
 
 pub use banded::{BandedLu, SingularMatrix};
+pub use cholesky::{BandedCholesky, SymmetricBand};
 pub use least_squares::BandedLeastSquares;
 pub use quadrature::{GaussRule, gauss_legendre};
 pub use root::{RootError, bracketed_root};

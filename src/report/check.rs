@@ -9,8 +9,11 @@ use super::files::OutputFile;
 use super::source::read_table_file;
 use crate::config::{self, Diagnostic};
 use crate::exchange::{self, TableProblem, TableWriting, write_table};
-use crate::fairing::{Hypothesis, Suspect, Suspects, suspects};
-use crate::hull::{Entry, OffsetTable, Written};
+use crate::fairing::{
+    Hypothesis, PointNumber, PointSuspect, PointSuspects, ProposedLine, Reading, Suspect, Suspects, height_suspects,
+    point_suspects, proposed_lines, suspects,
+};
+use crate::hull::{Cell, Entry, OffsetTable, Written};
 use crate::plot::suspects_figure;
 
 /// Resolution of the picture \[dots per inch\].
@@ -21,7 +24,7 @@ const NAMED: usize = 3;
 const LEAST_NAMED: f64 = 0.005;
 
 /// Warnings that say how a file was read, not that a cell is wrong.
-const ABOUT_READING: [&str; 6] = ["W320", "W330", "W331", "W332", "W333", "W334"];
+const ABOUT_READING: [&str; 6] = ["W312", "W320", "W330", "W331", "W332", "W334"];
 
 /// What is wrong with a table, by rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,8 +42,14 @@ pub struct CheckProblem {
 pub struct Check {
     /// The table; none when it could not be read.
     pub table: Option<OffsetTable>,
-    /// Its suspects.
+    /// Suspects among its half-breadths.
     pub suspects: Option<Suspects>,
+    /// Suspects among its heights at buttocks; none without heights.
+    pub heights: Option<Suspects>,
+    /// Suspects among the points of its sections; none without points.
+    pub points: Option<PointSuspects>,
+    /// Knuckles and tangent lines that the offsets speak for.
+    pub lines: Vec<ProposedLine>,
     /// What breaks a rule.
     pub problems: Vec<CheckProblem>,
     /// What was detected and assumed, for the user.
@@ -61,8 +70,12 @@ pub fn check_table(path: &Path) -> Result<Check, Failure> {
                     && note.row.is_some()
                     && !ABOUT_READING.contains(&note.code)
             });
+            let found = suspects(&table);
             Ok(Check {
-                suspects: Some(suspects(&table)),
+                lines: proposed_lines(&table, &found),
+                suspects: Some(found),
+                heights: height_suspects(&table),
+                points: Some(point_suspects(&table)).filter(|_| points(&table) > 0),
                 table: Some(table),
                 problems: located.iter().map(of_table).collect(),
                 notes: general
@@ -78,6 +91,9 @@ pub fn check_table(path: &Path) -> Result<Check, Failure> {
             Ok(Check {
                 table: None,
                 suspects: None,
+                heights: None,
+                points: None,
+                lines: Vec::new(),
                 problems: errors.iter().map(of_file).collect(),
                 notes: warnings.iter().map(ToString::to_string).collect(),
             })
@@ -94,21 +110,64 @@ fn of_file(message: &Diagnostic) -> CheckProblem {
     CheckProblem { code: message.code, row: message.line, message: message.to_string() }
 }
 
+/// Which cells of a table were judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Grid {
+    HalfBreadths,
+    Heights,
+}
+
+impl Grid {
+    /// What a column of the grid is called, and where its columns stand \[m\].
+    fn columns(self, table: &OffsetTable) -> (&'static str, &[f64]) {
+        match self {
+            Self::HalfBreadths => ("waterline", &table.waterlines),
+            Self::Heights => ("buttock", &table.buttocks),
+        }
+    }
+
+    fn cell<'t>(self, table: &'t OffsetTable, suspect: &Suspect) -> Option<&'t Cell> {
+        let station = table.stations.get(suspect.station)?;
+        match self {
+            Self::HalfBreadths => station.half_breadths.get(suspect.waterline),
+            Self::Heights => station.heights.get(suspect.waterline),
+        }
+    }
+}
+
+fn verdicts(found: Option<&Suspects>) -> usize {
+    found.map_or(0, |result| result.verdicts.iter().flatten().flatten().count())
+}
+
 impl Check {
-    fn list(&self) -> &[Suspect] {
-        self.suspects.as_ref().map_or(&[], |result| &result.suspects)
+    /// The suspects among cells, half-breadths before heights.
+    fn cells(&self) -> impl Iterator<Item = (Grid, &Suspect)> {
+        let all = [(Grid::HalfBreadths, &self.suspects), (Grid::Heights, &self.heights)];
+        all.into_iter().flat_map(|(grid, found)| {
+            found.iter().flat_map(|result| &result.suspects).map(move |suspect| (grid, suspect))
+        })
     }
 
-    /// The number of offsets that were judged.
-    #[must_use]
-    pub fn judged(&self) -> usize {
-        self.suspects.as_ref().map_or(0, |result| result.verdicts.iter().flatten().flatten().count())
+    fn point_list(&self) -> &[PointSuspect] {
+        self.points.as_ref().map_or(&[], |result| &result.suspects)
     }
 
-    /// The number of points of sections in the table; these are not judged.
+    fn names(&self) -> Vec<&str> {
+        let cells = self.cells().map(|(_, suspect)| suspect.id.as_str());
+        cells.chain(self.point_list().iter().map(|suspect| suspect.id.as_str())).collect()
+    }
+
+    /// The number of half-breadths, of heights and of points that were judged.
     #[must_use]
-    pub fn points(&self) -> usize {
-        self.table.as_ref().map_or(0, points)
+    pub fn judged(&self) -> [usize; 3] {
+        let points = self.points.as_ref().map_or(0, |result| result.judged);
+        [verdicts(self.suspects.as_ref()), verdicts(self.heights.as_ref()), points]
+    }
+
+    /// The number of points of sections in the table that have too few neighbours to be judged.
+    #[must_use]
+    pub fn points_not_judged(&self) -> usize {
+        self.table.as_ref().map_or(0, points).saturating_sub(self.judged()[2])
     }
 
     /// The failure that ends the program when there are suspects or problems, those that were accepted apart.
@@ -116,7 +175,7 @@ impl Check {
     /// # Errors
     /// [`Failure::Check`].
     pub fn verdict(&self, accepted: &[String]) -> Result<(), Failure> {
-        let left = self.list().iter().filter(|suspect| !accepted.contains(&suspect.id)).count();
+        let left = self.names().iter().filter(|id| !accepted.iter().any(|a| a == *id)).count();
         if left + self.problems.len() == 0 {
             return Ok(());
         }
@@ -161,8 +220,8 @@ pub(super) fn suspects_json(table: &OffsetTable, found: &Suspects) -> Value {
     json!({ "count": found.suspects.len(), "worst": worst })
 }
 
-fn place(table: &OffsetTable, suspect: &Suspect) -> Option<Written> {
-    table.stations[suspect.station].half_breadths[suspect.waterline].written.clone()
+fn place(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> Option<Written> {
+    grid.cell(table, suspect)?.written.clone()
 }
 
 fn probability(p: f64) -> String {
@@ -174,7 +233,7 @@ fn probability(p: f64) -> String {
 pub fn check_page(check: &Check) -> String {
     let mut page = String::new();
     if let (Some(table), Some(result)) = (&check.table, &check.suspects) {
-        let judged = check.judged();
+        let [judged, heights, points] = check.judged();
         let name = if table.name.is_empty() { "table" } else { &table.name };
         page.push_str(&format!(
             "{name}: {} stations, {} waterlines, {judged} offsets judged; noise {:.2} mm\n",
@@ -182,20 +241,45 @@ pub fn check_page(check: &Check) -> String {
             table.waterlines.len(),
             1000.0 * result.noise
         ));
-        for suspect in &result.suspects {
-            page.push_str(&suspect_lines(table, suspect));
-        }
-        let points = points(table);
-        if points > 0 {
+        if let Some(found) = &check.heights {
             page.push_str(&format!(
-                "{points} points of sections are NOT judged: check knows offsets on waterlines only\n"
+                "{heights} heights at {} buttocks judged; noise {:.2} mm\n",
+                table.buttocks.len(),
+                1000.0 * found.noise
             ));
         }
-        if judged == 0 {
+        if let Some(found) = &check.points {
+            page.push_str(&format!(
+                "{points} points of sections judged along their sections; noise {:.2} mm\n",
+                1000.0 * found.noise
+            ));
+        }
+        let left = check.points_not_judged();
+        if left > 0 {
+            page.push_str(&format!("{left} points of sections are NOT judged: too few points beside them\n"));
+        }
+        for (grid, suspect) in check.cells() {
+            page.push_str(&suspect_lines(table, grid, suspect));
+        }
+        for suspect in check.point_list() {
+            page.push_str(&point_lines(table, suspect));
+        }
+        if judged + heights + points == 0 {
             page.push_str("nothing was judged; this table may hold any error\n");
-        } else if result.suspects.is_empty() {
+        } else if check.names().is_empty() {
             page.push_str("no suspects\n");
         }
+    }
+    for line in &check.lines {
+        page.push_str(&format!(
+            "{} along the {} at {:.3} m, from {:.3} to {:.3} m: declared, it explains the offsets {:.1} times better\n",
+            line.kind.as_str(),
+            line.course.as_str(),
+            line.at,
+            line.reach[0],
+            line.reach[1],
+            line.gain
+        ));
     }
     for problem in &check.problems {
         page.push_str(&problem.message);
@@ -204,14 +288,16 @@ pub fn check_page(check: &Check) -> String {
     page
 }
 
-fn suspect_lines(table: &OffsetTable, suspect: &Suspect) -> String {
+fn suspect_lines(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> String {
+    let (column, columns) = grid.columns(table);
     let verdict = &suspect.verdict;
-    let file = place(table, suspect).map(|w| format!(" (row {}, column {})", w.row, w.column)).unwrap_or_default();
+    let file =
+        place(table, grid, suspect).map(|w| format!(" (row {}, column {})", w.row, w.column)).unwrap_or_default();
     let mut text = format!(
-        "\n{:<4} station {}, waterline {:.3}{file}: {}\n     expected {:.4} m ± {:.1} mm, off by {:+.4} m = {:+.1} local noise, wrong with p {}\n",
+        "\n{:<4} station {}, {column} {:.3}{file}: {}\n     expected {:.4} m ± {:.1} mm, off by {:+.4} m = {:+.1} local noise, wrong with p {}\n",
         suspect.id,
         table.stations[suspect.station].station.name,
-        table.waterlines[suspect.waterline],
+        columns[suspect.waterline],
         suspect.written,
         verdict.expected,
         1000.0 * verdict.uncertainty,
@@ -219,11 +305,16 @@ fn suspect_lines(table: &OffsetTable, suspect: &Suspect) -> String {
         verdict.score,
         probability(suspect.probability)
     );
-    for (name, [expected, uncertainty]) in [("station", verdict.along_station), ("waterline", verdict.along_waterline)]
-    {
+    for (name, [expected, uncertainty]) in [("station", verdict.along_station), (column, verdict.along_waterline)] {
         text.push_str(&format!("     along the {name:<9} {expected:>9.4} m ± {:.1} mm\n", 1000.0 * uncertainty));
     }
-    let named = suspect.readings.iter().filter(|r| r.hypothesis != Hypothesis::Noise && r.probability >= LEAST_NAMED);
+    text + &named_readings(&suspect.readings)
+}
+
+/// The likeliest hypotheses, a line each.
+fn named_readings(readings: &[Reading]) -> String {
+    let named = readings.iter().filter(|r| r.hypothesis != Hypothesis::Noise && r.probability >= LEAST_NAMED);
+    let mut text = String::new();
     for reading in named.take(NAMED) {
         let value = if reading.text.is_empty() { format!("{:.4} m", reading.value) } else { reading.text.clone() };
         text.push_str(&format!(
@@ -235,44 +326,111 @@ fn suspect_lines(table: &OffsetTable, suspect: &Suspect) -> String {
     text
 }
 
+fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
+    let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
+    let text = format!(
+        "\n{:<4} station {}, {}: y {y:.4}, z {z:.4} m\n     \
+         {:.4} m off the section, which passes y {near_y:.4}, z {near_z:.4} m\n     \
+         {:.1} local noise, wrong with p {}\n",
+        suspect.id,
+        table.stations[suspect.station].station.name,
+        point_name(suspect),
+        suspect.distance,
+        suspect.score,
+        probability(suspect.probability)
+    );
+    text + &named_readings(&suspect.readings)
+}
+
+/// Points and branches count from 0, as in files that number them.
+fn point_name(suspect: &PointSuspect) -> String {
+    match suspect.branch {
+        0 => format!("point {}", suspect.point),
+        branch => format!("branch {branch}, point {}", suspect.point),
+    }
+}
+
 /// The check as one JSON object, keys as in the manual of the command.
 #[must_use]
 pub fn check_json(check: &Check) -> Value {
-    let suspects: Vec<Value> = match (&check.table, &check.suspects) {
-        (Some(table), Some(result)) => result.suspects.iter().map(|s| suspect_json(table, s)).collect(),
-        _ => Vec::new(),
-    };
+    let suspects: Vec<Value> = check.table.iter().flat_map(|table| all_json(check, table)).collect();
     let problems: Vec<Value> = check
         .problems
         .iter()
         .map(|problem| json!({ "code": problem.code, "row": problem.row, "message": problem.message }))
         .collect();
-    let sigma = check.suspects.as_ref().map(|result| result.noise);
-    json!({
-        "judged": check.judged(), "points_not_judged": check.points(),
-        "noise": { "sigma": sigma }, "suspects": suspects, "problems": problems, "lines": [],
-    })
-}
-
-fn suspect_json(table: &OffsetTable, suspect: &Suspect) -> Value {
-    let verdict = &suspect.verdict;
-    let file = place(table, suspect);
-    let readings: Vec<Value> = suspect
-        .readings
+    let lines: Vec<Value> = check
+        .lines
         .iter()
-        .filter(|reading| reading.probability >= 1e-6)
-        .map(|reading| {
+        .map(|line| {
             json!({
-                "hypothesis": reading.hypothesis.as_str(), "written": reading.text, "value": reading.value,
-                "probability": reading.probability,
+                "kind": line.kind.as_str(), "course": line.course.as_str(), "at": line.at, "from": line.reach[0],
+                "to": line.reach[1], "gain": line.gain,
             })
         })
         .collect();
+    let noise = |found: &Option<Suspects>| found.as_ref().map(|result| result.noise);
+    let [judged, heights, points] = check.judged();
+    json!({
+        "judged": judged, "heights_judged": heights, "points_judged": points,
+        "points_not_judged": check.points_not_judged(),
+        "noise": {
+            "sigma": noise(&check.suspects), "heights": noise(&check.heights),
+            "points": check.points.as_ref().map(|result| result.noise),
+        },
+        "suspects": suspects, "problems": problems, "lines": lines,
+    })
+}
+
+fn all_json(check: &Check, table: &OffsetTable) -> Vec<Value> {
+    let cells = check.cells().map(|(grid, suspect)| cell_json(table, grid, suspect));
+    cells.chain(check.point_list().iter().map(|suspect| point_json(table, suspect))).collect()
+}
+
+fn readings_json(readings: &[Reading]) -> Vec<Value> {
+    let told = readings.iter().filter(|reading| reading.probability >= 1e-6);
+    told.map(|reading| {
+        json!({
+            "hypothesis": reading.hypothesis.as_str(), "written": reading.text, "value": reading.value,
+            "probability": reading.probability,
+        })
+    })
+    .collect()
+}
+
+fn point_json(table: &OffsetTable, suspect: &PointSuspect) -> Value {
+    let station = &table.stations[suspect.station].station;
+    let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
+    json!({
+        "id": suspect.id, "of": "point", "station": station.x, "station_name": station.name,
+        "branch": suspect.branch, "point": suspect.point, "number": suspect.number.as_str(),
+        "written": suspect.written, "y": y, "z": z, "expected": { "y": near_y, "z": near_z },
+        "distance": suspect.distance, "noise": suspect.noise, "score": suspect.score,
+        "hypothesis": suspect.hypothesis().as_str(), "proposed": suspect.proposed,
+        "proposed_written": suspect.proposed_text, "probability": suspect.probability,
+        "hypotheses": readings_json(&suspect.readings),
+    })
+}
+
+/// A suspect among half-breadths.
+pub(super) fn suspect_json(table: &OffsetTable, suspect: &Suspect) -> Value {
+    cell_json(table, Grid::HalfBreadths, suspect)
+}
+
+fn cell_json(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> Value {
+    let verdict = &suspect.verdict;
+    let file = place(table, grid, suspect);
+    let (column, columns) = grid.columns(table);
+    let (of, along) = match grid {
+        Grid::HalfBreadths => ("half-breadth", "along_waterline"),
+        Grid::Heights => ("height", "along_buttock"),
+    };
     json!({
         "id": suspect.id,
+        "of": of,
         "station": table.stations[suspect.station].station.x,
         "station_name": table.stations[suspect.station].station.name,
-        "waterline": table.waterlines[suspect.waterline],
+        column: columns[suspect.waterline],
         "row": file.as_ref().map(|w| w.row),
         "column": file.as_ref().map(|w| w.column),
         "written": suspect.written,
@@ -282,12 +440,12 @@ fn suspect_json(table: &OffsetTable, suspect: &Suspect) -> Value {
         "noise": verdict.noise,
         "score": verdict.score,
         "along_station": { "expected": verdict.along_station[0], "uncertainty": verdict.along_station[1] },
-        "along_waterline": { "expected": verdict.along_waterline[0], "uncertainty": verdict.along_waterline[1] },
+        along: { "expected": verdict.along_waterline[0], "uncertainty": verdict.along_waterline[1] },
         "hypothesis": suspect.hypothesis().as_str(),
         "proposed": suspect.proposed,
         "proposed_written": suspect.proposed_text,
         "probability": suspect.probability,
-        "hypotheses": readings,
+        "hypotheses": readings_json(&suspect.readings),
     })
 }
 
@@ -322,10 +480,9 @@ pub struct Accepted {
 /// # Errors
 /// [`Failure::Usage`] for names that no suspect has, or where the table could not be read.
 pub fn accept(check: &Check, ids: &[String]) -> Result<Accepted, Failure> {
-    let unknown: Vec<&str> =
-        ids.iter().filter(|id| !check.list().iter().any(|s| &s.id == *id)).map(String::as_str).collect();
+    let known = check.names();
+    let unknown: Vec<&str> = ids.iter().map(String::as_str).filter(|id| !known.contains(id)).collect();
     if !unknown.is_empty() {
-        let known: Vec<&str> = check.list().iter().map(|s| s.id.as_str()).collect();
         let known =
             if known.is_empty() { "there are none".to_owned() } else { format!("there are {}", known.join(", ")) };
         return Err(Failure::Usage(format!("E203 no suspect is called {}: {known}", unknown.join(", "))));
@@ -334,22 +491,44 @@ pub fn accept(check: &Check, ids: &[String]) -> Result<Accepted, Failure> {
         return Err(Failure::Usage("E203 the table could not be read; nothing can be accepted".to_owned()));
     };
     let mut changes = Vec::new();
-    for suspect in check.list().iter().filter(|suspect| ids.contains(&suspect.id)) {
-        let line = format!(
-            "{}: station {}, waterline {:.3}: {} becomes {} ({})",
+    for (grid, suspect) in check.cells().filter(|(_, suspect)| ids.contains(&suspect.id)) {
+        let (column, columns) = grid.columns(&table);
+        changes.push(format!(
+            "{}: station {}, {column} {:.3}: {} becomes {} ({})",
             suspect.id,
             table.stations[suspect.station].station.name,
-            table.waterlines[suspect.waterline],
+            columns[suspect.waterline],
             suspect.written,
             suspect.proposed_text,
             suspect.hypothesis().as_str()
-        );
-        let cell = &mut table.stations[suspect.station].half_breadths[suspect.waterline];
+        ));
+        let station = &mut table.stations[suspect.station];
+        let cell = match grid {
+            Grid::HalfBreadths => &mut station.half_breadths[suspect.waterline],
+            Grid::Heights => &mut station.heights[suspect.waterline],
+        };
         cell.entry = Entry::Given(suspect.proposed);
         if let Some(written) = &mut cell.written {
             written.text = suspect.proposed_text.clone();
         }
-        changes.push(line);
+    }
+    for suspect in check.point_list().iter().filter(|suspect| ids.contains(&suspect.id)) {
+        let station = &mut table.stations[suspect.station];
+        changes.push(format!(
+            "{}: station {}, {}: {} {} becomes {} ({})",
+            suspect.id,
+            station.station.name,
+            point_name(suspect),
+            suspect.number.as_str(),
+            suspect.written,
+            suspect.proposed_text,
+            suspect.hypothesis().as_str()
+        ));
+        let point = &mut station.outlines[suspect.branch][suspect.point];
+        match suspect.number {
+            PointNumber::HalfBreadth => point.y = suspect.proposed,
+            PointNumber::Height => point.z = suspect.proposed,
+        }
     }
     Ok(Accepted { text: write_table(&table, TableWriting::default()).text, changes })
 }

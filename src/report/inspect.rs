@@ -8,6 +8,10 @@ use super::page::fixed;
 use crate::fairing::inspect::{CurvatureAt, CurveReport, Inspection, kind};
 use crate::hull::Cut;
 
+/// Share of a sum from which one curve rules it, and the least number of curves of which that is said.
+const RULING: f64 = 0.5;
+const RULED: usize = 4;
+
 const KINDS: [&str; 5] = ["station", "waterline", "buttock", "diagonal", "plane"];
 
 /// The position of a plane: x, z, y or the height on the centreplane \[m\]; normal and offset of any other.
@@ -24,6 +28,29 @@ fn position(cut: &Cut) -> Vec<f64> {
 fn named(cut: &Cut) -> String {
     let numbers: Vec<String> = position(cut).into_iter().map(|p| fixed(p, 3)).collect();
     format!("{:<10}{:>9}", kind(cut), numbers.join(","))
+}
+
+/// The plane in a sentence.
+fn plain(cut: &Cut) -> String {
+    named(cut).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The curve of a kind that holds more than RULING of the kind's sum of squared curvature, among RULED curves at least, and its
+/// share: a tight turn, as at the edge of a narrow flat near the ends, says more about such a sum than all other curves do.
+fn ruling<'i>(inspection: &'i Inspection, word: &str) -> Option<(&'i CurveReport, f64)> {
+    let curves = || inspection.curves.iter().filter(|curve| kind(&curve.cut) == word);
+    let sum: f64 = curves().map(|curve| curve.bending).sum();
+    let most = curves().max_by(|a, b| a.bending.total_cmp(&b.bending))?;
+    let share = most.bending / sum;
+    (curves().count() >= RULED && share > RULING).then_some((most, share))
+}
+
+/// The median of the sums of squared curvature of curves, which no single turn rules.
+fn median_bending(curves: &[&CurveReport]) -> f64 {
+    let mut list: Vec<f64> = curves.iter().map(|curve| curve.bending).collect();
+    list.sort_by(f64::total_cmp);
+    let n = list.len();
+    if n == 0 { 0.0 } else { 0.5 * (list[(n - 1) / 2] + list[n / 2]) }
 }
 
 /// Four significant digits, with a power of ten.
@@ -96,6 +123,16 @@ fn write_page(page: &mut String, name: &str, inspection: &Inspection) -> std::fm
                 total(|c| c.extrema.len()),
                 total(|c| c.flats.len()),
                 total(|c| c.knuckles.len())
+            )?;
+        }
+    }
+    for word in KINDS {
+        if let Some((curve, share)) = ruling(inspection, word) {
+            let (percent, at) = (fixed(100.0 * share, 0), places(&[curve.largest.at]));
+            writeln!(
+                page,
+                "{percent} % of int k2 of all {word}s is that of {} alone, with its turn at {at}",
+                plain(&curve.cut)
             )?;
         }
     }
@@ -190,7 +227,11 @@ pub fn inspection_json(name: &str, inspection: &Inspection) -> Value {
                 "flats": count(|c| c.flats.len()),
                 "knuckles": count(|c| c.knuckles.len()),
                 "bending_energy": of_kind.iter().map(|curve| curve.bending).sum::<f64>(),
+                "bending_energy_median": median_bending(&of_kind),
                 "variation_energy": of_kind.iter().map(|curve| curve.variation).sum::<f64>(),
+                "ruled_by": ruling(inspection, word).map(|(curve, share)| json!({
+                    "at": position(&curve.cut), "branch": curve.branch, "share": share, "turn_at": curve.largest.at,
+                })),
             });
             totals.insert(format!("{word}s"), total);
         }

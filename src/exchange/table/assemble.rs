@@ -2,7 +2,7 @@
 
 use super::checks;
 use super::grid::MOST_LINES;
-use super::header::{Axis, Corner, Place, Position, position};
+use super::header::{Axis, Coordinate, Corner, Position, position};
 use super::matrix::{Block, Line};
 use super::problem::{Field, Problems};
 use super::scale::{Size, Units, origin, units};
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
             },
             Err(error) => {
                 let code = if matches!(error, crate::units::CellError::DecimalComma { .. }) { "E308" } else { "E301" };
-                self.problems.error_at(code, field, error.to_string(), &error.remedy());
+                self.problems.error(code, field, error.to_string(), &error.remedy());
                 None
             }
         }
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
         if !good {
             let size = if value.abs() < 1e9 { format!("{value}") } else { format!("{value:e}") };
             let message = format!("a length of {size} m is no ship's; at most {LARGEST} m are read");
-            self.problems.error_at("E315", field, message, "Correct the number, or its unit");
+            self.problems.error("E315", field, message, "Correct the number, or its unit");
         }
         good
     }
@@ -101,12 +101,12 @@ impl<'a> Reader<'a> {
     /// A position across the stations \[m\].
     fn across(&self, position: Position) -> f64 {
         match position.place {
-            Place::Number(number) => self.units.z.metres(match self.settings.waterline_spacing {
+            Coordinate::Number(number) => self.units.z.metres(match self.settings.waterline_spacing {
                 Some(spacing) if position.named => return number * spacing,
                 _ => number,
             }),
-            Place::Length(length) => length,
-            Place::AftPerpendicular | Place::ForePerpendicular | Place::Midship => 0.0,
+            Coordinate::Length(length) => length,
+            Coordinate::AftPerpendicular | Coordinate::ForePerpendicular | Coordinate::Midship => 0.0,
         }
     }
 
@@ -114,14 +114,16 @@ impl<'a> Reader<'a> {
     pub(super) fn along(&self, position: Position) -> f64 {
         let lpp = self.settings.stated.length_between_perpendiculars;
         match (position.place, self.form.origin) {
-            (Place::Number(number), Origin::Lengths) => self.units.x.metres(number),
-            (Place::Number(number), Origin::Shifted { offset, sign }) => offset + sign * self.units.x.metres(number),
-            (Place::Number(number), Origin::Numbers { offset, spacing }) => offset + spacing * number,
-            (Place::Length(length), Origin::Shifted { offset, sign }) => offset + sign * length,
-            (Place::Length(length), _) => length,
-            (Place::AftPerpendicular, _) => 0.0,
-            (Place::ForePerpendicular, _) => lpp.unwrap_or(0.0),
-            (Place::Midship, _) => 0.5 * lpp.unwrap_or(0.0),
+            (Coordinate::Number(number), Origin::Lengths) => self.units.x.metres(number),
+            (Coordinate::Number(number), Origin::Shifted { offset, sign }) => {
+                offset + sign * self.units.x.metres(number)
+            }
+            (Coordinate::Number(number), Origin::Numbers { offset, spacing }) => offset + spacing * number,
+            (Coordinate::Length(length), Origin::Shifted { offset, sign }) => offset + sign * length,
+            (Coordinate::Length(length), _) => length,
+            (Coordinate::AftPerpendicular, _) => 0.0,
+            (Coordinate::ForePerpendicular, _) => lpp.unwrap_or(0.0),
+            (Coordinate::Midship, _) => 0.5 * lpp.unwrap_or(0.0),
         }
     }
 
@@ -134,7 +136,7 @@ impl<'a> Reader<'a> {
                 Err(error) => {
                     let message = format!("the header of a {what} names no position: {error}");
                     let remedy = super::settings::suggestion(field.trimmed());
-                    self.problems.error_at("E310", field, message, &remedy);
+                    self.problems.error("E310", field, message, &remedy);
                 }
             }
         }
@@ -167,7 +169,7 @@ pub(super) fn order(values: &[f64], fields: &[Field], what: &str, problems: &mut
             let twin = &fields[twin];
             let place = format!("row {}, column {}", twin.row, twin.column);
             let message = format!("a {what} at {here} m stands in {place} already ('{}')", twin.trimmed());
-            problems.error_at("E306", &fields[i], message, "Take one of them away, or correct its position");
+            problems.error("E306", &fields[i], message, "Take one of them away, or correct its position");
             good = false;
         } else if (here > before) != (order == Order::Rising) {
             let word = if order == Order::Rising { "rise" } else { "fall" };
@@ -176,7 +178,7 @@ pub(super) fn order(values: &[f64], fields: &[Field], what: &str, problems: &mut
                 fields[i].trimmed(),
                 fields[i - 1].trimmed()
             );
-            problems.error_at("E303", &fields[i], message, "Correct the position, or put the lines in order");
+            problems.error("E303", &fields[i], message, "Correct the position, or put the lines in order");
             good = false;
         }
     }
@@ -247,12 +249,7 @@ pub(super) fn assemble(
         };
         if block.across == Axis::Waterline && !table.waterlines.is_empty() {
             let message = "a second block of half-breadths".to_owned();
-            reader.problems.error_at(
-                "E306",
-                &block.corner,
-                message,
-                "Give one block of half-breadths and one of heights",
-            );
+            reader.problems.error("E306", &block.corner, message, "Give one block of half-breadths and one of heights");
             continue;
         }
         insert(&mut table, block, placed, &mut reader);
@@ -285,7 +282,7 @@ fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
     if block.stations.len().max(block.heads.len()) > MOST_LINES {
         let message =
             format!("{} stations and {} {what}s; a table has at most {MOST_LINES}", lines.len(), block.heads.len());
-        reader.problems.error_at("E312", &block.first, message, "");
+        reader.problems.error("E312", &block.first, message, "");
         return None;
     }
     let heads = reader.positions(&block.heads, what);
@@ -353,7 +350,7 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Re
         }
         let Some(at) = at else {
             let message = format!("a station at {x} m that the half-breadths do not have");
-            reader.problems.error_at("E306", &line.head, message, "Give the same stations in both blocks");
+            reader.problems.error("E306", &line.head, message, "Give the same stations in both blocks");
             continue;
         };
         let station = &mut table.stations[at];

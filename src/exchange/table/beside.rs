@@ -2,16 +2,21 @@
 
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::TableProblem;
 use super::problem::{Field, Problems};
-use super::settings::{KEYS, Settings, Value, nearest};
-use crate::hull::{FeatureLine, LineKind, TransomPlane};
+use super::ratio::slot;
+use super::settings::{KEYS, Settings, Value, length, nearest};
+use crate::hull::{FeatureLine, LineKind, StatedParticulars, TransomPlane};
 
 /// Longer files are no conventions \[bytes\].
 const LARGEST: usize = 1 << 20;
 /// The tables of the file.
 const TABLES: [&str; 4] = ["table", "endings", "transom", "line"];
+/// Where the main dimensions of a table of fractions may stand, besides the top of the file.
+const PARTICULARS: [&str; 3] = ["table", "particulars", "dimensions"];
 
 struct Beside<'a> {
     file: &'a str,
@@ -23,17 +28,7 @@ struct Beside<'a> {
 /// file of the same name, is left alone with a note.
 pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &mut Problems) {
     let mut beside = Beside { file: name, text, problems };
-    if text.len() > LARGEST {
-        let message = format!("{} bytes; conventions have at most {LARGEST}", text.len());
-        return beside.problem("", &(0..0), message, "");
-    }
-    let document = match DeTable::parse(text) {
-        Ok(document) => document,
-        Err(error) => {
-            let span = error.span().unwrap_or(0..0);
-            return beside.problem("", &span, format!("not TOML: {}", error.message()), "");
-        }
-    };
+    let Some(document) = beside.document() else { return };
     let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
     let near = |name: &str| nearest(name, TABLES.into_iter());
     let is_key = |name: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(name));
@@ -86,6 +81,34 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     }
 }
 
+/// Main dimensions of a TOML beside a table: `lpp`, `beam`, `draught`, `depth` (and `L`, `lbp`, `B`, `T`, `draft`, `D`) at its
+/// top or in `[table]`, `[particulars]` or `[dimensions]`; numbers in metres, or texts with a unit. Other keys are not looked at.
+///
+/// # Errors
+/// A text that is no TOML, and values that are no lengths, each with its place (E311).
+pub fn read_particulars(name: &str, text: &str) -> Result<StatedParticulars, Vec<TableProblem>> {
+    let mut problems = Problems::new(name);
+    let mut beside = Beside { file: name, text, problems: &mut problems };
+    let mut stated = StatedParticulars::default();
+    if let Some(document) = beside.document() {
+        beside.dimensions(document.get_ref(), &mut stated);
+        for inner in PARTICULARS.iter().filter_map(|key| document.get_ref().get(*key)) {
+            if let DeValue::Table(table) = inner.get_ref() {
+                beside.dimensions(table, &mut stated);
+            }
+        }
+    }
+    problems.finish().map(|_| stated)
+}
+
+/// What a key is set to.
+fn content(value: &DeValue<'_>) -> Value {
+    match value {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        other => number(other).map_or(Value::Other(other.type_str()), Value::Number),
+    }
+}
+
 fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(n) => i128::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
@@ -94,7 +117,36 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
     }
 }
 
-impl Beside<'_> {
+impl<'a> Beside<'a> {
+    /// The document of the text; none, with a problem, when it is too long or not TOML.
+    fn document(&mut self) -> Option<Spanned<DeTable<'a>>> {
+        if self.text.len() > LARGEST {
+            let message = format!("{} bytes; conventions have at most {LARGEST}", self.text.len());
+            self.problem("", &(0..0), message, "");
+            return None;
+        }
+        match DeTable::parse(self.text) {
+            Ok(document) => Some(document),
+            Err(error) => {
+                let span = error.span().unwrap_or(0..0);
+                self.problem("", &span, format!("not TOML: {}", error.message()), "");
+                None
+            }
+        }
+    }
+
+    /// The main dimensions among the keys of a table.
+    fn dimensions(&mut self, table: &DeTable<'_>, stated: &mut StatedParticulars) {
+        for (key, value) in table.iter().filter(|(_, value)| !matches!(value.get_ref(), DeValue::Table(_))) {
+            let name = key.get_ref().as_ref();
+            let Some(slot) = slot(stated, name) else { continue };
+            match length(name, &content(value.get_ref())) {
+                Ok(length) => *slot = Some(length),
+                Err((message, remedy)) => self.problem(name, &value.span(), message, &remedy),
+            }
+        }
+    }
+
     fn problem(&mut self, found: &str, span: &Range<usize>, message: String, remedy: &str) {
         let before = self.text.get(..span.start).unwrap_or("");
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
@@ -120,11 +172,7 @@ impl Beside<'_> {
                 self.unknown(name, &key.span(), &KEYS);
                 continue;
             };
-            let content = match value.get_ref() {
-                DeValue::String(text) => Value::Text(text.to_string()),
-                other => number(other).map_or(Value::Other(other.type_str()), Value::Number),
-            };
-            if let Err((message, remedy)) = settings.set(known, &content) {
+            if let Err((message, remedy)) = settings.set(known, &content(value.get_ref())) {
                 self.problem(name, &value.span(), message, &remedy);
             }
         }
@@ -211,5 +259,27 @@ impl Beside<'_> {
             line.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             settings.lines.push(line);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Severity;
+    use super::*;
+
+    #[test]
+    fn particulars_beside_a_table() {
+        let text = "name = 'a'\n[particulars]\nlpp = 121.92\nbeam = 16\ndraught = \"21 ft 4 in\"\nl_over_b = 7.5\n";
+        let stated = read_particulars("a.toml", text).unwrap();
+        assert_eq!(stated.length_between_perpendiculars, Some(121.92));
+        assert_eq!(stated.breadth, Some(16.0));
+        assert!((stated.draught.unwrap() - 6.5024).abs() < 1e-12);
+        assert_eq!(read_particulars("a.toml", "[table]\nT = 6.5\n").unwrap().draught, Some(6.5));
+        let problems = read_particulars("a.toml", "lpp = -1\nB = 'x'\n").unwrap_err();
+        assert!(problems.iter().all(|p| p.code == "E311" && p.severity == Severity::Error));
+        let rows: Vec<_> = problems.iter().map(|p| (p.row, p.found.as_str())).collect();
+        assert_eq!(rows, [(Some(1), "lpp"), (Some(2), "B")]);
+        let problems = read_particulars("a.toml", "a = 1\nb = = 2\n").unwrap_err();
+        assert_eq!((problems[0].code, problems[0].row), ("E311", Some(2)));
     }
 }

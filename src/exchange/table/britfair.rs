@@ -3,8 +3,9 @@
 //! Name; number of hulls; per section `n x x` and n lines `y z`, then `0`; at the end `0 0 0`. A section that gives both sides
 //! is cut at the centreplane and its starboard (y > 0) half is taken. Written with six decimals.
 
-use super::fields::{Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, lines};
 use super::outline::{joined, point, section_of};
+use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
@@ -34,16 +35,16 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         Some(line) if line.fields.len() == 1 => {
             if problems.count(line.fields[0], "the number of hulls", 1).is_some_and(|n| n > 1) {
                 let message = format!("{} hulls; the first is read", line.text);
-                problems.note("W332", Place::row(line.row), message, "");
+                problems.warning("W332", Place::row(line.row), message, "");
             }
         }
         Some(line) => {
             let message = "the second line is the number of hulls".to_owned();
-            problems.error("E326", Place::row(line.row), line.text, message, "Write 1.");
+            problems.error("E326", (Place::row(line.row), line.text), message, "Write 1.");
         }
         None => {
             let message = "the file ends after its name".to_owned();
-            problems.error("E324", Place::FILE, "", message, "Was it cut off?");
+            problems.error("E324", Place::FILE, message, "Was it cut off?");
         }
     }
     let mut sections: Vec<Section> = Vec::new();
@@ -57,8 +58,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             let message = "a section begins with its number of points and x twice".to_owned();
             problems.error(
                 "E326",
-                place,
-                head.text,
+                (place, head.text),
                 message,
                 "Is the number of points of the section before it right?",
             );
@@ -79,7 +79,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         if let (Some(a), Some(b)) = (at, problems.length(repeated, "x"))
             && (a - b).abs() > 1e-9
         {
-            problems.note("W334", repeated.place, format!("x is written as {a} and as {b}; the first is taken"), "");
+            problems.warning(
+                "W334",
+                repeated.place(),
+                format!("x is written as {a} and as {b}; the first is taken"),
+                "",
+            );
         }
         let mut points = points(&rows, &mut index, count, head, &mut problems);
         let x = at.unwrap_or(0.0);
@@ -96,10 +101,10 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     }
     if !ended {
         let message = "the file ends without '0 0 0'".to_owned();
-        problems.error("E324", Place::FILE, "", message, "Was it cut off? End it with a line '0 0 0'.");
+        problems.error("E324", Place::FILE, message, "Was it cut off? End it with a line '0 0 0'.");
     } else if let Some(line) = rows.get(index) {
         let message = format!("what follows '0 0 0', {} lines, is not read", rows.len() - index);
-        problems.note("W332", Place::row(line.row), message, "");
+        problems.warning("W332", Place::row(line.row), message, "");
     }
     note_asymmetry(&gaps, &mut problems);
     let stated = StatedParticulars::default();
@@ -125,14 +130,14 @@ fn points(
     }
     if let Some(count) = count.filter(|&count| count != found) {
         let message = format!("the section announces {count} points, {found} follow");
-        problems.error("E322", Place::row(head.row), head.text, message, "Correct the count, or the points.");
+        problems.error("E322", (Place::row(head.row), head.text), message, "Correct the count, or the points.");
     }
     match rows.get(*index).map(|line| (&line.fields[..], line.row)) {
         Some(([zero], _)) if super::fields::plain_number(zero.text).is_some_and(|v| v.abs() < 1e-12) => *index += 1,
         other => {
             let place = other.map_or(Place::row(head.row), |(_, row)| Place::row(row));
             let message = format!("'0' should end the section of row {}", head.row);
-            problems.error("E324", place, "", message, "Put a line '0' after its last point.");
+            problems.error("E324", place, message, "Put a line '0' after its last point.");
             if other.is_some_and(|(fields, _)| fields.len() == 1) {
                 *index += 1;
             }

@@ -1,13 +1,9 @@
 //! Checks of a table as a whole. A cell that is merely suspicious is not an error of reading.
 
 use super::assemble::{Reader, SAME};
-use super::problem::{Field, Problems};
+use super::problem::{Field, Place, Problems};
 use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable};
-
-fn place(cell: &Cell) -> Field {
-    cell.written.as_ref().map(|w| Field { text: w.text.clone(), row: w.row, column: w.column }).unwrap_or_default()
-}
 
 /// Half-breadths are all positive, or all negative (starboard): then their sign is turned.
 pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
@@ -35,7 +31,7 @@ pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
                     station.station.name
                 );
                 let remedy = "Half-breadths are distances from the centreplane: give them all the same sign";
-                reader.problems.error_at("E309", &place(cell), message, remedy);
+                reader.problems.error("E309", &Field::of_cell(cell), message, remedy);
             }
         }
     }
@@ -47,7 +43,7 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
         for &[z, x] in points {
             let Some(at) = table.waterlines.iter().position(|w| (w - z).abs() < SAME) else {
                 let message = format!("[endings] gives x {x} m at the height {z} m, where the table has no waterline");
-                problems.error("E311", message, "Give the profiles at the heights of the waterlines");
+                problems.error("E311", Place::FILE, message, "Give the profiles at the heights of the waterlines");
                 continue;
             };
             if table.endings.is_empty() {
@@ -68,17 +64,22 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     let given = offsets.filter(|cell| cell.value().is_some()).count();
     let outlines = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
     if given + outlines == 0 {
-        problems.error("E313", "the table has no offset at all".to_owned(), "");
+        problems.error("E313", Place::FILE, "the table has no offset at all".to_owned(), "");
     }
     if !table.endings.iter().any(|e| e.iter().any(Option::is_some)) && !table.waterlines.is_empty() {
         let message = "no profiles of stem and stern; the ends of the waterlines will be extrapolated".to_owned();
-        problems.warning("W306", message, "Give rows 'stern' and 'stem' below the half-breadths, or [endings]");
+        problems.warning(
+            "W306",
+            Place::FILE,
+            message,
+            "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
+        );
     }
     if let Some(draught) = table.stated.draught {
         let below = table.waterlines.iter().filter(|&&z| z <= draught + SAME).count();
         if (1..6).contains(&below) {
             let message = format!("only {below} waterlines up to T {draught} m: volumes from this table are coarse");
-            problems.warning("W307", message, "");
+            problems.warning("W307", Place::FILE, message, "");
         }
     }
 }
@@ -98,7 +99,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
             "T is stated as {draught} m, and the table ends {top:.3} m above the base line, {:.3} m below it",
             draught - top
         );
-        problems.warning("W308", message, "Correct T, or give the waterlines up to it");
+        problems.warning("W308", Place::FILE, message, "Correct T, or give the waterlines up to it");
     }
     // Above the draught a hull may flare beyond its moulded breadth.
     let limit = stated.draught.map_or(f64::INFINITY, |draught| draught * 1.001 + SAME);
@@ -115,7 +116,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
                 "B is stated as {breadth} m, and twice the largest half-breadth is {found:.3} m: {:+.1} %",
                 100.0 * (found / breadth - 1.0)
             );
-            problems.warning("W309", message, "Correct B, or the unit of the half-breadths");
+            problems.warning("W309", Place::FILE, message, "Correct B, or the unit of the half-breadths");
         }
     }
     let xs = || table.stations.iter().map(|s| s.station.x);
@@ -128,7 +129,12 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
             "L_PP is stated as {length} m, and the stations extend over {:.3} m, from x = {low:.3} to {high:.3} m",
             high - low
         );
-        problems.warning("W310", message, "Correct Lpp, or the unit, the spacing or the number of the stations");
+        problems.warning(
+            "W310",
+            Place::FILE,
+            message,
+            "Correct Lpp, or the unit, the spacing or the number of the stations",
+        );
     }
 }
 
@@ -144,13 +150,13 @@ fn breadths(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
             "{beyond} half-breadths exceed B/2 = {half:.2} by up to {:.2} m: the table seems to hold full breadths",
             largest - half
         );
-        problems.error("E304", message, "Use breadths = \"full\"");
+        problems.error("E304", Place::FILE, message, "Use breadths = \"full\"");
     }
     if full == Some(true) && largest > 0.0 && largest < 0.6 * half {
         let message = format!(
             "breadths are declared full, but half of the largest of them is {largest:.2} m and B/2 is {half:.2} m: the table \
              seems to hold half-breadths"
         );
-        problems.error("E304", message, "Use breadths = \"half\"");
+        problems.error("E304", Place::FILE, message, "Use breadths = \"half\"");
     }
 }

@@ -7,7 +7,8 @@
 //! deck at each station, height of the contour at each station, x of the aft and of the forward contour at each waterline,
 //! half-breadth of the flat of bottom at each station. A note says so. `-` and `*` are cells without hull. Read only.
 
-use super::fields::{Field, Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, finish, lines};
+use super::problem::{Field, Place, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
@@ -39,12 +40,12 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 
 /// The fields after the head.
 struct Stream<'a> {
-    fields: Vec<Field<'a>>,
+    fields: Vec<Field<&'a str>>,
     next: usize,
 }
 
 impl<'a> Stream<'a> {
-    fn take(&mut self, count: usize) -> Option<&[Field<'a>]> {
+    fn take(&mut self, count: usize) -> Option<&[Field<&'a str>]> {
         let block = self.fields.get(self.next..self.next.checked_add(count)?)?;
         self.next += count;
         Some(block)
@@ -58,11 +59,11 @@ impl<'a> Stream<'a> {
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
     let rows = rows(text);
-    let head: Vec<Field<'_>> = rows.iter().take(HEAD).filter_map(|line| line.fields.first().copied()).collect();
+    let head: Vec<Field<&str>> = rows.iter().take(HEAD).filter_map(|line| line.fields.first().copied()).collect();
     let [waterlines, stations, flags @ .., length, beam, draught] = &head[..] else {
         let message = format!("the head has {} of {HEAD} lines", head.len());
-        problems.error("E324", Place::FILE, "", message, "Was the file cut off?");
-        return problems.finish(None);
+        problems.error("E324", Place::FILE, message, "Was the file cut off?");
+        return finish(problems, None);
     };
     let counts = (
         problems.count(*waterlines, "the number of waterlines", 1),
@@ -81,7 +82,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             Some(flag) if flag <= 1 => *given = flag == 1,
             Some(_) => {
                 let message = format!("{what} is 0 or 1");
-                problems.error("E326", field.place, field.text, message, "");
+                problems.error("E326", field, message, "");
             }
             None => {}
         }
@@ -92,10 +93,10 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     {
         *value = problems.number(*field, what);
         if let Some(v) = value.filter(|v| *v <= 0.0) {
-            problems.error("E327", field.place, field.text, format!("{what} is {v} m"), "It must be above 0.");
+            problems.error("E327", field, format!("{what} is {v} m"), "It must be above 0.");
         }
     }
-    let (Some(n), Some(m)) = counts else { return problems.finish(None) };
+    let (Some(n), Some(m)) = counts else { return finish(problems, None) };
     let stream = Stream { fields: rows.iter().skip(HEAD).flat_map(|line| line.fields.clone()).collect(), next: 0 };
     let stations_at = m.saturating_mul(usize::from(given[4]) + usize::from(given[1]) + 2 * usize::from(given[0]));
     let waterlines_at = n.saturating_mul(usize::from(given[2]) + usize::from(given[3]));
@@ -110,14 +111,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             "{n} waterlines, {m} stations and these flags make {wanted} numbers after the head; {} follow",
             stream.fields.len()
         );
-        problems.error(
-            "E322",
-            waterlines.place,
-            waterlines.text,
-            message,
-            "Correct the counts, the flags or the rows.",
-        );
-        return problems.finish(None);
+        problems.error("E322", waterlines, message, "Correct the counts, the flags or the rows.");
+        return finish(problems, None);
     }
     let by_waterline = rows
         .iter()
@@ -135,11 +130,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
          for each {}, then what the flags announce in their order",
         if by_waterline { "waterline" } else { "station" }
     );
-    problems.note("W334", Place::row(rows.get(HEAD).map_or(HEAD, |line| line.row)), message, "");
+    problems.warning("W334", Place::row(rows.get(HEAD).map_or(HEAD, |line| line.row)), message, "");
     let [length, breadth, draught] = main;
     let stated = StatedParticulars { length_between_perpendiculars: length, breadth, draught, depth: None };
     let form = TableForm { layout: TableLayout::Other, decimals: Some(problems.decimals), ..TableForm::default() };
-    problems.finish(table.map(|table| OffsetTable { stated, form, ..table }))
+    finish(problems, table.map(|table| OffsetTable { stated, form, ..table }))
 }
 
 fn blocks(
@@ -187,35 +182,31 @@ fn blocks(
 }
 
 /// Numbers that must rise.
-fn rising(fields: &[Field<'_>], what: &str, problems: &mut Problems) -> Vec<f64> {
+fn rising(fields: &[Field<&str>], what: &str, problems: &mut Problems) -> Vec<f64> {
     let values: Vec<f64> = fields.iter().map(|field| problems.length(*field, what).unwrap_or(f64::NAN)).collect();
     for (pair, field) in values.windows(2).zip(&fields[1..]) {
         if pair[1] <= pair[0] {
             let message = format!("{what}: {} after {}", pair[1], pair[0]);
-            problems.error("E323", field.place, field.text, message, "They must rise.");
+            problems.error("E323", field, message, "They must rise.");
         }
     }
     values
 }
 
-fn absent(field: Field<'_>) -> bool {
+fn absent(field: Field<&str>) -> bool {
     matches!(field.text, "-" | "*")
 }
 
-fn optional(field: Field<'_>, what: &str, problems: &mut Problems) -> Option<f64> {
+fn optional(field: Field<&str>, what: &str, problems: &mut Problems) -> Option<f64> {
     if absent(field) { None } else { problems.length(field, what) }
 }
 
-fn cell(field: Field<'_>, problems: &mut Problems) -> Cell {
+fn cell(field: Field<&str>, problems: &mut Problems) -> Cell {
     let entry = optional(field, "the half-breadth", problems).map_or(Entry::Absent, Entry::Given);
     if matches!(entry, Entry::Given(y) if y < 0.0) {
         let message = "a half-breadth is negative".to_owned();
-        problems.error("E325", field.place, field.text, message, "Write - where there is no hull.");
+        problems.error("E325", field, message, "Write - where there is no hull.");
     }
-    let written = Written {
-        text: field.text.to_owned(),
-        row: field.place.row.unwrap_or(0),
-        column: field.place.column.unwrap_or(0),
-    };
+    let written = Written { text: field.text.to_owned(), row: field.row, column: field.column };
     Cell { entry, marks: Marks::default(), written: Some(written) }
 }

@@ -1,6 +1,7 @@
 //! The text formats of other programs, in the order in which they are tried.
 
 use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
+use super::problem::{Place, Problems};
 use super::{ReadTable, TableProblem, britfair, delftship, freeship, ghs, pdstrip, pias, points, ratio, seaway};
 use crate::hull::{OffsetTable, Program};
 
@@ -35,7 +36,7 @@ pub(super) fn read(
     let text = String::from_utf8_lossy(bytes);
     let read = recognised(name, &text, beside)?;
     Some(read.map(|mut read| {
-        let mut problems = super::problem::Problems::new(name);
+        let mut problems = Problems::new(name);
         super::checks::particulars(&read.table, &mut problems);
         read.notes.extend(problems.finish().unwrap_or_default());
         read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));
@@ -46,14 +47,14 @@ pub(super) fn read(
 /// The table in a text of one of the formats.
 fn recognised(name: &str, text: &str, beside: Option<(&str, &str)>) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     if let Some((beside, particulars)) = beside.filter(|_| ratio::recognise(name, text)) {
-        let stated = ratio::read_particulars(beside, particulars);
+        let stated = super::beside::read_particulars(beside, particulars);
         return Some(stated.and_then(|stated| ratio::read_with(name, text, &stated)));
     }
     let (_, read, program) = FORMATS.iter().find(|(recognise, _, _)| recognise(name, text))?;
     let fields = text.split([' ', '\t', ',', ';']).take(2 * MOST_CELLS + 1).filter(|part| !part.is_empty()).count();
     if text.lines().take(MOST_ROWS + 1).count() > MOST_ROWS || fields > MOST_CELLS {
-        let mut problems = super::problem::Problems::new(name);
-        problems.error("E312", format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
+        let mut problems = Problems::new(name);
+        problems.error("E312", Place::FILE, format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
         return Some(Err(problems.finish().err().unwrap_or_default()));
     }
     Some(read(name, text).map(|mut read| {

@@ -5,8 +5,9 @@
 //! each becomes a knuckle of the table, and sections stand at every x of their points, straight between the chines, the
 //! chines straight between their points. Round hulls are written with five decimals.
 
-use super::fields::{Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, finish, lines};
 use super::outline::{joined, point, section_of};
+use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{FeatureLine, LineKind, Marks, OffsetTable, OutlinePoint, StatedParticulars};
@@ -35,8 +36,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let mut problems = Problems::new(name);
     let rows = lines(text, Separator::Blank);
     let curves = curves(&rows, &mut problems);
-    if problems.has_errors() {
-        return problems.finish(None);
+    if problems.any_errors() {
+        return finish(problems, None);
     }
     let flat = |curve: &&Curve| curve.points.iter().all(|p| (p[0] - curve.points[0][0]).abs() <= SAME_X);
     let sections: Vec<&Curve> = curves.iter().filter(flat).collect();
@@ -47,9 +48,9 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         for curve in curves.iter().filter(|curve| !flat(curve)) {
             let (low, high) = range(curve);
             let message = format!("the section runs from x = {low} to {high} m; the others stand at one x each");
-            problems.error("E323", Place::row(curve.row), "", message, "Is a blank line missing, or a number wrong?");
+            problems.error("E323", Place::row(curve.row), message, "Is a blank line missing, or a number wrong?");
         }
-        return problems.finish(None);
+        return finish(problems, None);
     }
     chines(&curves, problems)
 }
@@ -75,7 +76,7 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
         other => {
             let (row, text) = other.map_or((1, ""), |line| (line.row, line.text));
             let message = "the first line is the precision, one whole number".to_owned();
-            problems.error("E326", Place::row(row), text, message, "Write 0.");
+            problems.error("E326", (Place::row(row), text), message, "Write 0.");
         }
     }
     // The program's own files end with a line EOF.
@@ -86,7 +87,7 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
         }
         let [x, y, z] = line.fields[..] else {
             let message = format!("{} fields; a point is x, y, z", line.fields.len());
-            problems.error("E326", Place::row(line.row), line.text, message, "Write three numbers.");
+            problems.error("E326", (Place::row(line.row), line.text), message, "Write three numbers.");
             continue;
         };
         if !open {
@@ -98,8 +99,8 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
             curve.points.push([x, y, z]);
         }
     }
-    if curves.is_empty() && !problems.has_errors() {
-        problems.error("E328", Place::FILE, "", "the file has no points".to_owned(), "");
+    if curves.is_empty() && !problems.any_errors() {
+        problems.error("E328", Place::FILE, "the file has no points".to_owned(), "");
     }
     curves
 }
@@ -124,7 +125,7 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
     let count: usize = curves.iter().map(|curve| curve.points.len()).sum();
     if curves.len() > MOST_CHINES || count > MOST_POINTS {
         let message = format!("{} chines with {count} points; at most {MOST_CHINES} and {MOST_POINTS}", curves.len());
-        problems.error("E320", Place::FILE, "", message, "Are these sections, with x that varies?");
+        problems.error("E312", Place::FILE, message, "Are these sections, with x that varies?");
     }
     let mut lines: Vec<FeatureLine> = Vec::new();
     for (k, curve) in curves.iter().enumerate() {
@@ -138,12 +139,12 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1][0] < pair[0][0]) {
             let message = format!("chine {}: x = {} m after {} m", k + 1, pair[1][0], pair[0][0]);
-            problems.error("E323", place, "", message, "Points of a chine run along the ship.");
+            problems.error("E323", place, message, "Points of a chine run along the ship.");
         }
         lines.push(FeatureLine { name: format!("chine {}", k + 1), kind: LineKind::Knuckle, points });
     }
-    if problems.has_errors() {
-        return problems.finish(None);
+    if problems.any_errors() {
+        return finish(problems, None);
     }
     let mut positions: Vec<f64> = curves.iter().flat_map(|curve| &curve.points).map(|p| p[0]).collect();
     positions.sort_by(f64::total_cmp);
@@ -172,7 +173,7 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
         .collect();
     let message =
         format!("{} chines: sections at {} x are made of straight lines between them", lines.len(), sections.len());
-    problems.note("W334", Place::FILE, message, "");
+    problems.warning("W334", Place::FILE, message, "");
     let first = sections.first().map_or(0.0, |section| section.x);
     let mut read = table(body(sections), problems)?;
     // The table may have been moved to AP; its lines move with it.

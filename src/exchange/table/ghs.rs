@@ -7,8 +7,9 @@
 //!
 //! Limits: shell thickness of shapes is not applied. Written are half sections of side 0 in 1e-4 ft (0.03 mm).
 
-use super::fields::{Field, Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, finish, lines};
 use super::outline::{Deck, joined, point, section_of, take_off_deck};
+use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
@@ -97,11 +98,11 @@ impl<'a> Reader<'a> {
             Some(text) if text == mark => self.next += 1,
             Some(text) => {
                 let message = format!("'{mark}' should end {block}");
-                problems.error("E324", place, text, message, &format!("Put a line '{mark}' before this one."));
+                problems.error("E324", (place, text), message, &format!("Put a line '{mark}' before this one."));
             }
             None => {
                 let message = format!("the file ends before '{mark}', which ends {block}");
-                problems.error("E324", place, "", message, "Was the file cut off?");
+                problems.error("E324", place, message, "Was the file cut off?");
             }
         }
     }
@@ -122,12 +123,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let named: usize = parts.iter().map(|part| 1 + part.components.len()).sum();
     if shapes.len().max(components.len()).max(named) > MOST_NAMES {
         let message = format!("more than {MOST_NAMES} shapes, components or parts");
-        problems.error("E320", Place::FILE, "", message, "Keep those of the hull.");
+        problems.error("E312", Place::FILE, message, "Keep those of the hull.");
     }
-    if problems.has_errors() {
-        return problems.finish(None);
+    if problems.any_errors() {
+        return finish(problems, None);
     }
-    let Some(component) = hull(&shapes, &components, &parts, &mut problems) else { return problems.finish(None) };
+    let Some(component) = hull(&shapes, &components, &parts, &mut problems) else { return finish(problems, None) };
     let sections = sections(component, &shapes, &mut problems);
     let stated = StatedParticulars { length_between_perpendiculars: length.map(|l| l * FOOT), ..Default::default() };
     table(Body { name: title.to_owned(), stated, sections, origin: Origin::Unknown, unit: FOOT }, problems)
@@ -139,14 +140,16 @@ fn header(reader: &mut Reader<'_>, problems: &mut Problems) -> Option<f64> {
     while let Some(line) = reader.data() {
         let place = Place::row(line.row);
         match line.text.split_once(':') {
-            Some(("L", value)) => length = problems.number(Field { text: value.trim(), place }, "the length L"),
+            Some(("L", value)) => {
+                length = problems.number(Field { text: value.trim(), row: line.row, column: 0 }, "the length L")
+            }
             Some(("W" | "P" | "N" | "O" | "OL" | "OT" | "OV" | "V" | "D" | "C", _)) => {}
             Some((key, _)) => {
-                problems.note("W334", place, format!("the line '{}:' is not used", key.trim()), "");
+                problems.warning("W334", place, format!("the line '{}:' is not used", key.trim()), "");
             }
             None => {
                 let message = "lines between the title and '*' are KEY:value".to_owned();
-                problems.error("E326", place, line.text, message, "Put '*' before the first shape.");
+                problems.error("E326", (place, line.text), message, "Put '*' before the first shape.");
             }
         }
     }
@@ -164,8 +167,8 @@ fn shapes<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Shape<'a>
         }
     }
     reader.mark("**", "the shapes", problems);
-    if shapes.is_empty() && !problems.has_errors() {
-        problems.error("E328", Place::FILE, "", "the file has no shapes".to_owned(), "");
+    if shapes.is_empty() && !problems.any_errors() {
+        problems.error("E328", Place::FILE, "the file has no shapes".to_owned(), "");
     }
     shapes
 }
@@ -176,7 +179,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         let place = reader.place();
         let found = reader.peek().map_or("", |line| line.text);
         let message = format!("{what} expected");
-        problems.error("E322", place, found, message, "Is the count before it right?");
+        problems.error("E322", (place, found), message, "Is the count before it right?");
     };
     let Some(line) = reader.data() else {
         missing(&format!("shape '{name}': number of sections"), reader, problems);
@@ -185,7 +188,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
     if line.fields.len() != 1 {
         let message = format!("shape '{name}': number of sections expected, one number");
         let remedy = "Is the number of sections of the shape before it, or of the points of its last section, right?";
-        problems.error("E322", Place::row(line.row), line.text, message, remedy);
+        problems.error("E322", (Place::row(line.row), line.text), message, remedy);
         return None;
     }
     let announced = problems.count(line.fields[0], "the number of sections", 1)?;
@@ -203,7 +206,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         });
         let [x, count] = head.fields[..] else {
             let message = format!("section {} of '{name}': x and number of points expected{blame}", k + 1);
-            problems.error("E322", Place::row(head.row), head.text, message, "Is the count before it right?");
+            problems.error("E322", (Place::row(head.row), head.text), message, "Is the count before it right?");
             return None;
         };
         let x = problems.length(x, "x of the section");
@@ -218,7 +221,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
             let [y, z] = line.fields[..] else {
                 let message = format!("point {} of {count}: y, z expected", i + 1);
                 let remedy = format!("Is the number of points in row {} right?", head.row);
-                problems.error("E322", Place::row(line.row), line.text, message, &remedy);
+                problems.error("E322", (Place::row(line.row), line.text), message, &remedy);
                 return None;
             };
             if let (Some(y), Some(z)) = (problems.length(y, "y"), problems.length(z, "z")) {
@@ -232,7 +235,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         && let Some(line) = reader.take()
         && triple(&line).is_some_and(|t| t.iter().any(|v| v.abs() > 0.0))
     {
-        problems.note(
+        problems.warning(
             "W334",
             Place::row(line.row),
             format!("the three numbers after shape '{name}' are not applied"),
@@ -244,7 +247,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
 
 fn triple(line: &Line<'_>) -> Option<[f64; 3]> {
     let [a, b, c] = line.fields[..] else { return None };
-    let number = |field: Field<'_>| super::fields::plain_number(field.text);
+    let number = |field: Field<&str>| super::fields::plain_number(field.text);
     Some([number(a)?, number(b)?, number(c)?])
 }
 
@@ -258,7 +261,7 @@ fn components<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Compo
                 Some(line) => found.push(line),
                 None => {
                     let message = format!("component '{}': {what} expected", title.text);
-                    problems.error("E322", reader.place(), "", message, "A component has five lines.");
+                    problems.error("E322", reader.place(), message, "A component has five lines.");
                     break;
                 }
             }
@@ -268,7 +271,7 @@ fn components<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Compo
         let shift = triple(offset);
         if shift.is_none() {
             let message = format!("component '{}': offset x, y, z expected", title.text);
-            problems.error("E322", Place::row(offset.row), offset.text, message, "Write three numbers with commas.");
+            problems.error("E322", (Place::row(offset.row), offset.text), message, "Write three numbers with commas.");
         }
         components.push(Component {
             name: title.text,
@@ -290,7 +293,7 @@ fn parts<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Part<'a>> 
         for k in 0..5 {
             let Some(line) = reader.data() else {
                 let message = format!("part '{}': six lines and its components expected", title.text);
-                problems.error("E322", reader.place(), "", message, "");
+                problems.error("E322", reader.place(), message, "");
                 break;
             };
             if k == 4 {
@@ -304,7 +307,7 @@ fn parts<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Part<'a>> 
                 Some(line) => components.push(line.text),
                 None => {
                     let message = format!("part '{}' announces {count} components, the file has {k}", title.text);
-                    problems.error("E322", reader.place(), "", message, "Correct the count.");
+                    problems.error("E322", reader.place(), message, "Correct the count.");
                     break;
                 }
             }
@@ -329,23 +332,23 @@ fn hull<'c, 'a>(
         for name in &part.components {
             if !components.iter().any(|c| c.name == *name) {
                 let message = format!("part '{}' has a component that the file does not define", part.name);
-                problems.error("E326", Place::row(part.row), name, message, "Check the name.");
+                problems.error("E326", (Place::row(part.row), *name), message, "Check the name.");
             }
         }
     }
     for component in components {
         if !shapes.iter().any(|s| s.name == component.shape) {
             let message = format!("component '{}' has a shape that the file does not define", component.name);
-            problems.error("E326", Place::row(component.row), component.shape, message, "Check the name.");
+            problems.error("E326", (Place::row(component.row), component.shape), message, "Check the name.");
         }
     }
     let named = |wanted: fn(&str) -> bool| parts.iter().find(|p| wanted(&p.name.to_ascii_uppercase()));
     let Some(part) = named(|n| n == "HULL").or_else(|| named(|n| n.contains("HULL"))).or(parts.first()) else {
-        problems.error("E328", Place::FILE, "", "the file has no parts".to_owned(), "A part HULL is needed.");
+        problems.error("E328", Place::FILE, "the file has no parts".to_owned(), "A part HULL is needed.");
         return None;
     };
     for other in parts.iter().filter(|other| other.row != part.row) {
-        problems.note("W332", Place::row(other.row), format!("part '{}' is left out", other.name), "");
+        problems.warning("W332", Place::row(other.row), format!("part '{}' is left out", other.name), "");
     }
     let mut best: Option<(usize, &Component<'_>)> = None;
     let mut left_out = Vec::new();
@@ -365,7 +368,7 @@ fn hull<'c, 'a>(
     }
     for (component, shape) in &left_out {
         let text = describe(component, shape);
-        problems.note(
+        problems.warning(
             "W332",
             Place::row(component.row),
             format!("component '{}' is left out: {text}", component.name),
@@ -377,7 +380,7 @@ fn hull<'c, 'a>(
         let message =
             format!("no component of part '{}' is a hull over the centreplane; {}", part.name, all.join("; "));
         let remedy = "A half section needs side 0; a loop must go around both sides.";
-        problems.error("E328", Place::row(part.row), part.name, message, remedy);
+        problems.error("E328", (Place::row(part.row), part.name), message, remedy);
         return None;
     };
     Some(hull)
@@ -436,7 +439,7 @@ fn sections(component: &Component<'_>, shapes: &[Shape<'_>], problems: &mut Prob
         };
         if branches.iter().flatten().count() == 0 {
             let message = format!("the section at x = {} ft has no breadth on a side", section.x);
-            problems.error("E328", place, "", message, "");
+            problems.error("E328", place, message, "");
         }
         let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
         sections.push(Section { name: None, x, place, branches, deck });

@@ -25,7 +25,7 @@ impl Axis {
 
 /// Where a line lies, as it was written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum Coordinate {
     /// A plain number, in the unit of the table or a station number.
     Number(f64),
     /// A length \[m\] with its own unit.
@@ -38,7 +38,7 @@ pub(super) enum Place {
 /// A header that names a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Position {
-    pub(super) place: Place,
+    pub(super) place: Coordinate,
     /// What the words beside it say.
     pub(super) axis: Option<Axis>,
     /// Only a number after a word, as `WL 3`: a name or a height.
@@ -194,11 +194,11 @@ impl Corner {
 }
 
 /// What a text without words writes.
-fn number(text: &str) -> Result<Place, UnitError> {
+fn number(text: &str) -> Result<Coordinate, UnitError> {
     let measure = parse(text)?;
     match measure.dimension {
-        Dimension::None => Ok(Place::Number(measure.value)),
-        Dimension::Length => Ok(Place::Length(measure.value)),
+        Dimension::None => Ok(Coordinate::Number(measure.value)),
+        Dimension::Length => Ok(Coordinate::Length(measure.value)),
         other => Err(UnitError::Kind { text: text.to_owned(), found: other.as_str(), expected: "a length" }),
     }
 }
@@ -213,9 +213,9 @@ pub(super) fn position(text: &str, decimal_comma: bool) -> Result<Position, Unit
     let text = if decimal_comma { replaced.as_str() } else { text };
     let axis = axis_of(text);
     match text.to_lowercase().replace('.', "").as_str() {
-        "ap" => return Ok(Position { place: Place::AftPerpendicular, axis, named: false }),
-        "fp" => return Ok(Position { place: Place::ForePerpendicular, axis, named: false }),
-        "midship" | "midships" | "amidships" => return Ok(Position { place: Place::Midship, axis, named: false }),
+        "ap" => return Ok(Position { place: Coordinate::AftPerpendicular, axis, named: false }),
+        "fp" => return Ok(Position { place: Coordinate::ForePerpendicular, axis, named: false }),
+        "midship" | "midships" | "amidships" => return Ok(Position { place: Coordinate::Midship, axis, named: false }),
         _ => {}
     }
     // A length in brackets, or after = or @, is the position; what stands before it is a name.
@@ -262,34 +262,34 @@ fn unbracketed(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn place(text: &str) -> Place {
+    fn place(text: &str) -> Coordinate {
         position(text, false).unwrap().place
     }
 
     #[test]
     fn positions_of_every_writing() {
-        assert_eq!(place("1.5"), Place::Number(1.5));
-        assert_eq!(place(" -3.25 "), Place::Number(-3.25));
-        assert_eq!(place("1.50 m"), Place::Length(1.5));
-        assert_eq!(place("1.50 [m]"), Place::Length(1.5));
-        assert_eq!(place("WL 3 (1.50 m)"), Place::Length(1.5));
-        assert_eq!(place("WL 3 (1.50)"), Place::Number(1.5));
-        assert_eq!(place("WL 3 (z = 1.50 m)"), Place::Length(1.5));
-        assert_eq!(place("z = 1.5"), Place::Number(1.5));
-        assert_eq!(place("station 7 @ 14.7 m"), Place::Length(14.7));
-        assert_eq!(place("STN 1/4"), Place::Number(0.25));
-        assert_eq!(place("STN 1 1/2"), Place::Number(1.5));
-        assert_eq!(place("station 7"), Place::Number(7.0));
-        assert_eq!(place("WL -0.5"), Place::Number(-0.5));
-        assert_eq!(place("WL-3"), Place::Number(3.0));
-        assert_eq!(place("wl0.075"), Place::Number(0.075));
-        assert_eq!(place("WL .5"), Place::Number(0.5));
-        assert_eq!(place("1.5 WL"), Place::Number(1.5));
-        assert_eq!(place("1.5 m WL"), Place::Length(1.5));
-        assert_eq!(place("R5"), Place::Number(5.0));
-        assert_eq!(place("3-0-0"), Place::Length(0.9144));
-        assert_eq!((place("A.P."), place("FP")), (Place::AftPerpendicular, Place::ForePerpendicular));
-        assert_eq!(position("1,5", true).unwrap().place, Place::Number(1.5));
+        assert_eq!(place("1.5"), Coordinate::Number(1.5));
+        assert_eq!(place(" -3.25 "), Coordinate::Number(-3.25));
+        assert_eq!(place("1.50 m"), Coordinate::Length(1.5));
+        assert_eq!(place("1.50 [m]"), Coordinate::Length(1.5));
+        assert_eq!(place("WL 3 (1.50 m)"), Coordinate::Length(1.5));
+        assert_eq!(place("WL 3 (1.50)"), Coordinate::Number(1.5));
+        assert_eq!(place("WL 3 (z = 1.50 m)"), Coordinate::Length(1.5));
+        assert_eq!(place("z = 1.5"), Coordinate::Number(1.5));
+        assert_eq!(place("station 7 @ 14.7 m"), Coordinate::Length(14.7));
+        assert_eq!(place("STN 1/4"), Coordinate::Number(0.25));
+        assert_eq!(place("STN 1 1/2"), Coordinate::Number(1.5));
+        assert_eq!(place("station 7"), Coordinate::Number(7.0));
+        assert_eq!(place("WL -0.5"), Coordinate::Number(-0.5));
+        assert_eq!(place("WL-3"), Coordinate::Number(3.0));
+        assert_eq!(place("wl0.075"), Coordinate::Number(0.075));
+        assert_eq!(place("WL .5"), Coordinate::Number(0.5));
+        assert_eq!(place("1.5 WL"), Coordinate::Number(1.5));
+        assert_eq!(place("1.5 m WL"), Coordinate::Length(1.5));
+        assert_eq!(place("R5"), Coordinate::Number(5.0));
+        assert_eq!(place("3-0-0"), Coordinate::Length(0.9144));
+        assert_eq!((place("A.P."), place("FP")), (Coordinate::AftPerpendicular, Coordinate::ForePerpendicular));
+        assert_eq!(position("1,5", true).unwrap().place, Coordinate::Number(1.5));
         assert_eq!(position("WL 3", false).unwrap().axis, Some(Axis::Waterline));
         for text in ["", "deck", "WL", "1.2.3", "abc 3 def", "nan", "inf"] {
             assert!(position(text, false).is_err(), "{text}");

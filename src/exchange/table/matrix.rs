@@ -5,7 +5,7 @@
 //! not taper upwards.
 
 use super::header::{Axis, Corner, axis_of, side_of};
-use super::problem::{Field, Problems};
+use super::problem::{Field, Place, Problems};
 use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
 
@@ -93,9 +93,9 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
              separators that are commas too",
             wrong[0].len()
         );
-        problems.error_in_row(
+        problems.error(
             "E308",
-            wrong[0][0].row,
+            Place::row(wrong[0][0].row),
             message,
             "Separate the fields with ';' or tabs, or write decimal points",
         );
@@ -108,7 +108,7 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
         } else {
             "Fill up with empty fields where there is no hull"
         };
-        problems.error_in_row("E307", row[0].row, message, remedy);
+        problems.error("E307", Place::row(row[0].row), message, remedy);
     }
     // The other rows, and what stands in these, are looked at all the same.
     let even = part.iter().map(|row| {
@@ -172,7 +172,7 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
                  as if the stations stood the other way",
                 fields[0][0].trimmed()
             );
-            problems.warning("W320", message, "Declare rows = \"stations\" or rows = \"waterlines\"");
+            problems.warning("W320", Place::FILE, message, "Declare rows = \"stations\" or rows = \"waterlines\"");
         }
         return (rows, "by the words of the headers");
     }
@@ -231,7 +231,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
     let (fields, trailing) = rectangle(part, problems)?;
     if fields.len() < 2 || fields[0].len() < 2 {
         let message = format!("{} rows of {} fields are no table of offsets", fields.len(), fields[0].len());
-        problems.error_at("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
+        problems.error("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
         return None;
     }
     let (rows, reason) = orientation(&fields, settings, problems);
@@ -276,7 +276,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         } else if head.is_blank() {
             if let Some(full) = fields.iter().skip(top + 1).map(|row| &row[j]).find(|f| !f.is_blank()) {
                 let message = "an offset without a header".to_owned();
-                problems.error_at("E310", full, message, "Write the position of its waterline over it");
+                problems.error("E310", full, message, "Write the position of its waterline over it");
             }
         } else {
             block.heads.push(head.clone());

@@ -33,6 +33,7 @@ mod tidy;
 mod write;
 mod xlsx;
 
+pub use beside::read_particulars;
 pub use britfair::write as write_britfair;
 pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
@@ -40,12 +41,12 @@ pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINE
 pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
-pub use ratio::{read_particulars, read_with as read_fractions};
+pub use ratio::read_with as read_fractions;
 pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table};
 pub use xlsx::MOST_UNPACKED;
 
 use self::grid::Grid;
-use self::problem::{Field, Problems};
+use self::problem::{Field, Place, Problems};
 use self::settings::Settings;
 use crate::hull::{OffsetTable, Order, Rows, TableForm, TableLayout};
 use crate::units::{CellRules, CellWriting, Notation, parse_cell};
@@ -77,6 +78,7 @@ pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -
         let message = format!("{format} is not read");
         problems.error(
             "E300",
+            Place::FILE,
             message,
             "Give a table of offsets, or sections, as CSV, XLSX or a text format of offsets",
         );
@@ -98,7 +100,12 @@ pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -
         checks::whole(table, settings.full, &mut problems);
     } else if !problems.any_errors() {
         let message = "no table of offsets is recognised".to_owned();
-        problems.error("E300", message, "Give a matrix with a row of headers, or columns station,x,curve,z,y,flag");
+        problems.error(
+            "E300",
+            Place::FILE,
+            message,
+            "Give a matrix with a row of headers, or columns station,x,curve,z,y,flag",
+        );
     }
     let notes = problems.finish()?;
     Ok(ReadTable { table: table.unwrap_or_default(), notes })
@@ -124,7 +131,7 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         return None;
     }
     if grid.rows.iter().all(Vec::is_empty) {
-        problems.error("E300", "the file is empty".to_owned(), "Give the table as CSV, TSV or XLSX");
+        problems.error("E300", Place::FILE, "the file is empty".to_owned(), "Give the table as CSV, TSV or XLSX");
         return None;
     }
     let layout = settings.layout.unwrap_or_else(|| {

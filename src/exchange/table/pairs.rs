@@ -46,7 +46,7 @@ pub(super) fn read(
             Ok(position) => heads.push((field.clone(), position)),
             Err(error) => {
                 let message = format!("the header of a station names no position: {error}");
-                problems.error_at("E310", field, message, "Write STN and its number, or its distance");
+                problems.error("E310", field, message, "Write STN and its number, or its distance");
                 unread.push(field.column);
             }
         }
@@ -59,12 +59,12 @@ pub(super) fn read(
     for field in rows.flatten().filter(|f| !f.is_blank()) {
         let Some(station) = heads.binary_search_by_key(&field.column, |(head, _)| head.column).ok() else {
             if !unread.contains(&field.column) {
-                problems.error_at("E307", field, "a pair without a station above it".to_owned(), "");
+                problems.error("E307", field, "a pair without a station above it".to_owned(), "");
             }
             continue;
         };
         let Some((y, z)) = pair(&field.text) else {
-            problems.error_at("E301", field, "not a pair of half-breadth and height".to_owned(), "Write 3.14,0.5");
+            problems.error("E301", field, "not a pair of half-breadth and height".to_owned(), "Write 3.14,0.5");
             continue;
         };
         let part = |text: &str| Field { text: text.to_owned(), ..field.clone() };

@@ -5,8 +5,9 @@
 //! are cut at the centreplane and the half of y > 0 is taken. A gap after a point is where a new branch begins.
 //! Written with four decimals, seven numbers a line.
 
-use super::fields::{Field, Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, finish, lines};
 use super::outline::{point, section_of};
+use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, refuse_negative, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
@@ -41,12 +42,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let message = "the first line is number of sections, t or f for symmetric, and draught".to_owned();
         problems.error(
             "E326",
-            Place::row(1),
-            rows.first().map_or("", |l| l.text),
+            (Place::row(1), rows.first().map_or("", |l| l.text)),
             message,
             "Write for example '19 t 0.96'.",
         );
-        return problems.finish(None);
+        return finish(problems, None);
     };
     let announced = problems.count(*count, "the number of sections", 1);
     let symmetric = logical(symmetric.text).unwrap_or(true);
@@ -70,16 +70,16 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
                 }
                 None => {
                     let message = format!("section at x = {x}: both sides expected, as the body is not symmetric");
-                    problems.error("E328", place, "", message, "Write t in the first line if one side is given.");
+                    problems.error("E328", place, message, "Write t in the first line if one side is given.");
                     Vec::new()
                 }
             }
         };
         sections.push(Section { name: None, x, place, branches, deck: None });
     }
-    if let Some(announced) = announced.filter(|&n| n != sections.len() && !problems.has_errors()) {
+    if let Some(announced) = announced.filter(|&n| n != sections.len() && !problems.any_errors()) {
         let message = format!("the file announces {announced} sections, {} follow", sections.len());
-        problems.error("E322", count.place, count.text, message, "Correct the count; was the file cut off?");
+        problems.error("E322", count, message, "Correct the count; was the file cut off?");
     }
     note_asymmetry(&gaps, &mut problems);
     let stated = StatedParticulars { draught: draught.filter(|t| *t > 0.0), ..StatedParticulars::default() };
@@ -98,7 +98,7 @@ fn section(
     *index += 1;
     let [x, count, gap_count, gaps @ ..] = &head.fields[..] else {
         let message = format!("section {number}: x, number of points and number of gaps expected");
-        problems.error("E326", place, head.text, message, "Is the number of points of the section before it right?");
+        problems.error("E326", (place, head.text), message, "Is the number of points of the section before it right?");
         return None;
     };
     let x = problems.length(*x, "x of the section").unwrap_or(0.0);
@@ -106,7 +106,7 @@ fn section(
     let gap_count = problems.count(*gap_count, "the number of gaps", 0)?;
     if gap_count != gaps.len() {
         let message = format!("{gap_count} gaps announced, {} given", gaps.len());
-        problems.error("E322", place, head.text, message, "Write the numbers of the points before the gaps, or 0.");
+        problems.error("E322", (place, head.text), message, "Write the numbers of the points before the gaps, or 0.");
         return None;
     }
     let gaps: BTreeSet<usize> =
@@ -135,14 +135,14 @@ fn list<'a>(
     what: &str,
     head: &Line<'_>,
     problems: &mut Problems,
-) -> Option<Vec<Field<'a>>> {
-    let mut fields: Vec<Field<'a>> = Vec::new();
+) -> Option<Vec<Field<&'a str>>> {
+    let mut fields: Vec<Field<&'a str>> = Vec::new();
     let mut row = head.row;
     while fields.len() < count {
         let Some(line) = rows.get(*index) else {
             let message =
                 format!("the file ends after {} of {count} {what} of the section in row {}", fields.len(), head.row);
-            problems.error("E322", Place::row(row), "", message, "Is the count right, or was the file cut off?");
+            problems.error("E322", Place::row(row), message, "Is the count right, or was the file cut off?");
             return None;
         };
         row = line.row;
@@ -152,7 +152,7 @@ fn list<'a>(
     if fields.len() > count {
         let message =
             format!("{count} points announced in row {}, the lines of {what} hold {}", head.row, fields.len());
-        problems.error("E322", Place::row(row), fields[count].text, message, "Correct the count, or the line.");
+        problems.error("E322", (Place::row(row), fields[count].text), message, "Correct the count, or the line.");
         return None;
     }
     Some(fields)

@@ -4,8 +4,9 @@
 //! any other flag is a knuckle, as far as the public samples (all flags 1) let one tell, and is noted. Written with four
 //! decimals, knuckles with flag 2.
 
-use super::fields::{Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, lines};
 use super::outline::{joined, section_of};
+use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{Marks, OffsetTable, OutlinePoint, StatedParticulars};
@@ -47,7 +48,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let ([x], Some([count])) = (&head.fields[..], rows.get(index + 1).map(|line| &line.fields[..])) else {
             let message =
                 format!("section {}: a line with x and one with the number of points expected", sections.len() + 1);
-            problems.error("E326", place, head.text, message, "Is a line missing before it?");
+            problems.error("E326", (place, head.text), message, "Is a line missing before it?");
             // On to the next line of one number.
             index += 1;
             while rows.get(index).is_some_and(|line| line.fields.len() != 1) {
@@ -65,7 +66,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             found += 1;
             let [y, z, flag] = line.fields[..] else {
                 let message = "a point is y, z and a flag".to_owned();
-                problems.error("E322", Place::row(line.row), line.text, message, "Write three numbers.");
+                problems.error("E322", (Place::row(line.row), line.text), message, "Write three numbers.");
                 continue;
             };
             let (y, z) = (problems.length(y, "y"), problems.length(z, "z"));
@@ -78,7 +79,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         }
         if let Some(count) = count.filter(|&count| count != found) {
             let message = format!("the section announces {count} points, {found} follow");
-            problems.error("E322", place, head.text, message, "Correct the count, or the points.");
+            problems.error("E322", (place, head.text), message, "Correct the count, or the points.");
         }
         let x = x.unwrap_or(0.0);
         refuse_negative(&mut points, x, place, &mut problems);
@@ -86,11 +87,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     }
     if let Some(announced) = announced.filter(|&n| n != sections.len()) {
         let message = format!("the file announces {announced} sections, {} follow", sections.len());
-        problems.error("E322", Place::row(1), rows[0].text, message, "Correct the count; was the file cut off?");
+        problems.error("E322", (Place::row(1), rows[0].text), message, "Correct the count; was the file cut off?");
     }
     if knuckles > 0 {
         let message = format!("{knuckles} points have a flag other than 1 and are read as knuckles");
-        problems.note("W334", Place::FILE, message, "");
+        problems.warning("W334", Place::FILE, message, "");
     }
     let stated = StatedParticulars::default();
     table(Body { name: String::new(), stated, sections, origin: Origin::Unknown, unit: 1.0 }, problems)

@@ -5,8 +5,9 @@
 //! stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the column `point` or,
 //! without one, of the rows, and turned round when a branch begins above its end.
 
-use super::fields::{Field, Line, Place, Problems, Separator, lines};
+use super::fields::{Line, Separator, finish, lines};
 use super::outline::{point, take_off_deck};
+use super::problem::{Field, Place, Problems};
 use super::ratio::separator;
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
@@ -94,20 +95,20 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .collect();
     let Some((head, lines)) = lines.split_first() else {
-        problems.error("E324", Place::FILE, "", "the file is empty".to_owned(), "");
-        return problems.finish(None);
+        problems.error("E324", Place::FILE, "the file is empty".to_owned(), "");
+        return finish(problems, None);
     };
     let mut columns: Vec<(Column, usize, f64)> = Vec::new();
     let mut origin = Origin::Unknown;
     for (index, field) in head.fields.iter().enumerate() {
         let Some((kind, unit, from_ap)) = column(field.text) else {
             let message = "a column is station, x, loop, point, y or z, perhaps with m, mm or ft".to_owned();
-            problems.error("E326", field.place, field.text, message, "Rename or remove it.");
+            problems.error("E326", field, message, "Rename or remove it.");
             continue;
         };
         if columns.iter().any(|(other, _, _)| *other == kind) {
             let message = "a second column of this kind".to_owned();
-            problems.error("E326", field.place, field.text, message, "Leave one out.");
+            problems.error("E326", field, message, "Leave one out.");
         }
         if from_ap && kind == Column::X {
             origin = Origin::AfterPerpendicular;
@@ -117,11 +118,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     for (kind, name) in [(Column::X, "x"), (Column::Y, "y"), (Column::Z, "z")] {
         if !columns.iter().any(|(other, _, _)| *other == kind) {
             let message = format!("the head has no column {name}");
-            problems.error("E326", Place::row(head.row), head.text, message, "Points need x, y and z.");
+            problems.error("E326", (Place::row(head.row), head.text), message, "Points need x, y and z.");
         }
     }
-    if problems.has_errors() {
-        return problems.finish(None);
+    if problems.any_errors() {
+        return finish(problems, None);
     }
     let rows: Vec<Row<'_>> =
         lines.iter().filter_map(|line| row(line, head.fields.len(), &columns, &mut problems)).collect();
@@ -139,10 +140,10 @@ fn row<'a>(
 ) -> Option<Row<'a>> {
     if line.fields.len() != width {
         let message = format!("{} fields, the head has {width}", line.fields.len());
-        problems.error("E322", Place::row(line.row), line.text, message, "A decimal comma, or a cell missing?");
+        problems.error("E322", (Place::row(line.row), line.text), message, "A decimal comma, or a cell missing?");
         return None;
     }
-    let field = |kind: Column| -> Option<(Field<'a>, f64)> {
+    let field = |kind: Column| -> Option<(Field<&'a str>, f64)> {
         let (_, index, unit) = columns.iter().find(|(other, _, _)| *other == kind)?;
         Some((*line.fields.get(*index)?, *unit))
     };
@@ -180,7 +181,7 @@ fn group(rows: &[Row<'_>], problems: &mut Problems) -> Vec<Section> {
                 first.x,
                 first.place.row.unwrap_or(0)
             );
-            problems.error("E323", other.place, &other.x.to_string(), message, "A section stands at one x.");
+            problems.error("E323", (other.place, other.x.to_string().as_str()), message, "A section stands at one x.");
         }
         let mut branches: Vec<Vec<OutlinePoint>> = Vec::new();
         for rows in rows.chunk_by(|a, b| (a.branch - b.branch).abs() < 0.5) {

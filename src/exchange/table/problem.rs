@@ -22,9 +22,12 @@
 //! | W309 | a breadth that is not that of the table |
 //! | W310 | a length between perpendiculars that is not that of the table |
 //! | W320 | something was assumed that changes numbers |
+//! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 
 use std::fmt;
+
+use crate::hull::Cell;
 
 /// How serious a problem of a table is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,17 +84,45 @@ impl fmt::Display for TableProblem {
     }
 }
 
-/// After so many errors the rest is only counted.
-const MOST_ERRORS: usize = 100;
+/// After so many errors, and after so many remarks, the rest is only counted.
+const MOST_LISTED: usize = 100;
 
-/// A field of a file with its place.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Field {
-    pub(super) text: String,
-    /// Line, from 1.
+/// A place in a file; rows and columns from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Place {
+    /// Line.
+    pub(super) row: Option<usize>,
+    /// Field of the line.
+    pub(super) column: Option<usize>,
+}
+
+impl Place {
+    /// The whole file.
+    pub(super) const FILE: Self = Self { row: None, column: None };
+
+    /// A line.
+    pub(super) fn row(row: usize) -> Self {
+        Self { row: Some(row), column: None }
+    }
+}
+
+/// A field of a file with its place; the text is owned in a grid and borrowed from a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Field<T = String> {
+    /// As it is written.
+    pub(super) text: T,
+    /// Line, from 1; 0 where there is none.
     pub(super) row: usize,
-    /// Field of the line, from 1.
+    /// Field of the line, from 1; 0 where there is none.
     pub(super) column: usize,
+}
+
+impl<T> Field<T> {
+    /// Where it stands.
+    pub(super) fn place(&self) -> Place {
+        let known = |index: usize| Some(index).filter(|&index| index > 0);
+        Place { row: known(self.row), column: known(self.column) }
+    }
 }
 
 impl Field {
@@ -101,6 +132,43 @@ impl Field {
 
     pub(super) fn is_blank(&self) -> bool {
         self.trimmed().is_empty()
+    }
+
+    /// The field that a cell was read from.
+    pub(super) fn of_cell(cell: &Cell) -> Self {
+        let written = cell.written.as_ref();
+        written.map(|w| Self { text: w.text.clone(), row: w.row, column: w.column }).unwrap_or_default()
+    }
+}
+
+/// A place, and what stands there where that is worth a quotation.
+#[derive(Debug)]
+pub(super) struct Spot<'t> {
+    place: Place,
+    found: &'t str,
+}
+
+impl From<Place> for Spot<'_> {
+    fn from(place: Place) -> Self {
+        Self { place, found: "" }
+    }
+}
+
+impl<'t> From<(Place, &'t str)> for Spot<'t> {
+    fn from((place, found): (Place, &'t str)) -> Self {
+        Self { place, found }
+    }
+}
+
+impl<'t, T: AsRef<str>> From<&'t Field<T>> for Spot<'t> {
+    fn from(field: &'t Field<T>) -> Self {
+        Self { place: field.place(), found: field.text.as_ref() }
+    }
+}
+
+impl<'t> From<Field<&'t str>> for Spot<'t> {
+    fn from(field: Field<&'t str>) -> Self {
+        Self { place: field.place(), found: field.text }
     }
 }
 
@@ -116,11 +184,14 @@ pub(super) struct Problems {
     file: String,
     list: Vec<TableProblem>,
     errors: usize,
+    remarks: usize,
+    /// Most digits after the decimal point of the lengths that were read from text.
+    pub(super) decimals: usize,
 }
 
 impl Problems {
     pub(super) fn new(file: &str) -> Self {
-        Self { file: file.to_owned(), list: Vec::new(), errors: 0 }
+        Self { file: file.to_owned(), list: Vec::new(), errors: 0, remarks: 0, decimals: 0 }
     }
 
     /// Whether an error was noticed.
@@ -128,81 +199,94 @@ impl Problems {
         self.errors > 0
     }
 
-    fn push(&mut self, severity: Severity, code: &'static str, place: Option<&Field>, message: String, remedy: &str) {
-        if severity == Severity::Error {
-            self.errors += 1;
-            if self.errors > MOST_ERRORS {
-                return;
-            }
+    fn push(&mut self, severity: Severity, code: &'static str, spot: Spot<'_>, message: String, remedy: &str) {
+        let count = if severity == Severity::Error { &mut self.errors } else { &mut self.remarks };
+        *count += 1;
+        if *count > MOST_LISTED {
+            return;
         }
-        self.list.push(TableProblem {
-            severity,
-            code,
-            file: self.file.clone(),
-            row: place.map(|field| field.row).filter(|&row| row > 0),
-            column: place.map(|field| field.column).filter(|&column| column > 0),
-            found: place.map(|field| quoted(&field.text)).unwrap_or_default(),
-            message,
-            remedy: remedy.to_owned(),
-        });
+        let Spot { place: Place { row, column }, found } = spot;
+        let (file, found, remedy) = (self.file.clone(), quoted(found), remedy.to_owned());
+        self.list.push(TableProblem { severity, code, file, row, column, found, message, remedy });
     }
 
-    /// An error of the whole file.
-    pub(super) fn error(&mut self, code: &'static str, message: String, remedy: &str) {
-        self.push(Severity::Error, code, None, message, remedy);
-    }
-
-    /// An error at a field.
-    pub(super) fn error_at(&mut self, code: &'static str, field: &Field, message: String, remedy: &str) {
-        self.push(Severity::Error, code, Some(field), message, remedy);
-    }
-
-    /// An error of a row.
-    pub(super) fn error_in_row(&mut self, code: &'static str, row: usize, message: String, remedy: &str) {
-        self.push(Severity::Error, code, Some(&Field { row, ..Field::default() }), message, remedy);
+    /// An error.
+    pub(super) fn error<'t>(&mut self, code: &'static str, at: impl Into<Spot<'t>>, message: String, remedy: &str) {
+        self.push(Severity::Error, code, at.into(), message, remedy);
     }
 
     /// Something that the reader of the table should know.
-    pub(super) fn warning(&mut self, code: &'static str, message: String, remedy: &str) {
-        self.push(Severity::Warning, code, None, message, remedy);
+    pub(super) fn warning(&mut self, code: &'static str, at: Place, message: String, remedy: &str) {
+        self.push(Severity::Warning, code, at.into(), message, remedy);
     }
 
     /// Something that was detected.
     pub(super) fn note(&mut self, message: String) {
-        self.push(Severity::Note, "N321", None, message, "");
+        self.push(Severity::Note, "N321", Place::FILE.into(), message, "");
     }
 
     /// An error of another file, of the conventions beside the table.
-    pub(super) fn error_in(&mut self, file: &str, place: &Field, message: String, remedy: &str) {
-        self.push(Severity::Error, "E311", Some(place), message, remedy);
-        if let Some(last) = self.list.last_mut().filter(|_| self.errors <= MOST_ERRORS) {
-            last.file = file.to_owned();
-        }
+    pub(super) fn error_in(&mut self, file: &str, at: &Field, message: String, remedy: &str) {
+        let own = std::mem::replace(&mut self.file, file.to_owned());
+        self.error("E311", at, message, remedy);
+        self.file = own;
     }
 
-    /// The errors in the order of rows and columns, or the notes when there is none.
+    /// The errors in the order of rows and columns, with what was detected after them; or the remarks when there is no error.
     pub(super) fn finish(mut self) -> Result<Vec<TableProblem>, Vec<TableProblem>> {
-        if self.errors == 0 {
-            self.list.sort_by_key(|problem| problem.severity);
-            return Ok(self.list);
-        }
-        let hidden = self.errors.saturating_sub(MOST_ERRORS);
         // What was detected helps to understand the errors; it comes after them.
         self.list.sort_by_key(|p| (p.severity, p.row.unwrap_or(0), p.column.unwrap_or(0)));
-        if hidden > 0 {
-            let last = self.list.iter().position(|p| p.severity != Severity::Error).unwrap_or(self.list.len());
-            let more = TableProblem {
-                severity: Severity::Error,
-                code: "E312",
-                file: self.file,
-                row: None,
-                column: None,
-                found: String::new(),
-                message: format!("{hidden} more problems are not shown"),
-                remedy: String::new(),
-            };
-            self.list.insert(last, more);
+        for (severity, code, count) in
+            [(Severity::Error, "E312", self.errors), (Severity::Warning, "W312", self.remarks)]
+        {
+            if count > MOST_LISTED {
+                let file = self.file.clone();
+                let message = format!("{} more problems are not shown", count - MOST_LISTED);
+                let (found, remedy) = (String::new(), String::new());
+                let at = self.list.iter().position(|p| p.severity > severity).unwrap_or(self.list.len());
+                let more = TableProblem { severity, code, file, row: None, column: None, found, message, remedy };
+                self.list.insert(at, more);
+            }
         }
-        Err(self.list)
+        if self.errors == 0 { Ok(self.list) } else { Err(self.list) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_problems_are_counted() {
+        let mut problems = Problems::new("a");
+        for row in 0..1000 {
+            problems.error("E321", (Place::row(1000 - row), "x"), "bad".to_owned(), "");
+            problems.warning("W332", Place::row(row + 1), "odd".to_owned(), "");
+        }
+        let list = problems.finish().unwrap_err();
+        let of = |severity: Severity| list.iter().filter(|p| p.severity == severity).collect::<Vec<_>>();
+        let (errors, remarks) = (of(Severity::Error), of(Severity::Warning));
+        assert_eq!((errors.len(), remarks.len()), (MOST_LISTED + 1, MOST_LISTED + 1));
+        assert!(errors.windows(2).take(MOST_LISTED - 1).all(|pair| pair[0].row < pair[1].row));
+        assert_eq!(
+            (errors[MOST_LISTED].code, errors[MOST_LISTED].message.as_str()),
+            ("E312", "900 more problems are not shown")
+        );
+        assert_eq!(remarks[MOST_LISTED].code, "W312");
+        assert_eq!(list.len(), 2 * MOST_LISTED + 2);
+    }
+
+    #[test]
+    fn quotations_are_short_and_of_one_line() {
+        let mut problems = Problems::new("a");
+        problems.error(
+            "E301",
+            &Field { text: format!(" a\tb{}", "c".repeat(80)), row: 2, column: 0 },
+            String::new(),
+            "",
+        );
+        let list = problems.finish().unwrap_err();
+        assert_eq!((list[0].row, list[0].column), (Some(2), None));
+        assert_eq!(list[0].found, format!("a b{}...", "c".repeat(34)));
     }
 }

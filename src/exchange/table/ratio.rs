@@ -13,7 +13,8 @@
 //! or, the dimensions, in a TOML beside it. Without a word about station 0 it is FP, as in Series 60 (Todd, DTMB 1712, 1963), and
 //! a note says so.
 
-use super::fields::{Field, Line, Place, Problems, Separator, decimals, lines, plain_number};
+use super::fields::{Line, Separator, decimals, finish, lines, plain_number};
+use super::problem::{Field, Place, Problems};
 use super::sections::decimals_in_metres;
 use super::{ReadTable, TableProblem};
 use crate::hull::{
@@ -81,7 +82,7 @@ pub fn read_with(name: &str, text: &str, beside: &StatedParticulars) -> Result<R
         let message = format!("the table holds fractions; missing, or not above 0: {}", missing.join(", "));
         let remedy =
             "Write a line '# Lpp = ... m, B = ... m, T = ... m', or lpp, beam and draught in a TOML beside the table.";
-        problems.error("E327", Place::FILE, "", message, remedy);
+        problems.error("E327", Place::FILE, message, remedy);
     }
     let main = [stated.length_between_perpendiculars, stated.breadth, stated.draught].map(|v| v.unwrap_or(1.0));
     let rows: Vec<Line<'_>> = lines(text, Separator::Exactly(separator(text)))
@@ -89,7 +90,7 @@ pub fn read_with(name: &str, text: &str, beside: &StatedParticulars) -> Result<R
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .collect();
     let table = fractions(&rows, main, &layout, &mut problems);
-    problems.finish(table.map(|table| OffsetTable { stated, ..table }))
+    finish(problems, table.map(|table| OffsetTable { stated, ..table }))
 }
 
 /// What comments say of the layout.
@@ -112,7 +113,7 @@ fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mu
         layout.spacing = product(rest);
         if layout.spacing.is_none() {
             let message = "the height of waterline k should be k times numbers, z = k*2.6/7".to_owned();
-            problems.error("E326", place, line, message, "");
+            problems.error("E326", (place, line), message, "");
         }
     }
     if let Some((_, rest)) = close.split_once("station0=") {
@@ -121,7 +122,7 @@ fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mu
             Some("fp") => Some(false),
             _ => {
                 let message = "station 0 is AP or FP".to_owned();
-                problems.error("E326", place, line, message, "Write 'station 0 = AP'.");
+                problems.error("E326", (place, line), message, "Write 'station 0 = AP'.");
                 None
             }
         };
@@ -137,11 +138,11 @@ fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mu
                 if let Some(before) = slot.replace(length).filter(|before| (before - length).abs() > 1e-9) {
                     let message =
                         format!("{} = {length} m here and {before} m beside the table; this is taken", key.trim());
-                    problems.note("W334", place, message, "");
+                    problems.warning("W334", place, message, "");
                 }
             }
             Err(error) => {
-                problems.error("E321", place, value.trim(), error.to_string(), "Write for example 'B = 16.256 m'.")
+                problems.error("E321", (place, value.trim()), error.to_string(), "Write for example 'B = 16.256 m'.")
             }
         }
     }
@@ -167,7 +168,7 @@ fn product(text: &str) -> Option<f64> {
 }
 
 /// The dimension of a name.
-fn slot<'s>(stated: &'s mut StatedParticulars, key: &str) -> Option<&'s mut Option<f64>> {
+pub(super) fn slot<'s>(stated: &'s mut StatedParticulars, key: &str) -> Option<&'s mut Option<f64>> {
     match key.trim().to_ascii_lowercase().as_str() {
         "l" | "lpp" | "lbp" | "length" | "length_between_perpendiculars" => {
             Some(&mut stated.length_between_perpendiculars)
@@ -177,51 +178,6 @@ fn slot<'s>(stated: &'s mut StatedParticulars, key: &str) -> Option<&'s mut Opti
         "d" | "depth" => Some(&mut stated.depth),
         _ => None,
     }
-}
-
-/// Main dimensions of a TOML beside a table: `lpp`, `beam`, `draught`, `depth` (and `L`, `lbp`, `B`, `T`, `draft`, `D`) at its
-/// top or in `[particulars]` or `[dimensions]`; numbers in metres, or texts with a unit. Other keys are not looked at.
-///
-/// # Errors
-/// A text that is no TOML, and values that are no lengths.
-pub fn read_particulars(name: &str, text: &str) -> Result<StatedParticulars, Vec<TableProblem>> {
-    let mut problems = Problems::new(name);
-    let mut stated = StatedParticulars::default();
-    match text.parse::<toml::Table>() {
-        Ok(document) => {
-            let inner = ["particulars", "dimensions"].into_iter().filter_map(|key| document.get(key)?.as_table());
-            for (key, value) in std::iter::once(&document).chain(inner).flatten() {
-                if value.is_table() {
-                    continue;
-                }
-                let Some(slot) = slot(&mut stated, key) else { continue };
-                let number = value.as_float().or_else(|| value.as_integer().map(|v| v as f64));
-                let length = number.or_else(|| parse_length(value.as_str()?).ok());
-                match length.filter(|v| v.is_finite() && *v > 0.0 && *v < 1e6) {
-                    Some(length) => *slot = Some(length),
-                    None => {
-                        let message = format!("{key} should be a length above 0");
-                        problems.error(
-                            "E327",
-                            Place::FILE,
-                            &value.to_string(),
-                            message,
-                            "Write metres, or \"53 ft 4 in\".",
-                        );
-                    }
-                }
-            }
-        }
-        Err(error) => {
-            let row = error.span().map(|span| text.get(..span.start).unwrap_or("").matches('\n').count() + 1);
-            let place = Place { row, column: None };
-            problems.error("E326", place, "", format!("no TOML: {}", error.message()), "");
-        }
-    }
-    if problems.has_errors() {
-        return Err(problems.finish(None).err().unwrap_or_default());
-    }
-    Ok(stated)
 }
 
 /// A column of the table.
@@ -236,7 +192,7 @@ struct Waterline {
 fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut Problems) -> Option<OffsetTable> {
     let [length, breadth, _] = main;
     let Some((head, rows)) = rows.split_first() else {
-        problems.error("E324", Place::FILE, "", "the table is empty".to_owned(), "");
+        problems.error("E324", Place::FILE, "the table is empty".to_owned(), "");
         return None;
     };
     let mut waterlines = waterlines(head, main, layout, problems);
@@ -246,21 +202,21 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
         [] if layout.own_maximum => {
             let message = "fractions of each waterline's own maximum, and no row of maxima".to_owned();
             let remedy = "Add a last row 'max, ...' with the largest half-breadth of each waterline over B/2.";
-            problems.error("E326", Place::FILE, "", message, remedy);
+            problems.error("E326", Place::FILE, message, remedy);
         }
-        [] => problems.note("W334", Place::FILE, "no row of maxima: fractions are of B/2".to_owned(), ""),
+        [] => problems.warning("W334", Place::FILE, "no row of maxima: fractions are of B/2".to_owned(), ""),
         [row, ..] => {
             for waterline in &mut waterlines {
                 let Some(field) = row.fields.get(waterline.index) else {
                     let message = "the row of maxima is shorter than the head".to_owned();
-                    problems.error("E322", Place::row(row.row), row.text, message, "");
+                    problems.error("E322", (Place::row(row.row), row.text), message, "");
                     break;
                 };
                 waterline.largest = 0.5 * breadth * problems.number(*field, "the maximum").unwrap_or(1.0);
             }
             if let Some(second) = maxima.get(1) {
                 let message = "a second row of maxima".to_owned();
-                problems.error("E326", Place::row(second.row), second.text, message, "Leave one out.");
+                problems.error("E326", (Place::row(second.row), second.text), message, "Leave one out.");
             }
         }
     }
@@ -272,13 +228,13 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
         let Some(number) = problems.number(label, "the station") else { continue };
         if let Some((before, _)) = read.last().filter(|(before, _)| *before >= number) {
             let message = format!("station {number} after {before}");
-            problems.error("E323", label.place, label.text, message, "Stations must rise.");
+            problems.error("E323", label, message, "Stations must rise.");
         }
         let mut station = StationOffsets::new(label.text, 0.0);
         for waterline in &waterlines {
             let Some(field) = row.fields.get(waterline.index).copied() else {
                 let message = format!("{} cells, the head has {}", row.fields.len(), head.fields.len());
-                problems.error("E322", Place::row(row.row), row.text, message, "Write - where there is no hull.");
+                problems.error("E322", (Place::row(row.row), row.text), message, "Write - where there is no hull.");
                 break;
             };
             let entry = fraction(field, problems);
@@ -297,20 +253,20 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
     }
     for (field, f) in above {
         let message = format!("'{}': the fraction {f} is above 1", field.text);
-        problems.note("W335", field.place, message, "Is a decimal point missing?");
+        problems.warning("W335", field.place(), message, "Is a decimal point missing?");
     }
     if read.len() < 2 {
         let message = format!("{} stations are no hull", read.len());
-        problems.error("E328", Place::FILE, "", message, "At least two are needed.");
+        problems.error("E328", Place::FILE, message, "At least two are needed.");
         return None;
     }
     let last = layout.last.unwrap_or_else(|| read.iter().map(|(number, _)| *number).fold(0.0, f64::max));
     if last <= 0.0 {
-        problems.error("E323", Place::FILE, "", format!("the last station is {last}"), "Number stations from 0.");
+        problems.error("E323", Place::FILE, format!("the last station is {last}"), "Number stations from 0.");
     }
     let zero_is_ap = layout.zero_is_ap.unwrap_or_else(|| {
         let message = format!("no comment says where station 0 is; taken as FP, and station {last} as AP");
-        problems.note("W334", Place::FILE, message, "Write '# station 0 = AP' if it is not.");
+        problems.warning("W334", Place::FILE, message, "Write '# station 0 = AP' if it is not.");
         false
     });
     let mut stations: Vec<StationOffsets> = read
@@ -341,7 +297,7 @@ fn waterlines(head: &Line<'_>, main: [f64; 3], layout: &Layout, problems: &mut P
     for (index, field) in head.fields.iter().enumerate().skip(1) {
         let label = field.text.to_ascii_lowercase();
         if label.starts_with("sar") || label.contains("area") {
-            problems.note("W332", field.place, format!("the column '{}' is not used", field.text), "");
+            problems.warning("W332", field.place(), format!("the column '{}' is not used", field.text), "");
             continue;
         }
         let number: String = label
@@ -351,35 +307,35 @@ fn waterlines(head: &Line<'_>, main: [f64; 3], layout: &Layout, problems: &mut P
             .collect();
         let Some(k) = plain_number(&number) else {
             let message = "a column is a waterline (its height over T) or sectional areas".to_owned();
-            problems.error("E326", field.place, field.text, message, "Write for example wl0.75.");
+            problems.error("E326", field, message, "Write for example wl0.75.");
             continue;
         };
         let z = k * layout.spacing.unwrap_or(draught);
         if layout.spacing.is_none() && k > 3.0 {
             let message = format!("a waterline {k} times the draught above the base");
             let remedy = "If labels count waterlines, write a comment like '# waterline k at z = k*2.6/7 m'.";
-            problems.error("E326", field.place, field.text, message, remedy);
+            problems.error("E326", field, message, remedy);
         }
         if let Some(before) = waterlines.last().filter(|before| before.z >= z) {
             let message = format!("waterline at {z} m after {} m", before.z);
-            problems.error("E323", field.place, field.text, message, "Waterlines must rise.");
+            problems.error("E323", field, message, "Waterlines must rise.");
         }
         waterlines.push(Waterline { index, z, tangent: label.contains("tangent"), largest: 0.5 * breadth });
     }
     if waterlines.is_empty() {
-        problems.error("E326", Place::row(head.row), head.text, "the head names no waterlines".to_owned(), "");
+        problems.error("E326", (Place::row(head.row), head.text), "the head names no waterlines".to_owned(), "");
     }
     waterlines
 }
 
-fn fraction(field: Field<'_>, problems: &mut Problems) -> Entry {
+fn fraction(field: Field<&str>, problems: &mut Problems) -> Entry {
     match field.text {
         "" | "-" | "*" => Entry::Absent,
         "?" => Entry::Unknown,
         _ => match problems.number(field, "the fraction") {
             Some(f) if f < 0.0 => {
                 let message = "a half-breadth is negative".to_owned();
-                problems.error("E325", field.place, field.text, message, "Write - where there is no hull.");
+                problems.error("E325", field, message, "Write - where there is no hull.");
                 Entry::Absent
             }
             Some(f) => Entry::Given(f),
@@ -388,22 +344,17 @@ fn fraction(field: Field<'_>, problems: &mut Problems) -> Entry {
     }
 }
 
-fn cell(field: Field<'_>, entry: Entry, waterline: &Waterline) -> Cell {
+fn cell(field: Field<&str>, entry: Entry, waterline: &Waterline) -> Cell {
     let entry = match entry {
         Entry::Given(f) => Entry::Given(f * waterline.largest),
         other => other,
     };
-    let written = Written {
-        text: field.text.to_owned(),
-        row: field.place.row.unwrap_or(0),
-        column: field.place.column.unwrap_or(0),
-    };
+    let written = Written { text: field.text.to_owned(), row: field.row, column: field.column };
     Cell { entry, marks: Marks { tangent: waterline.tangent, ..Marks::default() }, written: Some(written) }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Severity;
     use super::*;
 
     #[test]
@@ -414,19 +365,5 @@ mod tests {
         for bad in ["/0", "*", "2.6", "*2.6/"] {
             assert_eq!(product(bad), None, "{bad}");
         }
-    }
-
-    #[test]
-    fn particulars_beside_a_table() {
-        let text = "name = 'a'\n[particulars]\nlpp = 121.92\nbeam = 16\ndraught = \"21 ft 4 in\"\nl_over_b = 7.5\n";
-        let stated = read_particulars("a.toml", text).unwrap();
-        assert_eq!(stated.length_between_perpendiculars, Some(121.92));
-        assert_eq!(stated.breadth, Some(16.0));
-        assert!((stated.draught.unwrap() - 6.5024).abs() < 1e-12);
-        let problems = read_particulars("a.toml", "lpp = -1\nB = 'x'\n").unwrap_err();
-        assert!(problems.iter().all(|p| p.code == "E327" && p.severity == Severity::Error));
-        assert_eq!(problems.len(), 2);
-        let problems = read_particulars("a.toml", "a = 1\nb = = 2\n").unwrap_err();
-        assert_eq!((problems[0].code, problems[0].row), ("E326", Some(2)));
     }
 }

@@ -1,7 +1,7 @@
 //! Units and origins: from what a table declares, and else from the size of its numbers.
 
-use super::header::{Corner, From, Place, Position};
-use super::problem::{Field, Problems};
+use super::header::{Coordinate, Corner, From, Position};
+use super::problem::{Field, Place, Problems};
 use super::settings::{Settings, StationScale};
 use crate::hull::Origin;
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
@@ -55,7 +55,7 @@ impl Size {
     pub(super) fn of_positions<'p>(positions: impl Iterator<Item = &'p Position>) -> Self {
         let mut size = Self::default();
         for position in positions {
-            if let Place::Number(value) = position.place {
+            if let Coordinate::Number(value) = position.place {
                 size.largest = size.largest.max(value.abs());
                 size.plain += 1;
             }
@@ -152,11 +152,11 @@ fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared:
     if matches!(unit, Notation::Metres | Notation::Feet) && unit.metres(found) > largest {
         let message =
             format!("the largest {what} is {found}, which looks like millimetres, but the unit is {}", unit.as_str());
-        problems.error("E305", message, "Declare units = \"mm\"");
+        problems.error("E305", Place::FILE, message, "Declare units = \"mm\"");
     }
     if unit == Notation::Millimetres && found > 0.0 && found < SMALLEST_MILLIMETRES && size.decimals > 0 {
         let message = format!("the largest {what} is {found}, which looks like metres, but the unit is mm");
-        problems.error("E305", message, "Declare units = \"m\"");
+        problems.error("E305", Place::FILE, message, "Declare units = \"m\"");
     }
 }
 
@@ -171,7 +171,7 @@ pub(super) fn origin(
     use super::header::Axis;
     let length = settings.stated.length_between_perpendiculars;
     let plain: Vec<f64> =
-        heads.iter().filter_map(|p| if let Place::Number(n) = p.place { Some(n) } else { None }).collect();
+        heads.iter().filter_map(|p| if let Coordinate::Number(n) = p.place { Some(n) } else { None }).collect();
     let (low, high) = plain.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &n| (a.min(n), b.max(n)));
     let named = heads.iter().filter(|p| p.named || p.axis == Some(Axis::Station)).count();
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
@@ -195,12 +195,12 @@ pub(super) fn origin(
             (From::ForePerpendicular, None) => {
                 let message =
                     "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
-                problems.warning("W320", message, "Give Lpp in the conventions");
+                problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
                 (0.0, -1.0)
             }
             _ => {
                 let message = "distances count from midship and L_PP is not known: x is 0 at midship".to_owned();
-                problems.warning("W320", message, "Give Lpp in the conventions");
+                problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
                 (0.0, 1.0)
             }
         };
@@ -225,7 +225,7 @@ pub(super) fn origin(
         _ => {
             let message =
                 "stations are numbered and neither L_PP nor their spacing is known: taken as 1 m apart".to_owned();
-            problems.warning("W320", message, "Give Lpp, or station_spacing, in the conventions");
+            problems.warning("W320", Place::FILE, message, "Give Lpp, or station_spacing, in the conventions");
             1.0
         }
     };

@@ -4,8 +4,9 @@
 //!
 //! x is given from AP by the file. Read only: the code and the knuckle of a section are not documented publicly.
 
-use super::fields::{Field, Place, Problems, Separator, lines};
+use super::fields::{Separator, finish, lines};
 use super::outline::point;
+use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::StatedParticulars;
@@ -23,7 +24,7 @@ pub(super) fn recognise(name: &str, text: &str) -> bool {
 
 /// The fields of a text one after another.
 struct Stream<'a> {
-    fields: Vec<Field<'a>>,
+    fields: Vec<Field<&'a str>>,
     next: usize,
     last: Place,
 }
@@ -33,10 +34,10 @@ impl<'a> Stream<'a> {
         self.fields.len() - self.next
     }
 
-    fn take(&mut self, what: &str, problems: &mut Problems) -> Option<Field<'a>> {
+    fn take(&mut self, what: &str, problems: &mut Problems) -> Option<Field<&'a str>> {
         let Some(&field) = self.fields.get(self.next) else {
             let message = format!("the file ends before {what}");
-            problems.error("E324", self.last, "", message, "Is a count before it right, or was the file cut off?");
+            problems.error("E324", self.last, message, "Is a count before it right, or was the file cut off?");
             return None;
         };
         self.next += 1;
@@ -53,22 +54,22 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let rows = lines(text, Separator::Blank);
     let title = rows.get(1).map_or("", |line| line.text).to_owned();
     // The line of stars and what follows it is no data.
-    let fields: Vec<Field<'_>> = rows
+    let fields: Vec<Field<&str>> = rows
         .iter()
         .skip(2)
         .take_while(|line| !line.text.starts_with('*'))
         .flat_map(|line| line.fields.clone())
         .collect();
-    let last = fields.last().map_or(Place::FILE, |field| Place { column: None, ..field.place });
+    let last = fields.last().map_or(Place::FILE, |field| Place { column: None, ..field.place() });
     let mut stream = Stream { fields, next: 0, last };
     let body = read_body(title, &mut stream, &mut problems);
     if !rows.iter().any(|line| line.text.starts_with('*')) {
         let message = "the file ends without a line of stars".to_owned();
-        problems.error("E324", last, "", message, "Was it cut off? End it with '*** End of file ***'.");
+        problems.error("E324", last, message, "Was it cut off? End it with '*** End of file ***'.");
     }
     match body {
         Some(body) => table(body, problems),
-        None => problems.finish(None),
+        None => finish(problems, None),
     }
 }
 
@@ -83,13 +84,13 @@ fn read_body(title: String, stream: &mut Stream<'_>, problems: &mut Problems) ->
     let [draught, trim, length, from_aft] = main;
     if trim.abs() > 0.0 {
         let message = format!("trim {trim} m is not applied: heights are those of the file");
-        problems.note("W334", Place::row(3), message, "");
+        problems.warning("W334", Place::row(3), message, "");
     }
     let announced = stream.take("the number of intervals", problems)?;
     let intervals = problems.count(announced, "the number of intervals", 1)?;
     if intervals > stream.left() {
         let message = format!("{intervals} intervals announced, {} numbers follow", stream.left());
-        problems.error("E322", announced.place, announced.text, message, "Correct the count.");
+        problems.error("E322", announced, message, "Correct the count.");
         return None;
     }
     let mut x = 0.0 - from_aft;
@@ -113,12 +114,12 @@ fn read_body(title: String, stream: &mut Stream<'_>, problems: &mut Problems) ->
     if stream.left() > 0 {
         let field = stream.fields[stream.next];
         let message = format!("{} numbers after the three factors", stream.left());
-        problems.error("E322", field.place, field.text, message, "Is the number of intervals right?");
+        problems.error("E322", field, message, "Is the number of intervals right?");
     }
     let [fx, fy, fz] = factors;
     if factors.iter().any(|f| (f - 1.0).abs() > 1e-12) {
         let message = format!("x, y and z are multiplied by {fx}, {fy} and {fz}, as the file asks");
-        problems.note("W334", stream.last, message, "");
+        problems.warning("W334", stream.last, message, "");
         for section in &mut sections {
             section.x *= fx;
             for p in section.branches.iter_mut().flatten() {
@@ -145,7 +146,7 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
     problems.number(knuckle, &format!("{what}: the knuckle"));
     if 2 * points > stream.left() {
         let message = format!("{what} announces {points} points, {} numbers follow", stream.left());
-        problems.error("E322", count.place, count.text, message, "Correct the count; was the file cut off?");
+        problems.error("E322", count, message, "Correct the count; was the file cut off?");
         return None;
     }
     let mut line = Vec::new();
@@ -155,11 +156,11 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
             line.push(point(y, z));
         }
     }
-    let place = Place { column: None, ..station.place };
+    let place = Place { column: None, ..station.place() };
     // A section ends with its line: a wrong count does not go unnoticed where the numbers happen to fit.
-    if let Some(after) = stream.fields.get(stream.next).filter(|field| field.place.column != Some(1)) {
+    if let Some(after) = stream.fields.get(stream.next).filter(|field| field.place().column != Some(1)) {
         let message = format!("{what} announces {points} points, which end within a line");
-        problems.error("E322", after.place, after.text, message, "Correct the count, or the points.");
+        problems.error("E322", after, message, "Correct the count, or the points.");
         return None;
     }
     refuse_negative(&mut line, x, place, problems);

@@ -1,7 +1,8 @@
 //! A table of offsets of sections given as lines of points.
 
-use super::fields::{Place, Problems};
+use super::fields::finish;
 use super::outline::{Deck, Halves, branches, deviation, halves};
+use super::problem::{Place, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
 
@@ -56,7 +57,7 @@ pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: Place,
     if least >= -DUST * largest {
         points.iter_mut().for_each(|p| p.y = p.y.max(0.0));
         let message = format!("section at x = {x}: {count} half-breadths down to {least} are taken as 0");
-        problems.note("W335", place, message, "");
+        problems.warning("W335", place, message, "");
         return;
     }
     let message = format!("section at x = {x}: {count} of {} half-breadths are negative", points.len());
@@ -65,7 +66,7 @@ pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: Place,
     } else {
         "This format has half sections: give one side only."
     };
-    problems.error("E325", place, &format!("{least}"), message, remedy);
+    problems.error("E325", (place, format!("{least}").as_str()), message, remedy);
 }
 
 /// The half section of a full section of both sides: starboard, and how far port is from it \[m\]; none when there is no
@@ -95,7 +96,7 @@ pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
              sections by more than 1 mm",
             gaps.len()
         );
-        problems.note("W331", Place::FILE, message, "");
+        problems.warning("W331", Place::FILE, message, "");
     }
 }
 
@@ -104,23 +105,23 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
     let Body { name, stated, mut sections, origin, unit } = body;
     if sections.len() > super::grid::MOST_LINES {
         let message = format!("{} sections; a table has at most {}", sections.len(), super::grid::MOST_LINES);
-        problems.error("E320", Place::FILE, "", message, "");
-        return problems.finish(None);
+        problems.error("E312", Place::FILE, message, "");
+        return finish(problems, None);
     }
     for section in &sections {
         let points = section.branches.iter().flatten().flat_map(|p| [p.y, p.z]);
         if let Some(value) = std::iter::once(section.x).chain(points).find(|v| v.abs() > super::assemble::LARGEST) {
             let message = format!("a length of {value:e} m is no ship's");
-            problems.error("E321", section.place, "", message, "Correct the number, or its unit.");
+            problems.error("E321", section.place, message, "Correct the number, or its unit.");
         }
     }
     check_order(&mut sections, &mut problems);
-    if sections.len() < 2 && !problems.has_errors() {
+    if sections.len() < 2 && !problems.any_errors() {
         let message = format!("{} sections are no hull", sections.len());
-        problems.error("E328", Place::FILE, "", message, "At least two are needed.");
+        problems.error("E328", Place::FILE, message, "At least two are needed.");
     }
-    if problems.has_errors() {
-        return problems.finish(None);
+    if problems.any_errors() {
+        return finish(problems, None);
     }
     let shift = match origin {
         Origin::AfterPerpendicular => 0.0,
@@ -145,7 +146,7 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
         .collect();
     let decimals = decimals_in_metres(problems.decimals, unit);
     let form = TableForm { layout: TableLayout::Other, decimals: Some(decimals), ..TableForm::default() };
-    problems.finish(Some(OffsetTable { name, stated, stations, form, ..OffsetTable::default() }))
+    finish(problems, Some(OffsetTable { name, stated, stations, form, ..OffsetTable::default() }))
 }
 
 /// Decimals in metres whose step is not below that of `decimals` in units of `unit` \[m\].
@@ -164,13 +165,19 @@ fn check_order(sections: &mut [Section], problems: &mut Problems) {
         let (code, found) = ("E323", format!("{}", after.x));
         if (after.x - before.x).abs() <= 1e-9 {
             let message = format!("two sections at x = {} m", after.x);
-            problems.error(code, after.place, &found, message, "Leave one out, or correct x.");
+            problems.error(code, (after.place, found.as_str()), message, "Leave one out, or correct x.");
         } else if (after.x < before.x) != falling {
             let message = format!("section out of order: x = {} m after {} m", after.x, before.x);
-            problems.error(code, after.place, &found, message, "Sections run from stern to bow or from bow to stern.");
+            problems.error(
+                code,
+                (after.place, found.as_str()),
+                message,
+                "Sections run from stern to bow or from bow to stern.",
+            );
         }
     }
     if falling {
+        problems.note("stations are written from forward aft; their order is turned".to_owned());
         sections.reverse();
     }
 }
@@ -195,6 +202,6 @@ fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, p
     let message = format!(
         "sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}; moved forward by {shift:.4} m"
     );
-    problems.note("W330", Place::FILE, message, "");
+    problems.warning("W330", Place::FILE, message, "");
     shift
 }

@@ -138,12 +138,12 @@ impl Settings {
             match (known, nearest(key, KEYS.into_iter().filter(|k| k.len() > 2))) {
                 (Some(key), _) => {
                     if let Err((message, remedy)) = self.set(key, &Value::Text(value.to_owned())) {
-                        problems.error_at("E311", &place, message, &remedy);
+                        problems.error("E311", &place, message, &remedy);
                     }
                 }
                 (None, Some(near)) => {
                     let message = "not a convention of a table".to_owned();
-                    problems.error_at("E311", &place, message, &format!("Did you mean {near}?"));
+                    problems.error("E311", &place, message, &format!("Did you mean {near}?"));
                 }
                 (None, None) => {}
             }
@@ -247,7 +247,7 @@ fn choice<T: Copy>(key: &str, value: &Value, all: &[(&str, T)]) -> Result<T, (St
 }
 
 /// A length or a number that is larger than zero.
-fn length(key: &str, value: &Value) -> Result<f64, (String, String)> {
+pub(super) fn length(key: &str, value: &Value) -> Result<f64, (String, String)> {
     let number = match value {
         Value::Number(number) => *number,
         Value::Text(text) => parse_length(text).map_err(|error| (format!("{key}: {error}"), String::new()))?,

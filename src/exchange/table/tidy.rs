@@ -18,7 +18,7 @@
 use super::assemble::{Reader, SAME};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
-use super::problem::{Field, Problems};
+use super::problem::{Field, Place, Problems};
 use super::scale::{Size, origin, units};
 use super::settings::{Settings, nearest};
 use super::write::Writer;
@@ -82,7 +82,7 @@ fn rows_of<'g>(rows: &'g [Vec<Field>], blank: &'g Field, problems: &mut Problems
     for row in rows {
         if row.len() != header.len() {
             let message = format!("the row has {} fields, the header has {}", row.len(), header.len());
-            problems.error_in_row("E307", row[0].row, message, "");
+            problems.error("E307", Place::row(row[0].row), message, "");
             continue;
         }
         let field = |k: usize| columns[k].map_or(blank, |at| &row[at]);
@@ -91,12 +91,12 @@ fn rows_of<'g>(rows: &'g [Vec<Field>], blank: &'g Field, problems: &mut Problems
             let near = nearest(word, CURVES.into_iter());
             let remedy =
                 near.map_or_else(|| format!("Known are {}", CURVES.join(", ")), |near| format!("Did you mean {near}?"));
-            problems.error_at("E310", field(2), "not a kind of curve".to_owned(), &remedy);
+            problems.error("E310", field(2), "not a kind of curve".to_owned(), &remedy);
             continue;
         };
         let flag = field(5);
         if !flag.trimmed().chars().all(|c| matches!(c, 'K' | 'T' | '!' | '?' | '(' | ')' | 'B' | ' ')) {
-            problems.error_at("E301", flag, "not a flag".to_owned(), "Flags are K, T, !, ?, () and B");
+            problems.error("E301", flag, "not a flag".to_owned(), "Flags are K, T, !, ?, () and B");
         }
         let flag = flag.trimmed().to_owned();
         records.push(Record { station: field(0), x: field(1), curve, z: field(3), y: field(4), flag });
@@ -155,7 +155,7 @@ pub(super) fn read(
         let x = match position(field.trimmed(), comma) {
             Ok(position) => reader.along(position),
             Err(error) => {
-                reader.problems.error_at("E310", field, format!("no position of a station: {error}"), "");
+                reader.problems.error("E310", field, format!("no position of a station: {error}"), "");
                 reader.cell(if record.curve == "BT" { record.z } else { record.y }, record.curve != "BT");
                 continue;
             }
@@ -168,7 +168,7 @@ pub(super) fn read(
         let needs = !matches!(record.curve, "FOB" | "DECK");
         if needs && other.is_none() {
             let message = format!("a {} without its {}", record.curve, if buttock { "y" } else { "z" });
-            reader.problems.error_at("E301", if buttock { record.y } else { record.z }, message, "");
+            reader.problems.error("E301", if buttock { record.y } else { record.z }, message, "");
             continue;
         }
         read.push((record, x, other, cell));
@@ -187,7 +187,7 @@ pub(super) fn read(
             table.waterlines.len(),
             table.buttocks.len()
         );
-        reader.problems.error("E312", message, "");
+        reader.problems.error("E312", Place::FILE, message, "");
         return None;
     }
     for &x in &xs {
@@ -244,7 +244,7 @@ fn put(
             Some(line) => line.points.push(point),
             None if full => {
                 let message = format!("more than {MOST_LINES} lines of points");
-                reader.problems.error_at("E312", record.station, message, "");
+                reader.problems.error("E312", record.station, message, "");
             }
             None => table.lines.push(FeatureLine { name: name.to_owned(), kind, points: vec![point] }),
         }
@@ -273,7 +273,7 @@ fn put(
     if let Some(slot) = slot {
         if let Some(first) = &slot.written {
             let message = format!("this offset stands in row {} already", first.row);
-            reader.problems.error_at("E306", record.y, message, "Take one of them away");
+            reader.problems.error("E306", record.y, message, "Take one of them away");
         }
         *slot = cell;
         return;

@@ -8,7 +8,7 @@ use std::io::Cursor;
 use calamine::{DataRef, Reader as _, Xlsx};
 
 use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
-use super::problem::{Field, Problems};
+use super::problem::{Field, Place, Problems};
 
 /// The most bytes of all parts of a workbook.
 pub const MOST_UNPACKED: u64 = 256 << 20;
@@ -40,14 +40,14 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             "{} bytes, unpacked {stated}; a workbook has at most {LARGEST_TABLE}, unpacked {MOST_UNPACKED}",
             bytes.len()
         );
-        problems.error("E312", message, "");
+        problems.error("E312", Place::FILE, message, "");
         return None;
     }
     let failed = |error: String| format!("not a workbook that can be read: {error}");
     let mut book = match Xlsx::new(Cursor::new(bytes)) {
         Ok(book) => book,
         Err(error) => {
-            problems.error("E300", failed(error.to_string()), "Give the table as XLSX or CSV");
+            problems.error("E300", Place::FILE, failed(error.to_string()), "Give the table as XLSX or CSV");
             return None;
         }
     };
@@ -65,7 +65,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                 Ok(Some(cell)) => cell,
                 Ok(None) => break,
                 Err(error) => {
-                    problems.error("E300", failed(error.to_string()), "");
+                    problems.error("E300", Place::FILE, failed(error.to_string()), "");
                     return None;
                 }
             };
@@ -81,11 +81,11 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                 DataRef::Bool(truth) => truth.to_string(),
                 DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_) => {
                     let message = "the cell is a date; spreadsheets make dates of feet-inches-eighths".to_owned();
-                    problems.error_at("E301", &field, message, "Format the cells as text before typing 3-4-5");
+                    problems.error("E301", &field, message, "Format the cells as text before typing 3-4-5");
                     continue;
                 }
                 DataRef::Error(error) => {
-                    problems.error_at("E301", &field, format!("the cell holds the error {error}"), "");
+                    problems.error("E301", &field, format!("the cell holds the error {error}"), "");
                     continue;
                 }
             };
@@ -95,7 +95,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                     "a table has at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells and {LONGEST_FIELD} \
                      bytes in a cell"
                 );
-                problems.error_at("E312", &field, message, "");
+                problems.error("E312", &field, message, "");
                 return None;
             }
             place(&mut grid, field, &mut cells, problems)?;
@@ -106,7 +106,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
         }
     }
     if !problems.any_errors() {
-        problems.error("E300", "no sheet of the workbook has cells".to_owned(), "");
+        problems.error("E300", Place::FILE, "no sheet of the workbook has cells".to_owned(), "");
     }
     None
 }
@@ -121,7 +121,7 @@ fn place(grid: &mut Grid, field: Field, cells: &mut usize, problems: &mut Proble
         row.push(Field { text: String::new(), row: field.row, column: row.len() + 1 });
         *cells += 1;
         if *cells > MOST_CELLS {
-            problems.error_at("E312", &field, format!("more than {MOST_CELLS} cells"), "");
+            problems.error("E312", &field, format!("more than {MOST_CELLS} cells"), "");
             return None;
         }
     }

@@ -222,6 +222,24 @@ impl Profile {
         found.into_iter().map(|(_, curvature)| curvature).collect()
     }
 
+    /// Point, unit tangent and curvature at `count` equal steps of length along the curve, both ends included.
+    #[must_use]
+    pub fn even(&self, count: usize) -> Vec<([f64; 2], [f64; 2], f64)> {
+        let (first, last) = (self.nodes[0].s, self.nodes[self.nodes.len() - 1].s);
+        let at = |k: usize| {
+            let s = first + (last - first) * k as f64 / (count.max(2) - 1) as f64;
+            let after = self.nodes.partition_point(|node| node.s < s).clamp(1, self.nodes.len() - 1);
+            let pair = &self.nodes[after - 1..=after];
+            let h = pair[1].s - pair[0].s;
+            let r = if h > 0.0 { ((s - pair[0].s) / h).clamp(0.0, 1.0) } else { 0.0 };
+            let mix = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|d| a[d] + r * (b[d] - a[d]));
+            let tangent = mix(pair[0].tangent, pair[1].tangent);
+            let length = tangent[0].hypot(tangent[1]).max(f64::MIN_POSITIVE);
+            (mix(pair[0].point, pair[1].point), tangent.map(|c| c / length), curvature_between(pair, r))
+        };
+        (0..count.max(2)).map(at).collect()
+    }
+
     /// What is found on the curve; `tolerance` is the departure that can just be seen \[m\].
     #[must_use]
     pub fn findings(&self, tolerance: f64) -> Findings {

@@ -4,7 +4,7 @@ use crate::hull::{Entry, OffsetTable};
 
 /// Which way a line of the grid runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Along {
+pub(in crate::fairing) enum Along {
     /// Along a station, from waterline to waterline.
     Station,
     /// Along a waterline, from station to station.
@@ -12,7 +12,7 @@ pub(super) enum Along {
 }
 
 impl Along {
-    pub(super) const BOTH: [Self; 2] = [Self::Station, Self::Waterline];
+    pub(in crate::fairing) const BOTH: [Self; 2] = [Self::Station, Self::Waterline];
 }
 
 /// What a cell of the grid is to its neighbours.
@@ -28,20 +28,20 @@ enum State {
 
 /// Half-breadths by station and waterline. Cells are numbered station by station.
 #[derive(Debug, Clone)]
-pub(super) struct Grid {
+pub(in crate::fairing) struct Grid {
     /// Positions of the stations \[m\].
-    pub(super) x: Vec<f64>,
+    pub(in crate::fairing) x: Vec<f64>,
     /// Heights of the waterlines \[m\].
-    pub(super) z: Vec<f64>,
+    pub(in crate::fairing) z: Vec<f64>,
     /// Heights of the keel by station, where the table gives them \[m\].
-    pub(super) keel: Vec<Option<f64>>,
+    pub(in crate::fairing) keel: Vec<Option<f64>>,
     /// Half-breadths \[m\]; 0 where there is none.
-    pub(super) value: Vec<f64>,
+    pub(in crate::fairing) value: Vec<f64>,
     state: Vec<State>,
 }
 
 impl Grid {
-    pub(super) fn new(table: &OffsetTable) -> Self {
+    pub(in crate::fairing) fn new(table: &OffsetTable) -> Self {
         let width = table.waterlines.len();
         let mut value = vec![0.0; table.stations.len() * width];
         let mut state = vec![State::Beyond; value.len()];
@@ -124,21 +124,21 @@ impl Grid {
         .flatten()
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(in crate::fairing) fn len(&self) -> usize {
         self.value.len()
     }
 
-    pub(super) fn is_given(&self, cell: usize) -> bool {
+    pub(in crate::fairing) fn is_given(&self, cell: usize) -> bool {
         self.state[cell] == State::Given
     }
 
     /// Station and waterline of a cell.
-    pub(super) fn place(&self, cell: usize) -> (usize, usize) {
+    pub(in crate::fairing) fn place(&self, cell: usize) -> (usize, usize) {
         (cell / self.z.len(), cell % self.z.len())
     }
 
     /// How many lines run that way.
-    pub(super) fn lines(&self, along: Along) -> usize {
+    pub(in crate::fairing) fn lines(&self, along: Along) -> usize {
         match along {
             Along::Station => self.x.len(),
             Along::Waterline => self.z.len(),
@@ -146,7 +146,7 @@ impl Grid {
     }
 
     /// Cells with offsets that follow each other on a line without a gap in the hull, one list a run.
-    pub(super) fn runs(&self, along: Along, line: usize) -> Vec<Vec<usize>> {
+    pub(in crate::fairing) fn runs(&self, along: Along, line: usize) -> Vec<Vec<usize>> {
         let width = self.z.len();
         let cells: Vec<usize> = match along {
             Along::Station => (line * width..(line + 1) * width).collect(),
@@ -160,7 +160,7 @@ impl Grid {
     }
 
     /// The coordinate of a cell along lines that run that way \[m\].
-    pub(super) fn coordinate(&self, along: Along, cell: usize) -> f64 {
+    pub(in crate::fairing) fn coordinate(&self, along: Along, cell: usize) -> f64 {
         let (i, j) = self.place(cell);
         match along {
             Along::Station => self.z[j],
@@ -170,7 +170,7 @@ impl Grid {
 
     /// The cell `steps` places along lines that run that way and `across` lines further; none outside the table or without
     /// an offset.
-    pub(super) fn shifted(&self, along: Along, cell: usize, steps: isize, across: isize) -> Option<usize> {
+    pub(in crate::fairing) fn shifted(&self, along: Along, cell: usize, steps: isize, across: isize) -> Option<usize> {
         let (i, j) = self.place(cell);
         let (di, dj) = match along {
             Along::Station => (across, steps),

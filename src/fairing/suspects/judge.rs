@@ -35,12 +35,14 @@ const AROUND: [(isize, isize, f64); 22] = [
     (0, -3, 0.4),
     (0, 3, 0.4),
 ];
-/// Sum of the weights of [`AROUND`].
-const FULL_WEIGHT: f64 = 12.6;
 /// Least weight of neighbours that a scale can rest on.
 const LEAST_WEIGHT: f64 = 2.0;
 /// Predictors that are also taken less the residual of the neighbouring lines.
 const LEVELLED: usize = 8;
+/// Predictors of a direction, levelled ones after the others.
+const ALL: usize = PREDICTORS.len() + LEVELLED;
+/// Cells of a table that its noise is taken from; of larger tables so many, evenly spread.
+const SAMPLE: usize = 1500;
 /// How many predictors of a direction are heard.
 const JURY: usize = 3;
 /// Predictors with a scale this much above the smallest are not heard (squared).
@@ -97,19 +99,31 @@ impl Verdict {
 
 const NONE: u32 = u32::MAX;
 
+/// A number for each predictor.
+type Row = [f64; ALL];
+
 struct Direction {
     along: Along,
     stencils: Vec<Vec<Option<Stencil>>>,
-    /// Gain of each stencil, 0 where there is none: read far oftener than the weights.
-    gains: Vec<Vec<f64>>,
-    /// The line that a cell lies on.
-    line: Vec<u32>,
-    /// The two lines beside a cell, with the weights of linear interpolation between them.
+    /// The cells beside a cell on the line before and on the line after, with the weights of linear interpolation between them;
+    /// weight 0 where there is none.
     beside: Vec<[(u32, f64); 2]>,
     around: Vec<[u32; AROUND.len()]>,
+    /// Weight of the cell in the predictions of its neighbours two and one steps before, and one and two steps after.
+    lead: Vec<[[f64; PREDICTORS.len()]; 4]>,
     /// Whether neighbours lie on both sides: next, and next but one.
     sides: Vec<[bool; 2]>,
-    residuals: Vec<Vec<f64>>,
+    /// By cell the residuals, their gains (0 where there is no prediction), and the inverse gains.
+    residuals: Vec<Row>,
+    gains: Vec<Row>,
+    inverses: Vec<Row>,
+}
+
+/// Sums over the neighbours of a cell by predictor: of weighted squares of residuals, of weights, of squares of weights.
+struct Heard {
+    sum: Row,
+    weight: Row,
+    square: Row,
 }
 
 /// The judge of a table.
@@ -133,33 +147,133 @@ fn across(along: Along) -> Along {
 impl Direction {
     fn new(grid: &Grid, along: Along) -> Self {
         let index = |cell: Option<usize>| cell.and_then(|n| u32::try_from(n).ok()).unwrap_or(NONE);
-        let mut beside = vec![[(NONE, 0.0); 2]; grid.len()];
-        let mut around = vec![[NONE; AROUND.len()]; grid.len()];
-        let mut sides = vec![[false; 2]; grid.len()];
-        for cell in (0..grid.len()).filter(|&cell| grid.is_given(cell)) {
+        let n = grid.len();
+        let mut beside = vec![[(NONE, 0.0); 2]; n];
+        let mut around = vec![[NONE; AROUND.len()]; n];
+        let mut sides = vec![[false; 2]; n];
+        let mut lead = vec![[[0.0; PREDICTORS.len()]; 4]; n];
+        let stencils = stencils(grid, along);
+        for cell in (0..n).filter(|&cell| grid.is_given(cell)) {
             let at = |n| grid.coordinate(across(along), n);
             beside[cell] = match [-1, 1].map(|step| grid.shifted(along, cell, 0, step)) {
                 [Some(low), Some(high)] => {
                     let share = (at(cell) - at(low)) / (at(high) - at(low));
                     [(index(Some(low)), 1.0 - share), (index(Some(high)), share)]
                 }
-                [one, other] => [(index(one.or(other)), 1.0), (NONE, 0.0)],
+                lines => lines.map(|line| (index(line), if line.is_some() { 1.0 } else { 0.0 })),
             };
             for (slot, &(steps, lines, _)) in around[cell].iter_mut().zip(&AROUND) {
                 *slot = index(grid.shifted(along, cell, steps, lines));
             }
             sides[cell] = [1, 2].map(|far| [-far, far].into_iter().all(|s| grid.shifted(along, cell, s, 0).is_some()));
+            for (weights, step) in lead[cell].iter_mut().zip([-2, -1, 1, 2]) {
+                let Some(other) = grid.shifted(along, cell, step, 0) else { continue };
+                for (weight, list) in weights.iter_mut().zip(&stencils) {
+                    *weight = list[other].as_ref().map_or(0.0, |stencil| stencil.weight(cell));
+                }
+            }
         }
-        let stencils = stencils(grid, along);
-        let gain = |stencil: &Option<Stencil>| stencil.as_ref().map_or(0.0, |stencil| stencil.gain);
-        let gains = stencils.iter().map(|list| list.iter().map(gain).collect()).collect();
-        let line = (0..grid.len())
-            .map(|cell| match along {
-                Along::Station => index(Some(grid.place(cell).0)),
-                Along::Waterline => index(Some(grid.place(cell).1)),
-            })
-            .collect();
-        Self { along, stencils, gains, line, beside, around, sides, residuals: Vec::new() }
+        let empty = vec![[0.0; ALL]; n];
+        Self {
+            along,
+            stencils,
+            beside,
+            around,
+            lead,
+            sides,
+            residuals: empty.clone(),
+            gains: empty.clone(),
+            inverses: empty,
+        }
+    }
+
+    /// The residuals of one cell.
+    fn refresh(&mut self, cell: usize, values: &[f64]) {
+        for (p, list) in self.stencils.iter().enumerate() {
+            if let Some(stencil) = &list[cell] {
+                self.residuals[cell][p] = values[cell] - stencil.predict(values);
+                self.gains[cell][p] = stencil.gain;
+                self.inverses[cell][p] = stencil.gain.recip();
+            }
+        }
+    }
+
+    /// The levelled residuals of one cell: less those of the lines beside it.
+    fn level(&mut self, cell: usize, masked: &[bool]) {
+        for p in 0..LEVELLED {
+            let (mut r, mut gain) = (self.residuals[cell][p], self.gains[cell][p]);
+            let (mut lines, mut whole) = (0, gain > 0.0);
+            for &(m, share) in self.beside[cell].iter().filter(|&&(m, _)| m != NONE) {
+                let m = m as usize;
+                whole &= !masked[m] && self.gains[m][p] > 0.0;
+                r -= share * self.residuals[m][p];
+                gain += share * share * self.gains[m][p];
+                lines += 1;
+            }
+            let q = PREDICTORS.len() + p;
+            let (r, gain) = if whole && lines > 0 { (r, gain) } else { (0.0, 0.0) };
+            self.residuals[cell][q] = r;
+            self.gains[cell][q] = gain;
+            self.inverses[cell][q] = if gain > 0.0 { gain.recip() } else { 0.0 };
+        }
+    }
+
+    /// What the neighbours of a cell say about the predictors, with the cell replaced by the prediction of each. The residual
+    /// at a neighbour on the same line then grows by the weight of the cell in its prediction times the residual at the cell; a
+    /// levelled one on a line beside it falls by its share of that.
+    fn heard(&self, cell: usize, masked: &[bool]) -> Heard {
+        const PLAIN: usize = PREDICTORS.len();
+        let mut heard = Heard { sum: [0.0; ALL], weight: [0.0; ALL], square: [0.0; ALL] };
+        let (e, gain, inverse) = (&self.residuals[cell], &self.gains[cell], &self.inverses[cell]);
+        for (&n, &(steps, lines, w)) in self.around[cell].iter().zip(&AROUND) {
+            if n == NONE || masked[n as usize] {
+                continue;
+            }
+            let n = n as usize;
+            let mut r = self.residuals[n];
+            let lead = match steps {
+                -2 => Some(&self.lead[cell][0]),
+                -1 => Some(&self.lead[cell][1]),
+                1 => Some(&self.lead[cell][2]),
+                2 => Some(&self.lead[cell][3]),
+                _ => None,
+            };
+            if let (0, Some(lead)) = (lines, lead) {
+                for p in 0..PLAIN {
+                    r[p] += lead[p] * e[p];
+                }
+                for p in 0..LEVELLED {
+                    r[PLAIN + p] += lead[p] * e[PLAIN + p];
+                }
+            } else if lines == 1 || lines == -1 {
+                let share = self.beside[n][usize::from(lines < 0)].1;
+                for p in 0..LEVELLED {
+                    r[PLAIN + p] -= share * lead.map_or(-1.0, |lead| lead[p]) * e[PLAIN + p];
+                }
+            }
+            let (other, inverse_other) = (&self.gains[n], &self.inverses[n]);
+            for q in 0..ALL {
+                let ratio = gain[q] * inverse_other[q];
+                let w = w * ratio.min(inverse[q] * other[q]);
+                heard.sum[q] += w * r[q] * r[q] * ratio;
+                heard.weight[q] += w;
+                heard.square[q] += w * w;
+            }
+        }
+        heard
+    }
+}
+
+impl Heard {
+    /// One predictor as a witness, without the table's noise.
+    fn witness(&self, direction: &Direction, q: usize, cell: usize) -> Option<Witness> {
+        let (gain, weight) = (direction.gains[cell][q], self.weight[q]);
+        (gain > 0.0 && weight >= LEAST_WEIGHT).then(|| Witness {
+            residual: direction.residuals[cell][q],
+            scale2: self.sum[q] / weight,
+            gain,
+            freedom: INDEPENDENT * weight * weight / self.square[q],
+        })
     }
 }
 
@@ -170,23 +284,11 @@ impl Judge {
         let floor2 = quantum * quantum / 12.0;
         let mut judge = Self { grid, directions, masked, floor2, sigma2: floor2, prior_freedom: 1.0 };
         for direction in &mut judge.directions {
-            direction.residuals = vec![vec![0.0; judge.grid.len()]; PREDICTORS.len()];
+            (0..judge.grid.len()).for_each(|cell| direction.refresh(cell, &judge.grid.value));
+            (0..judge.grid.len()).for_each(|cell| direction.level(cell, &judge.masked));
         }
-        (0..judge.grid.len()).for_each(|cell| judge.refresh(cell));
         judge.level();
         judge
-    }
-
-    /// The residuals of one cell.
-    fn refresh(&mut self, cell: usize) {
-        let values = &self.grid.value;
-        for direction in &mut self.directions {
-            for (residuals, stencils) in direction.residuals.iter_mut().zip(&direction.stencils) {
-                if let Some(stencil) = &stencils[cell] {
-                    residuals[cell] = values[cell] - stencil.predict(values);
-                }
-            }
-        }
     }
 
     /// Gives a cell a value, and says whether it stands for the cell or stands in for it.
@@ -194,9 +296,21 @@ impl Judge {
         self.grid.value[cell] = value;
         self.masked[cell] = masked;
         let (row, column) = self.grid.place(cell);
-        let width = self.grid.z.len();
-        (0..width).for_each(|j| self.refresh(row * width + j));
-        (0..self.grid.x.len()).for_each(|i| self.refresh(i * width + column));
+        let (rows, width) = (self.grid.x.len(), self.grid.z.len());
+        for direction in &mut self.directions {
+            let (line, lines, length, step, across) = match direction.along {
+                Along::Station => (row, rows, width, 1, width),
+                Along::Waterline => (column, width, rows, width, 1),
+            };
+            for k in 0..length {
+                direction.refresh(line * across + k * step, &self.grid.value);
+            }
+            for beside in line.saturating_sub(1)..(line + 2).min(lines) {
+                for k in 0..length {
+                    direction.level(beside * across + k * step, &self.masked);
+                }
+            }
+        }
     }
 
     pub(super) fn is_masked(&self, cell: usize) -> bool {
@@ -206,21 +320,25 @@ impl Judge {
     /// The noise of the table and how even it is: of the predictors the one whose mean squares have the smallest median.
     pub(super) fn level(&mut self) {
         let cells: Vec<usize> = (0..self.grid.len()).filter(|&c| self.grid.is_given(c) && !self.masked[c]).collect();
+        let cells: Vec<usize> = cells.iter().copied().step_by(1 + cells.len() / SAMPLE).collect();
         let mut best: Option<(f64, f64)> = None;
-        for d in 0..2 {
-            for p in 0..PREDICTORS.len() {
-                let (mut list, mut freedom) = (Vec::with_capacity(cells.len()), 0.0);
-                for &cell in &cells {
-                    if let Some(w) = self.witness(d, p, false, cell, f64::INFINITY) {
+        for direction in &self.directions {
+            let mut lists: [(Vec<f64>, f64); PREDICTORS.len()] = std::array::from_fn(|_| (Vec::new(), 0.0));
+            for &cell in &cells {
+                let heard = direction.heard(cell, &self.masked);
+                for (q, (list, freedom)) in lists.iter_mut().enumerate() {
+                    if let Some(w) = heard.witness(direction, q, cell) {
                         list.push((w.scale2 / w.gain + self.floor2).ln());
-                        freedom += w.freedom;
+                        *freedom += w.freedom;
                     }
                 }
+            }
+            for (mut list, freedom) in lists {
                 if list.len() * 2 < cells.len() || list.len() < 8 {
                     continue;
                 }
-                freedom /= list.len() as f64;
-                list.sort_by(f64::total_cmp);
+                let freedom = freedom / list.len() as f64;
+                list.sort_unstable_by(f64::total_cmp);
                 let quantile = |share: f64| list[((list.len() - 1) as f64 * share) as usize];
                 // The logarithm of a mean square of nu normal numbers spreads by about sqrt(2/nu) about its median, which lies
                 // 0.7/nu below the logarithm of the mean.
@@ -239,85 +357,19 @@ impl Judge {
         }
     }
 
-    /// The residual at `n` once the cell `c` is less by `e`; `same` says that both are on one line.
-    fn residual(&self, d: usize, p: usize, n: usize, c: usize, e: f64) -> Option<f64> {
-        let direction = &self.directions[d];
-        if direction.gains[p][n] <= 0.0 {
-            return None;
-        }
-        let r = direction.residuals[p][n];
-        if n == c {
-            return Some(r - e);
-        }
-        if direction.line[n] != direction.line[c] {
-            return Some(r);
-        }
-        Some(r + direction.stencils[p][n].as_ref()?.weight(c) * e)
-    }
-
-    /// The residual and its gain at `n`; levelled less that of the lines beside it.
-    fn read(&self, d: usize, p: usize, levelled: bool, n: usize, c: usize, e: f64) -> Option<(f64, f64)> {
-        let direction = &self.directions[d];
-        let mut r = self.residual(d, p, n, c, e)?;
-        let mut gain = direction.gains[p][n];
-        if levelled {
-            let mut lines = 0;
-            for &(m, share) in direction.beside[n].iter().filter(|&&(m, _)| m != NONE) {
-                let m = m as usize;
-                if self.masked[m] {
-                    return None;
-                }
-                r -= share * self.residual(d, p, m, c, e)?;
-                gain += share * share * direction.gains[p][m];
-                lines += 1;
-            }
-            if lines == 0 {
-                return None;
-            }
-        }
-        Some((r, gain))
-    }
-
-    /// One predictor as a witness, without the table's noise; none when its scale is above `limit`.
-    fn witness(&self, d: usize, p: usize, levelled: bool, cell: usize, limit: f64) -> Option<Witness> {
-        let (e, gain) = self.read(d, p, levelled, cell, cell, 0.0)?;
-        let (mut sum, mut weight, mut square) = (0.0, 0.0, 0.0);
-        for (&n, &(_, _, w)) in self.directions[d].around[cell].iter().zip(&AROUND) {
-            if n == NONE || self.masked[n as usize] {
-                continue;
-            }
-            let Some((r, other)) = self.read(d, p, levelled, n as usize, cell, e) else { continue };
-            let ratio = gain / other;
-            let w = w * ratio.min(1.0 / ratio);
-            sum += w * r * r * ratio;
-            weight += w;
-            square += w * w;
-            if sum > limit * FULL_WEIGHT {
-                return None;
-            }
-        }
-        if weight < LEAST_WEIGHT {
-            return None;
-        }
-        Some(Witness { residual: e, scale2: sum / weight, gain, freedom: INDEPENDENT * weight * weight / square })
-    }
-
     /// What one direction says: of the predictors with the smallest scales the one that the value offends least.
     fn direction(&self, d: usize, cell: usize) -> Option<Witness> {
         let mut best: [Option<Witness>; JURY] = [None; JURY];
-        for levelled in [false, true] {
-            for p in 0..if levelled { LEVELLED } else { PREDICTORS.len() } {
-                // A moderated scale is no smaller than the share of the local one, at worst about a tenth of it.
-                let limit = best[JURY - 1].map_or(f64::INFINITY, |w| w.scale2 * (1.0 + self.prior_freedom / 3.0));
-                let Some(mut w) = self.witness(d, p, levelled, cell, limit) else { continue };
-                let noise = w.gain * self.sigma2;
-                w.scale2 = (self.prior_freedom * noise + w.freedom * w.scale2) / (self.prior_freedom + w.freedom);
-                w.scale2 = w.scale2.max(w.gain * self.floor2);
-                w.freedom += self.prior_freedom;
-                let Some(at) = best.iter().position(|b| b.is_none_or(|b| w.scale2 < b.scale2)) else { continue };
-                best[at..].rotate_right(1);
-                best[at] = Some(w);
-            }
+        let heard = self.directions[d].heard(cell, &self.masked);
+        for q in 0..ALL {
+            let Some(mut w) = heard.witness(&self.directions[d], q, cell) else { continue };
+            let noise = w.gain * self.sigma2;
+            w.scale2 = (self.prior_freedom * noise + w.freedom * w.scale2) / (self.prior_freedom + w.freedom);
+            w.scale2 = w.scale2.max(w.gain * self.floor2);
+            w.freedom += self.prior_freedom;
+            let Some(at) = best.iter().position(|b| b.is_none_or(|b| w.scale2 < b.scale2)) else { continue };
+            best[at..].rotate_right(1);
+            best[at] = Some(w);
         }
         let offence = |w: &Witness| w.residual * w.residual / w.scale2;
         let limit = HEARD * best[0]?.scale2;
@@ -343,12 +395,15 @@ impl Judge {
         let gap = a.residual - b.residual;
         let chi2 = gap * gap / (pa + pb);
         let prediction2 = (chi2 / USUAL_CHI2).max(1.0) / weight;
+        // Degrees of freedom of the sum of two variances, each 1/p over the square of the sum of weights (Satterthwaite 1946).
+        let [va, vb] = [1.0 / pa, 1.0 / pb];
+        let freedom = (va + vb).powi(2) / (va * va / a.freedom + vb * vb / b.freedom);
         Some(Verdict {
             cell,
             residual: (a.residual / pa + b.residual / pb) / weight,
             scale: (own + prediction2).sqrt(),
             uncertainty: prediction2.sqrt(),
-            freedom: a.freedom.min(b.freedom),
+            freedom,
             witnesses: [a, b],
         })
     }
@@ -357,12 +412,12 @@ impl Judge {
     /// through four neighbours \[m²\].
     pub(super) fn energy_drop(&self, cell: usize, e: f64) -> f64 {
         let mut sum = 0.0;
-        for (d, direction) in self.directions.iter().enumerate() {
+        for direction in &self.directions {
             for steps in -3..=3 {
                 let Some(n) = self.grid.shifted(direction.along, cell, steps, 0) else { continue };
                 let Some(stencil) = &direction.stencils[0][n] else { continue };
-                let before = direction.residuals[0][n];
-                let after = self.residual(d, 0, n, cell, e).unwrap_or(before);
+                let before = direction.residuals[n][0];
+                let after = before + e * if n == cell { -1.0 } else { stencil.weight(cell) };
                 sum += (before * before - after * after) / stencil.gain;
             }
         }

@@ -42,14 +42,23 @@ fn ln_gamma(x: f64) -> f64 {
 }
 
 /// Density of Student's t.
-fn student(t: f64, nu: f64) -> f64 {
+pub(super) fn student(t: f64, nu: f64) -> f64 {
     let constant = ln_gamma(0.5 * (nu + 1.0)) - ln_gamma(0.5 * nu) - 0.5 * (nu * std::f64::consts::PI).ln();
     (constant - 0.5 * (nu + 1.0) * (t * t / nu).ln_1p()).exp()
 }
 
-/// The hypotheses about a cell, most probable first. `copies` are kinds of neighbours whose text the cell repeats,
+/// The hypotheses about a cell, most probable first: [`weighed`] and brought to the sum one.
+pub(super) fn readings(mut list: Vec<Reading>) -> Vec<Reading> {
+    // What two slips explain alike goes to the likelier: a swap is also two wrong digits, a misread digit a wrong one.
+    let total: f64 = list.iter().map(|reading| reading.probability).sum();
+    list.iter_mut().for_each(|reading| reading.probability /= total);
+    list.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    list
+}
+
+/// The hypotheses about a cell with their evidence in place of probabilities, "right as written" first. `copies` are kinds of neighbours whose text the cell repeats,
 /// `wrong` is the share of wrong cells that the rest of the table makes likely.
-pub(super) fn readings(
+pub(super) fn weighed(
     verdict: &Verdict,
     written: f64,
     text: &str,
@@ -92,10 +101,6 @@ pub(super) fn readings(
         value: p,
         probability: wrong * Hypothesis::Unexplained.prior() / (20.0 * verdict.residual.abs().max(s)),
     });
-    // What two slips explain alike goes to the likelier: a swap is also two wrong digits, a misread digit a wrong one.
-    let total: f64 = list.iter().map(|reading| reading.probability).sum();
-    list.iter_mut().for_each(|reading| reading.probability /= total);
-    list.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     list
 }
 
@@ -104,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn student_integrates_to_one_and_ends_as_normal() {
+    pub(super) fn student_integrates_to_one_and_ends_as_normal() {
         for nu in [2.0, 7.5, 40.0] {
             let n = 200_000;
             let sum: f64 = (0..n).map(|k| student(-500.0 + 1000.0 * (f64::from(k) + 0.5) / f64::from(n), nu)).sum();

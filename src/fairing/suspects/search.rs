@@ -12,19 +12,19 @@
 
 use super::grid::{Along, Grid};
 use super::judge::{Judge, Verdict};
-use super::posterior::{Reading, readings};
+use super::posterior::{Reading, readings, student, weighed};
 use super::reading::{Hypothesis, Writing, bare, repairs};
 use crate::hull::OffsetTable;
 
 /// Least score of a suspect, in standard deviations of a normal law.
 const LEAST_SCORE: f64 = 3.0;
 /// Least probability that a suspect is wrong.
-const LEAST_PROBABILITY: f64 = 0.5;
+const LEAST_PROBABILITY: f64 = 0.6;
 /// Wrong cells that a table is expected to have before any has been found in it. It stands well below what misprints alone would
 /// say: what looks like the only error of a table is oftener a feature of the hull that no predictor follows.
-const UNFOUND: f64 = 0.008;
+const UNFOUND: f64 = 0.002;
 /// Wrong cells that are expected besides those found once one is certain.
-const FURTHER: f64 = 1.5;
+const FURTHER: f64 = 1.0;
 /// How much stronger the evidence for a suspect must be before it speaks for errors elsewhere.
 const WITNESS: f64 = 30.0;
 /// Score from which a cell throws a shadow on its neighbours, which are not looked at before it has been dealt with.
@@ -33,6 +33,13 @@ const SHADOW_SCORE: f64 = 2.5;
 const SHADOW: usize = 4;
 /// Most suspects of a table, as a share of its cells; more are no misprints.
 const MOST: f64 = 0.1;
+/// Least fall of the cost for which a suspect is exchanged for a neighbour.
+const EXCHANGED: f64 = 1.5;
+/// Neighbours for which a suspect may be exchanged: steps along the station, stations across.
+const EXCHANGES: [(isize, isize); 12] =
+    [(0, 1), (0, -1), (1, 0), (-1, 0), (0, 2), (0, -2), (2, 0), (-2, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+/// Reach along the lines, and the lines beside, of the cells that an exchange is judged by.
+const REACH: isize = 3;
 
 /// What the neighbours of a cell say about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -222,11 +229,15 @@ impl Search<'_> {
             .collect()
     }
 
-    fn readings(&self, verdict: &Verdict) -> Vec<Reading> {
+    fn weighed(&self, verdict: &Verdict) -> Vec<Reading> {
         let cell = verdict.cell;
         let list = repairs(&self.texts[cell], self.writing);
         let wrong = (self.expected_elsewhere(cell) / self.given).min(MOST);
-        readings(verdict, self.written[cell], &self.texts[cell], &list, &self.copies(cell), self.quantum, wrong)
+        weighed(verdict, self.written[cell], &self.texts[cell], &list, &self.copies(cell), self.quantum, wrong)
+    }
+
+    fn readings(&self, verdict: &Verdict) -> Vec<Reading> {
+        readings(self.weighed(verdict))
     }
 
     /// Wrong cells that the rest of the table makes likely: UNFOUND, those found, and FURTHER when any of them is one.
@@ -298,6 +309,7 @@ impl Search<'_> {
     fn run(&mut self) -> Vec<Verdict> {
         let most = (MOST * self.written.len() as f64).ceil() as usize;
         let mut found = gross(&self.judge.grid, self.judge.sigma2.sqrt(), most);
+        let untouched = found.is_empty();
         for &cell in &found {
             self.judge.set(cell, self.written[cell], true);
         }
@@ -306,7 +318,9 @@ impl Search<'_> {
                 self.impute(cell);
             }
         }
-        self.judge.level();
+        if !untouched {
+            self.judge.level();
+        }
         self.hear();
         let mut kept: Vec<Verdict> = Vec::new();
         for _ in 0..ROUNDS {
@@ -320,10 +334,87 @@ impl Search<'_> {
                 break;
             }
             kept = self.hear_again(&mut found);
+            if self.exchange(&mut found) {
+                kept = self.hear_again(&mut found);
+            }
         }
-        self.judge.level();
-        self.hear();
+        if !untouched || !found.is_empty() {
+            self.judge.level();
+            self.hear();
+        }
         kept
+    }
+
+    /// Cells about two neighbours that say which of them is wrong.
+    fn region(&self, cells: [usize; 2]) -> Vec<usize> {
+        let mut list = Vec::new();
+        for (steps, lines) in (-REACH..=REACH).flat_map(|s| (-REACH..=REACH).map(move |l| (s, l))) {
+            if steps.abs().min(lines.abs()) <= 1 {
+                list.extend(cells.iter().filter_map(|&at| self.judge.grid.shifted(Along::Station, at, steps, lines)));
+            }
+        }
+        list.sort_unstable();
+        list.dedup();
+        list
+    }
+
+    /// Minus the logarithm of the evidence (pseudo-likelihood) of the cells of a region that are not set aside.
+    fn cost(&self, region: &[usize]) -> f64 {
+        let cells = region.iter().filter(|&&cell| !self.judge.is_masked(cell));
+        let density = |v: Verdict| (student(v.residual / v.scale, v.freedom) / v.scale).max(f64::MIN_POSITIVE);
+        cells.filter_map(|&cell| self.judge.verdict(cell)).map(|v| -density(v).ln()).sum()
+    }
+
+    /// Minus the logarithm of the evidence that a cell is wrong.
+    fn cost_of_wrong(&self, verdict: &Verdict) -> f64 {
+        let wrong =
+            self.weighed(verdict).iter().filter(|r| r.hypothesis != Hypothesis::Noise).map(|r| r.probability).sum();
+        -f64::max(wrong, f64::MIN_POSITIVE).ln()
+    }
+
+    /// How much the cost falls when `other` is set aside in the place of `cell`, and the value that then stands in for it.
+    fn gain_of_exchange(&mut self, cell: usize, other: usize) -> Option<(f64, f64)> {
+        let region = self.region([cell, other]);
+        let stand_in = self.judge.grid.value[cell];
+        let kept = self.cost(&region);
+        let mine = self.take_back(cell).map(|verdict| self.cost_of_wrong(&verdict));
+        let theirs = self.judge.verdict(other);
+        let mut result = None;
+        if let (Some(mine), Some(theirs)) = (mine, theirs) {
+            self.judge.set(other, self.written[other] - theirs.residual, true);
+            self.impute(other);
+            let exchanged = self.cost(&region) + self.cost_of_wrong(&theirs);
+            result = Some((kept + mine - exchanged, self.judge.grid.value[other]));
+            self.judge.set(other, self.written[other], false);
+        }
+        self.judge.set(cell, stand_in, true);
+        result
+    }
+
+    /// Exchanges suspects for neighbours where that explains the neighbourhood better: beside a wrong cell a right one may have
+    /// looked worse.
+    fn exchange(&mut self, found: &mut [usize]) -> bool {
+        let mut changed = false;
+        for at in found {
+            let cell = *at;
+            let mut best: Option<(f64, usize, f64)> = None;
+            for (steps, lines) in EXCHANGES {
+                let other = self.judge.grid.shifted(Along::Station, cell, steps, lines);
+                let Some(other) = other.filter(|&other| !self.judge.is_masked(other)) else { continue };
+                let Some((gain, value)) = self.gain_of_exchange(cell, other) else { continue };
+                if gain > best.map_or(EXCHANGED, |b| b.0) {
+                    best = Some((gain, other, value));
+                }
+            }
+            if let Some((_, other, value)) = best {
+                self.judge.set(cell, self.written[cell], false);
+                self.judge.set(other, value, true);
+                self.beliefs[other] = std::mem::take(&mut self.beliefs[cell]);
+                *at = other;
+                changed = true;
+            }
+        }
+        changed
     }
 
     /// The prediction stands in for a cell that is set aside.

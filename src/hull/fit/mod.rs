@@ -1,11 +1,12 @@
 //! From a table of offsets to a hull: a surface through every cell, faithful where the table is silent.
 //!
 //! The default method works on a chart that follows the ship: see `level` for hulls whose waterlines run from profile to
-//! profile. Every cell with a value is met to 1e-9 m unless it is marked doubtful; what had to be assumed is noted.
+//! profile, `upright` for rockered keels and chines, `skin` for tables of section outlines. Every cell with a value is met to 1e-9 m unless it is marked doubtful; what had to be assumed is noted.
 
 mod bounded;
 mod chart;
 mod estimate;
+mod floor;
 mod level;
 mod method;
 mod methods;
@@ -14,6 +15,7 @@ mod monotone;
 mod outlines;
 mod particulars;
 mod rows;
+mod skin;
 mod upright;
 
 use super::cell::Entry;
@@ -46,7 +48,7 @@ pub struct CellResidual {
 pub enum Chart {
     /// z = z(v): waterlines are lines of the net; x runs between the profiles.
     Level,
-    /// x = x(u): stations are lines of the net; z runs between keel, knuckles and deck.
+    /// x = x(u): stations are lines of the net; z runs between keel, knuckles and deck, or along the girth of each section.
     Upright,
 }
 
@@ -109,25 +111,36 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
-    let mut notes = Vec::new();
+    if outlines::only_outlines(table) {
+        return sections(table);
+    }
     if upright::suits(table) {
-        match upright::fit(table) {
-            // Sections with ledges and hooks are no functions y(z): waterlines through them may still make a hull.
-            Err(FitError::Hull(error)) if outlines::only_outlines(table) => {
-                notes.push(format!("stations as lines of the net make no hull here ({error}); waterlines are taken"));
-            }
-            done => return done,
-        }
+        return upright::fit(table);
     }
-    let read = outlines::only_outlines(table).then(|| outlines::with_waterlines(table));
-    let source = read.as_ref().unwrap_or(table);
-    let (hull, assumed) = level::loft(source, rows::prepare(source)?)?;
-    notes.extend(assumed);
-    if read.is_some() {
-        notes.push(outlines::note(table, &hull));
-    }
+    let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
     let cells = residuals(table, &hull);
     Ok(Fitted { hull, chart: Chart::Level, cells, notes })
+}
+
+/// Tables of section outlines: with their knuckles as lines of the net where there are any, else, and where these make no hull,
+/// from section to section by girth.
+fn sections(table: &OffsetTable) -> Result<Fitted, FitError> {
+    if !upright::has_knuckles(table) {
+        return skin::fit(table);
+    }
+    match upright::fit(table) {
+        Err(FitError::Hull(error)) => {
+            let mut fitted = skin::fit(table)?;
+            fitted.notes.insert(
+                0,
+                format!(
+                    "knuckles as lines of the net make no hull here ({error}); they are corners of the sections only"
+                ),
+            );
+            Ok(fitted)
+        }
+        done => done,
+    }
 }
 
 /// Every cell with a value or to be predicted, as the surface has it.

@@ -22,11 +22,11 @@
 //! the keel line jump; the piece between the stations beside the jump is then ruled, and a note says so. Cost: linear in the
 //! number of cells (banded systems in both directions), times the number of lines.
 
-mod ends;
+pub(super) mod ends;
 mod girth;
 mod length;
 mod lines;
-mod profile;
+pub(super) mod profile;
 #[cfg(test)]
 mod published;
 #[cfg(test)]
@@ -34,14 +34,16 @@ mod tests;
 
 use super::particulars::{draught_guess, lowest_edge};
 use super::{CellResidual, Chart, FitError, Fitted};
-use crate::hull::cell::{Entry, LineKind, Marks};
+use crate::hull::cell::{Entry, LineKind};
 use crate::hull::form::Hull;
 use crate::hull::offsets::OffsetTable;
 use crate::hull::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
 use girth::Band;
-use length::{Across, Length};
-use lines::{Line, Size};
+use length::Across;
+pub(super) use length::Length;
+use lines::Line;
+pub(super) use lines::Size;
 use profile::Profile;
 
 /// Fewest stations.
@@ -56,18 +58,19 @@ const OVERSHOOT: f64 = 0.05;
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
 
-/// Whether the upright chart is the one for a table: where it has knuckles, where it is made of sections without waterlines, and where
-/// the keel line of the middle three fifths of the length varies by more than a twentieth of the depth (rocker, rake).
+/// Whether the upright chart is the one for a table: where it has knuckles, and where the keel line of the middle three fifths of the
+/// length varies by more than a twentieth of the depth (rocker, rake).
 pub(super) fn suits(table: &OffsetTable) -> bool {
-    let marked = |marks: &Marks| marks.knuckle;
-    let knuckles =
-        table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
-            || table.stations.iter().any(|s| {
-                s.half_breadths.iter().any(|cell| marked(&cell.marks))
-                    || s.outlines.iter().flatten().any(|p| marked(&p.marks))
-            });
-    let only_sections = table.waterlines.is_empty() && table.stations.iter().any(|s| !s.outlines.is_empty());
-    knuckles || only_sections || has_rocker(table)
+    has_knuckles(table) || has_rocker(table)
+}
+
+/// Whether a table has knuckles off the centreplane.
+pub(super) fn has_knuckles(table: &OffsetTable) -> bool {
+    table.lines.iter().any(|line| line.kind == LineKind::Knuckle && line.points.iter().any(|p| p[1] > 0.0))
+        || table.stations.iter().any(|s| {
+            s.half_breadths.iter().any(|cell| cell.marks.knuckle)
+                || s.outlines.iter().flatten().any(|p| p.marks.knuckle)
+        })
 }
 
 /// Whether the keel line varies by more than [`ROCKER`] of the depth in the middle three fifths of the length.
@@ -90,8 +93,8 @@ fn has_rocker(table: &OffsetTable) -> bool {
 /// [`FitError::TooFew`] below two stations with a section, [`FitError::Hull`] when the surface is no hull.
 pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let mut net = Net::new(table)?;
-    let particulars = net.particulars(table);
-    let hull = Hull::new(&table.name, particulars, net.surface.clone(), net.deck()?)?;
+    let particulars = particulars(table, &net.surface, &net.profiles, &mut net.notes);
+    let hull = Hull::new(&table.name, particulars, net.surface.clone(), deck(&net.surface, &net.profiles)?)?;
     Ok(Fitted { hull, chart: Chart::Upright, cells: net.cells(table), notes: net.notes })
 }
 
@@ -159,63 +162,6 @@ impl Net {
         }
     }
 
-    /// Stated dimensions, and where nothing is stated: L_PP between the outermost stations, B twice the greatest half-breadth, D
-    /// the highest point, T seven tenths of the height up to the lowest upper edge. What was not stated is noted.
-    fn particulars(&mut self, table: &OffsetTable) -> PrincipalParticulars {
-        let size = size(&self.profiles);
-        let (first, last) = (&self.profiles[0], &self.profiles[self.profiles.len() - 1]);
-        let (length, lowest) =
-            (last.x - first.x, self.surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
-        let top = lowest + size.depth;
-        let notes = &mut self.notes;
-        let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
-            value.unwrap_or_else(|| {
-                notes.push(format!("no {what} is stated: {guess:.3} m, {how}"));
-                guess
-            })
-        };
-        let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
-        let stated = &table.stated;
-        PrincipalParticulars {
-            length_between_perpendiculars: or(
-                stated.length_between_perpendiculars,
-                "length",
-                length,
-                "between the outermost stations",
-            ),
-            breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
-            draught: or(
-                stated.draught,
-                "draught",
-                draught_guess(lowest, edge),
-                "seven tenths of the height up to the lowest upper edge of a section",
-            ),
-            depth: or(stated.depth, "depth", if top > 0.0 { top } else { size.depth }, "the highest point"),
-        }
-    }
-
-    /// The upper edge of the surface as the deck at side.
-    fn deck(&self) -> Result<BsplineCurve<2>, FitError> {
-        let [rows, columns] = self.surface.shape();
-        let edge: Vec<[f64; 2]> = (0..rows)
-            .map(|row| {
-                let [x, _, z] = self.surface.point(row, columns - 1);
-                [x, z]
-            })
-            .collect();
-        if edge.windows(2).all(|w| w[1][0] > w[0][0]) {
-            return BsplineCurve::new(self.surface.u().clone(), edge).map_err(spline);
-        }
-        // At a blunt end two control points share x; the edge over x itself has none such.
-        let x: Vec<f64> = self.profiles.iter().map(|p| p.x).collect();
-        let plain = Length::new(&x, length::Blunt { aft: false, fore: false });
-        let knots = plain.knots(&[]).map_err(spline)?;
-        let heights: Vec<f64> = self.profiles.iter().map(Profile::top).collect();
-        let z = plain.interpolation(&[], &[]).and_then(|across| across.control(&heights)).map_err(spline)?;
-        let points = plain.control_lengths(&knots).into_iter().zip(z).map(|(x, z)| [x, z]).collect();
-        BsplineCurve::new(knots, points).map_err(spline)
-    }
-
     /// v at a height of a station; none outside its section.
     fn v(&self, station: usize, z: f64) -> Option<f64> {
         let levels = girth::levels(&self.profiles[station], &self.lines, station);
@@ -247,12 +193,72 @@ impl Net {
     }
 }
 
+/// Stated dimensions, and where nothing is stated: L_PP between the outermost stations, B twice the greatest half-breadth, D
+/// the highest point, T seven tenths of the height up to the lowest upper edge. What was not stated is noted.
+pub(super) fn particulars(
+    table: &OffsetTable,
+    surface: &BsplineSurface<3>,
+    profiles: &[Profile],
+    notes: &mut Vec<String>,
+) -> PrincipalParticulars {
+    let size = size(profiles);
+    let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
+    let (length, lowest) = (last.x - first.x, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
+    let top = lowest + size.depth;
+    let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
+        value.unwrap_or_else(|| {
+            notes.push(format!("no {what} is stated: {guess:.3} m, {how}"));
+            guess
+        })
+    };
+    let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
+    let stated = &table.stated;
+    PrincipalParticulars {
+        length_between_perpendiculars: or(
+            stated.length_between_perpendiculars,
+            "length",
+            length,
+            "between the outermost stations",
+        ),
+        breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
+        draught: or(
+            stated.draught,
+            "draught",
+            draught_guess(lowest, edge),
+            "seven tenths of the height up to the lowest upper edge of a section",
+        ),
+        depth: or(stated.depth, "depth", if top > 0.0 { top } else { size.depth }, "the highest point"),
+    }
+}
+
+/// The upper edge of the surface as the deck at side.
+pub(super) fn deck(surface: &BsplineSurface<3>, profiles: &[Profile]) -> Result<BsplineCurve<2>, FitError> {
+    let [rows, columns] = surface.shape();
+    let edge: Vec<[f64; 2]> = (0..rows)
+        .map(|row| {
+            let [x, _, z] = surface.point(row, columns - 1);
+            [x, z]
+        })
+        .collect();
+    if edge.windows(2).all(|w| w[1][0] > w[0][0]) {
+        return BsplineCurve::new(surface.u().clone(), edge).map_err(spline);
+    }
+    // At a blunt end two control points share x; the edge over x itself has none such.
+    let x: Vec<f64> = profiles.iter().map(|p| p.x).collect();
+    let plain = Length::new(&x, length::Blunt { aft: false, fore: false });
+    let knots = plain.knots(&[]).map_err(spline)?;
+    let heights: Vec<f64> = profiles.iter().map(Profile::top).collect();
+    let z = plain.interpolation(&[], &[]).and_then(|across| across.control(&heights)).map_err(spline)?;
+    let points = plain.control_lengths(&knots).into_iter().zip(z).map(|(x, z)| [x, z]).collect();
+    BsplineCurve::new(knots, points).map_err(spline)
+}
+
 fn spline(error: SplineError) -> FitError {
     FitError::Hull(error.into())
 }
 
 /// Depth from the lowest keel to the highest upper edge, and the greatest half-breadth \[m\].
-fn size(profiles: &[Profile]) -> Size {
+pub(super) fn size(profiles: &[Profile]) -> Size {
     let low = profiles.iter().map(Profile::keel).fold(f64::INFINITY, f64::min);
     let high = profiles.iter().map(Profile::top).fold(f64::NEG_INFINITY, f64::max);
     Size { depth: high - low, breadth: profiles.iter().map(Profile::breadth).fold(0.0, f64::max) }

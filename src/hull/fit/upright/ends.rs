@@ -15,7 +15,7 @@ const POINTED: f64 = 1e-6;
 /// A section with breadth at an end of the table is the transom, or a flat bow, unless the ends of the waterlines tell where the
 /// profile reaches the upper edge. At the fore end a section that narrows is carried on along keel line and upper edge to the point in which they
 /// meet, when that is within a space and a half.
-pub(super) fn close(table: &OffsetTable, profiles: &mut Vec<Profile>, notes: &mut Vec<String>) {
+pub(in crate::hull::fit) fn close(table: &OffsetTable, profiles: &mut Vec<Profile>, notes: &mut Vec<String>) {
     let breadth = profiles.iter().map(Profile::breadth).fold(0.0, f64::max);
     for fore in [false, true] {
         let end = if fore { &profiles[profiles.len() - 1] } else { &profiles[0] };
@@ -68,7 +68,7 @@ fn carried_on(profiles: &[Profile]) -> Option<[f64; 2]> {
 }
 
 /// Ends at which half-breadths grow like the square root of the distance, by the exponent between the two stations next to them.
-pub(super) fn blunt(profiles: &[Profile]) -> Blunt {
+pub(in crate::hull::fit) fn blunt(profiles: &[Profile]) -> Blunt {
     let greatest = profiles.iter().map(Profile::breadth).fold(0.0, f64::max);
     let is_blunt = |end: &Profile, next: Option<&Profile>, second: Option<&Profile>| {
         let (Some(next), Some(second)) = (next, second) else { return false };

@@ -15,23 +15,23 @@ pub(super) const DEGREE: usize = 3;
 
 /// Which ends are blunt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Blunt {
-    pub(super) aft: bool,
-    pub(super) fore: bool,
+pub(in crate::hull::fit) struct Blunt {
+    pub(in crate::hull::fit) aft: bool,
+    pub(in crate::hull::fit) fore: bool,
 }
 
 /// x(u) and the parameters of the stations.
 #[derive(Debug, Clone)]
-pub(super) struct Length {
+pub(in crate::hull::fit) struct Length {
     /// u of each station; from 0 to 1.
-    pub(super) sites: Vec<f64>,
+    pub(in crate::hull::fit) sites: Vec<f64>,
     /// Powers of u in x(u).
     powers: [f64; 4],
 }
 
 impl Length {
     /// For stations at the rising positions `x`.
-    pub(super) fn new(x: &[f64], blunt: Blunt) -> Self {
+    pub(in crate::hull::fit) fn new(x: &[f64], blunt: Blunt) -> Self {
         let (from, length) = (x[0], x[x.len() - 1] - x[0]);
         let powers = match (blunt.aft, blunt.fore) {
             (false, false) => [0.0, 1.0, 0.0, 0.0],
@@ -69,7 +69,7 @@ impl Length {
     }
 
     /// The control values of x(u) over `knots`, exactly: blossoms of the powers (Ramshaw 1989).
-    pub(super) fn control_lengths(&self, knots: &KnotVector) -> Vec<f64> {
+    pub(in crate::hull::fit) fn control_lengths(&self, knots: &KnotVector) -> Vec<f64> {
         let [c0, c1, c2, c3] = self.powers;
         (0..knots.basis_count())
             .map(|i| {

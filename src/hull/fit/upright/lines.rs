@@ -34,9 +34,9 @@ pub(super) struct Line {
 
 /// Sizes of the hull, for tolerances \[m\].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Size {
-    pub(super) depth: f64,
-    pub(super) breadth: f64,
+pub(in crate::hull::fit) struct Size {
+    pub(in crate::hull::fit) depth: f64,
+    pub(in crate::hull::fit) breadth: f64,
 }
 
 /// All lines between keel and upper edge, from below; heights do not fall from line to line at any station.

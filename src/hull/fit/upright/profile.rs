@@ -11,13 +11,13 @@ use crate::hull::offsets::StationOffsets;
 
 /// A point of a section.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct SectionPoint {
+pub(in crate::hull::fit) struct SectionPoint {
     /// Height \[m\].
-    pub(super) z: f64,
+    pub(in crate::hull::fit) z: f64,
     /// Half-breadth \[m\]; none at an upper edge whose breadth is not given.
-    pub(super) y: Option<f64>,
+    pub(in crate::hull::fit) y: Option<f64>,
     /// The point is marked as one of a knuckle or of a tangent line.
-    pub(super) mark: Option<LineKind>,
+    pub(in crate::hull::fit) mark: Option<LineKind>,
 }
 
 /// What the marks of a cell or point say.
@@ -37,29 +37,29 @@ impl SectionPoint {
 
 /// A section.
 #[derive(Debug, Clone)]
-pub(super) struct Profile {
+pub(in crate::hull::fit) struct Profile {
     /// Position forward of AP \[m\].
-    pub(super) x: f64,
+    pub(in crate::hull::fit) x: f64,
     /// Index of the station in the table; none for an end of the hull that is no station.
-    pub(super) station: Option<usize>,
+    pub(in crate::hull::fit) station: Option<usize>,
     /// Points, heights rising; the first is on the keel line and the last on the upper edge. One point only where the
     /// section shrinks to a point.
-    pub(super) points: Vec<SectionPoint>,
+    pub(in crate::hull::fit) points: Vec<SectionPoint>,
 }
 
 impl Profile {
     /// Height of the keel line \[m\].
-    pub(super) fn keel(&self) -> f64 {
+    pub(in crate::hull::fit) fn keel(&self) -> f64 {
         self.points[0].z
     }
 
     /// Height of the upper edge \[m\].
-    pub(super) fn top(&self) -> f64 {
+    pub(in crate::hull::fit) fn top(&self) -> f64 {
         self.points[self.points.len() - 1].z
     }
 
     /// The greatest half-breadth \[m\].
-    pub(super) fn breadth(&self) -> f64 {
+    pub(in crate::hull::fit) fn breadth(&self) -> f64 {
         self.points.iter().filter_map(|p| p.y).fold(0.0, f64::max)
     }
 }

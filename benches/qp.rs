@@ -1,0 +1,74 @@
+//! CPU time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured interior point
+//! against Clarabel in the same run, and a second solve after one lock was moved. `cargo bench --bench qp [-- 336]`.
+
+#[path = "../tests/qp_problems/mod.rs"]
+mod qp_problems;
+
+use loftsman::qp::{Engine, Problem, Settings, Solver};
+use qp_problems::fairing;
+use std::time::Instant;
+
+const CASES: [([usize; 2], [usize; 2], usize); 3] =
+    [([21, 11], [24, 14], 9), ([81, 41], [60, 40], 5), ([161, 101], [125, 80], 1)];
+
+/// Seconds, shortest of both turns of each engine taken in turn, and what it found.
+fn race(problem: &Problem, rounds: usize) -> [(f64, usize, f64); 2] {
+    let mut result = [(f64::INFINITY, 0, 0.0); 2];
+    for _ in 0..rounds {
+        for (engine, result) in [Engine::Structured, Engine::Clarabel].into_iter().zip(&mut result) {
+            let start = Instant::now();
+            let solution = problem.solve(&Settings { engine, ..Settings::default() }).unwrap();
+            let seconds = start.elapsed().as_secs_f64();
+            let gap = problem.certificate(&solution.x, &solution.multipliers, 0.0).gap;
+            *result = (result.0.min(seconds), solution.iterations, gap);
+        }
+    }
+    result
+}
+
+/// Seconds of a cold solve and of the next after a fixed offset was moved by 2 mm.
+fn warm(problem: &Problem, lock: usize) -> [f64; 2] {
+    let mut problem = problem.clone();
+    let middle = 0.5 * (problem.lower[lock] + problem.upper[lock]);
+    (problem.lower[lock], problem.upper[lock]) = (middle, middle);
+    let start = Instant::now();
+    let mut solver = Solver::new(&problem, &Settings::default()).unwrap();
+    solver.solve();
+    let cold = start.elapsed().as_secs_f64();
+    (problem.lower[lock], problem.upper[lock]) = (middle + 0.002, middle + 0.002);
+    let start = Instant::now();
+    solver.update(&problem).unwrap();
+    solver.solve();
+    [cold, start.elapsed().as_secs_f64()]
+}
+
+fn main() {
+    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    println!("unknowns   rows |     ours      its gap     | Clarabel   its gap     | ours/Clarabel | warm/cold");
+    let mut last: Option<(f64, f64)> = None;
+    for (seed, (offsets, net, rounds)) in (1..).zip(CASES) {
+        let n = net[0] * net[1];
+        if wanted.as_ref().is_some_and(|wanted| *wanted != n.to_string()) {
+            continue;
+        }
+        let problem = fairing(offsets, net, seed);
+        let [ours, clarabel] = race(&problem, rounds);
+        let [cold, again] = warm(&problem, 2 + offsets[0] / 2 * offsets[1] + offsets[1] / 3);
+        println!(
+            "{n:8} {:6} | {:8.4} s {:5} {:7.0e} | {:8.4} s {:3} {:7.0e} | {:13.3} | {:.2}",
+            problem.lower.len(),
+            ours.0,
+            ours.1,
+            ours.2,
+            clarabel.0,
+            clarabel.1,
+            clarabel.2,
+            ours.0 / clarabel.0,
+            again / cold
+        );
+        if let Some((before, seconds)) = last.filter(|_| n > 2400) {
+            println!("growth exponent from {before}: {:.2}", (ours.0 / seconds).ln() / (n as f64 / before).ln());
+        }
+        last = Some((n as f64, ours.0));
+    }
+}

@@ -1,0 +1,240 @@
+//! `loftsman fair TABLE|JOB`
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant, SystemTime};
+
+use clap::Args;
+
+use super::run_files::RunFiles;
+use super::stream;
+use crate::report::{Failure, FairJob, FairOutputs, fair_line, fair_outputs, fair_page, read_fair, write_run};
+
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(super) struct Arguments {
+    /// A table of offsets, or a job file (TOML) that names one
+    #[arg(value_name = "TABLE|JOB")]
+    input: PathBuf,
+    /// Displacement to hold, "4050 t" or "3951 m3"; "table" for that of the table, "free" for none [default: table]
+    #[arg(long, value_name = "MASS|VOLUME", conflicts_with = "cb")]
+    displacement: Option<String>,
+    /// Block coefficient to hold, instead of the displacement
+    #[arg(long, value_name = "CB")]
+    cb: Option<String>,
+    /// Longitudinal centre of buoyancy, "+0.8 %" (of Lpp from midship, + forward) or "41.0 m AP" [default: table]
+    #[arg(long, value_name = "LCB", allow_hyphen_values = true)]
+    lcb: Option<String>,
+    /// Midship section coefficient [default: table]
+    #[arg(long, value_name = "CM")]
+    cm: Option<String>,
+    /// Height of the centre of buoyancy above the base line [default: free]
+    #[arg(long, value_name = "KB")]
+    kb: Option<String>,
+    /// Longitudinal centre of flotation, as --lcb [default: free]
+    #[arg(long, value_name = "LCF", allow_hyphen_values = true)]
+    lcf: Option<String>,
+    /// Waterplane coefficient [default: free]
+    #[arg(long, value_name = "CWP", conflicts_with = "waterplane_area")]
+    cwp: Option<String>,
+    /// Waterplane area [m2], instead of the coefficient
+    #[arg(long, value_name = "AREA")]
+    waterplane_area: Option<String>,
+    /// Design draught: what is held holds there [default: of the table]
+    #[arg(long, alias = "draft", value_name = "T")]
+    draught: Option<String>,
+    /// How far an offset may move [default: three noise levels, at least two steps of the table's writing]
+    #[arg(long, value_name = "LENGTH")]
+    tolerance: Option<String>,
+    /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0"; may be repeated
+    #[arg(long, value_name = "NAME")]
+    lock: Vec<String>,
+    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on plain hulls, else 3]
+    #[arg(long, value_name = "N")]
+    order: Option<String>,
+    /// Weight of bending along the ship; that across is its inverse [default: 0.6]
+    #[arg(long, value_name = "NUMBER")]
+    anisotropy: Option<String>,
+    /// Smoothing weight, or "auto" for the one of least cross-validation [default: auto]
+    #[arg(long, value_name = "NUMBER")]
+    weight: Option<String>,
+    /// Take suspected typing errors as they are
+    #[arg(long)]
+    keep_suspects: bool,
+    /// Do not forbid changes of curvature that are noise
+    #[arg(long)]
+    no_signs: bool,
+    /// Minimise the energy of true curvature: refresh its metric at the answer while the functional falls
+    #[arg(long)]
+    true_curvature: bool,
+    #[command(flatten)]
+    files: RunFiles,
+    /// Run again whenever one of the files that were read changes; files of the run before are overwritten
+    #[arg(long)]
+    watch: bool,
+}
+
+const AFTER: &str = "\
+Held are displacement, LCB and CM of the surface through the table unless something else is said; a target that is given \
+replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [energy], [suspects], \
+[signs]: `loftsman schema job`.
+Files: hull.json, offsets.csv (in the notation of the table), changes.csv, fairing.json (the certificate), summary.json, \
+manifest.json, figures.
+Exit code 4 when the wishes cannot all be had within the tolerances; the best compromise is written, marked.
+Tables of offsets are all that `loftsman fit --help` lists.";
+
+/// How often the files are looked at.
+const LOOK: Duration = Duration::from_millis(200);
+
+impl Arguments {
+    /// What the options say, in the words of the job file.
+    fn options(&self) -> Vec<(&'static str, &'static str, String)> {
+        let named = [
+            ("--displacement", "hold.displacement", &self.displacement),
+            ("--cb", "hold.Cb", &self.cb),
+            ("--lcb", "hold.LCB", &self.lcb),
+            ("--cm", "hold.Cm", &self.cm),
+            ("--kb", "hold.KB", &self.kb),
+            ("--lcf", "hold.LCF", &self.lcf),
+            ("--cwp", "hold.Cwp", &self.cwp),
+            ("--waterplane-area", "hold.waterplane_area", &self.waterplane_area),
+            ("--draught", "dimensions.T", &self.draught),
+            ("--tolerance", "tolerance.table", &self.tolerance),
+            ("--order", "energy.order", &self.order),
+            ("--anisotropy", "energy.anisotropy", &self.anisotropy),
+            ("--weight", "energy.weight", &self.weight),
+        ];
+        let said = |(option, key, value): (&'static str, &'static str, &Option<String>)| {
+            value.as_ref().map(|value| (option, key, value.clone()))
+        };
+        let mut options: Vec<_> = named.into_iter().filter_map(said).collect();
+        for lock in &self.lock {
+            let (key, name) = match lock.trim().split_once(char::is_whitespace) {
+                Some(("station", name)) => ("lock.stations", name),
+                Some(("waterline", name)) => ("lock.waterlines", name),
+                _ => ("lock.cells", lock.as_str()),
+            };
+            options.push(("--lock", key, name.trim().to_owned()));
+        }
+        let flags = [
+            (self.keep_suspects, "--keep-suspects", "suspects.exclude", "false"),
+            (self.no_signs, "--no-signs", "signs.impose", "false"),
+            (self.true_curvature, "--true-curvature", "energy.true_curvature", "true"),
+        ];
+        for (_, option, key, value) in flags.into_iter().filter(|(flag, ..)| *flag) {
+            options.push((option, key, value.to_owned()));
+        }
+        options
+    }
+}
+
+/// Reads, fairs and writes once; the job, when it could be read, tells which files to watch.
+fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOutputs, f64), Failure>) {
+    let progress = |text: String| {
+        if !arguments.files.quiet {
+            stream::message(&text);
+        }
+    };
+    let start = Instant::now();
+    let job = match read_fair(&arguments.input, &arguments.options()) {
+        Ok(job) => job,
+        Err(failure) => return (None, Err(failure)),
+    };
+    let [stations, waterlines, offsets] = job.size();
+    progress(format!("{}: {stations} stations, {waterlines} waterlines, {offsets} offsets", job.table.name));
+    let outputs = match fair_outputs(&job, !arguments.files.no_figures) {
+        Ok(outputs) => outputs,
+        Err(failure) => return (Some(job), Err(failure)),
+    };
+    let seconds = start.elapsed().as_secs_f64();
+    progress(format!("faired in {seconds:.2} s"));
+    match write_run(&arguments.files.folder(&arguments.input, false), &outputs.files, force) {
+        Ok(()) => (Some(job), Ok((outputs, seconds))),
+        Err(failure) => (Some(job), Err(failure)),
+    }
+}
+
+/// When the files were written last; a file that is not there has no time.
+fn stamps(files: &[PathBuf]) -> Vec<Option<SystemTime>> {
+    files.iter().map(|file| file.metadata().and_then(|data| data.modified()).ok()).collect()
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let started = SystemTime::now();
+    let (job, done) = once(arguments, arguments.files.force);
+    if arguments.watch {
+        return watch(arguments, job, done, started);
+    }
+    let (outputs, seconds) = done?;
+    if let Some(job) = job {
+        print(arguments, &job, &outputs, seconds)?;
+    }
+    outputs.verdict()
+}
+
+fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f64) -> Result<(), Failure> {
+    if arguments.files.json {
+        let mut certificate = outputs.certificate.clone();
+        if let Some(work) = certificate.get_mut("work").and_then(|work| work.as_object_mut()) {
+            work.insert("seconds".to_owned(), seconds.into());
+        }
+        return stream::data(&stream::json(&certificate)?);
+    }
+    if arguments.files.quiet {
+        return Ok(());
+    }
+    stream::data(&fair_page(job, outputs, &arguments.files.folder(&arguments.input, false).display().to_string()))
+}
+
+/// Runs again when a file changes, until the program is ended; what goes wrong is said and does not end it, but for a first
+/// run that could not write.
+fn watch(
+    arguments: &Arguments,
+    job: Option<FairJob>,
+    done: Result<(FairOutputs, f64), Failure>,
+    started: SystemTime,
+) -> Result<(), Failure> {
+    let mut files = job.as_ref().map_or_else(|| vec![arguments.input.clone()], |job| job.files().to_vec());
+    match (done, &job) {
+        (Ok((outputs, seconds)), Some(job)) => {
+            print(arguments, job, &outputs, seconds)?;
+            said(&outputs.verdict());
+        }
+        (Err(failure @ (Failure::Exists(_) | Failure::FileSystem { .. })), _) => return Err(failure),
+        (done, _) => said(&done.map(|_| ())),
+    }
+    // What was written since the first run began has not been seen.
+    let mut seen: Vec<_> = stamps(&files).into_iter().map(|time| time.filter(|&time| time <= started)).collect();
+    loop {
+        std::thread::sleep(LOOK);
+        let now = stamps(&files);
+        if now == seen {
+            continue;
+        }
+        // An editor may still be writing: the second look must see the same.
+        std::thread::sleep(LOOK / 4);
+        if stamps(&files) != now {
+            continue;
+        }
+        seen = now;
+        let (job, done) = once(arguments, true);
+        if let Some(job) = &job
+            && job.files() != files
+        {
+            files = job.files().to_vec();
+            seen = stamps(&files);
+        }
+        match done {
+            Ok((outputs, _)) => {
+                stream::data(&fair_line(&outputs))?;
+                said(&outputs.verdict());
+            }
+            Err(failure) => stream::message(&failure.to_string()),
+        }
+    }
+}
+
+fn said(verdict: &Result<(), Failure>) {
+    if let Err(failure) = verdict {
+        stream::message(&failure.to_string());
+    }
+}

@@ -1,0 +1,67 @@
+//! What the commands that write a folder of files have in common: where, over what, which figures, what is printed.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::plot::Figure;
+
+/// The options of a command that writes a folder of files.
+#[derive(Debug, Args)]
+pub(super) struct RunFiles {
+    /// Folder for the files; with several inputs, a folder in it for each [default: out/<name of the input>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Overwrite files that are there already, and remove what an earlier run wrote and this one does not
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Draw no figures
+    #[arg(long)]
+    pub(super) no_figures: bool,
+    /// Print the result as JSON (summary.json; of fit fit.json, of fair fairing.json) on stdout instead of the page
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+}
+
+impl RunFiles {
+    /// The folder for the files about one input; `several` when the command was given more than one.
+    pub(super) fn folder(&self, input: &Path, several: bool) -> PathBuf {
+        let name = input.file_stem().unwrap_or_else(|| "hull".as_ref());
+        match &self.output {
+            Some(folder) if several => folder.join(name),
+            Some(folder) => folder.clone(),
+            None => Path::new("out").join(name),
+        }
+    }
+}
+
+/// The options of a command whose figures can be chosen.
+#[derive(Debug, Args)]
+pub(super) struct Figures {
+    /// Figures to draw, with commas between them [default: those that the input names, or all]
+    #[arg(long, value_delimiter = ',', value_parser = figure, value_name = "LIST", conflicts_with = "no_figures")]
+    figures: Vec<Figure>,
+}
+
+impl Figures {
+    /// The figures that were chosen, else those among `usual`; none with `--no-figures`.
+    pub(super) fn chosen(&self, files: &RunFiles, usual: &[&str]) -> Vec<Figure> {
+        if files.no_figures {
+            Vec::new()
+        } else if self.figures.is_empty() {
+            Figure::ALL.into_iter().filter(|figure| usual.contains(&figure.key())).collect()
+        } else {
+            self.figures.clone()
+        }
+    }
+}
+
+fn figure(word: &str) -> Result<Figure, String> {
+    Figure::ALL
+        .into_iter()
+        .find(|figure| figure.key() == word.trim())
+        .ok_or_else(|| format!("known figures are {}", Figure::ALL.map(Figure::key).join(", ")))
+}

@@ -1,0 +1,372 @@
+//! The job file: how a table of offsets is to be faired, what is held, what may not move.
+//!
+//! ```toml
+//! [table]
+//! file = "offsets.csv"            # beside the job file; may be left out when the command names one
+//! [tolerance]
+//! table = "3 mm"
+//! stations = { "10" = "1 mm" }
+//! [lock]
+//! cells = ["20@6.5024"]           # station@waterline
+//! [hold]
+//! displacement = "table"          # of the table's own surface; or "4050 t", or "free"
+//! LCB = "-1.5 %"
+//! ```
+
+mod hold;
+mod spot;
+
+pub use hold::{Quantity, Wish};
+pub use spot::{Mark, Spot};
+
+use super::diagnostic::{Diagnostic, Severity, position};
+use super::document::{Document, Raw};
+use super::keys::{Key, Kind, key};
+use super::value::Scalar;
+use crate::fairing::job::{Holding, Job};
+use crate::hull::{OffsetTable, StatedParticulars};
+
+const HOLD: [&str; 2] = ["table", "free"];
+const AUTO: [&str; 1] = ["auto"];
+
+const fn hold(name: &'static str, kind: &'static Kind, description: &'static str) -> Key {
+    key("hold", name, Kind::OrWord(kind, &HOLD), &[], description)
+}
+
+/// Every key of the job file.
+pub const JOB_KEYS: &[Key] = &[
+    key("", "schema", Kind::Integer(1, 1), &[], "Version of the keys: 1."),
+    key(
+        "table",
+        "file",
+        Kind::Text,
+        &[],
+        "Table of offsets, relative to this file. Default: the one that the command names.",
+    ),
+    key("dimensions", "Lpp", Kind::Length, &[], "L_PP, over what the table states."),
+    key("dimensions", "B", Kind::Length, &[], "B moulded, over what the table states."),
+    key("dimensions", "T", Kind::Length, &[], "Design draught, over what the table states: what is held holds there."),
+    key("dimensions", "D", Kind::Length, &[], "Depth to the deck at side, over what the table states."),
+    key("water", "density", Kind::Density, &[], "Density of the water. Default: 1.025 t/m3."),
+    key(
+        "energy",
+        "order",
+        Kind::Integer(2, 4),
+        &[],
+        "Order of the derivatives in the energy: 2, 3 or 4. Default: 4 on hulls with plumb ends over a rectangle, else 3.",
+    ),
+    key(
+        "energy",
+        "anisotropy",
+        Kind::Number,
+        &[],
+        "Weight of bending along the ship; that across is its inverse. Default: 0.6.",
+    ),
+    key(
+        "energy",
+        "weight",
+        Kind::NumberOrWord(&AUTO),
+        &[],
+        "Smoothing weight; \"auto\" takes the one of least generalised cross-validation. Default: \"auto\".",
+    ),
+    key(
+        "tolerance",
+        "table",
+        Kind::Length,
+        &[],
+        "How far an offset may move. Default: three noise levels, at least two steps of the table's writing.",
+    ),
+    key("tolerance", "stations", Kind::NamedLengths, &[], "Tolerances of single stations, { \"10\" = \"1 mm\" }."),
+    key(
+        "tolerance",
+        "waterlines",
+        Kind::NamedLengths,
+        &[],
+        "Tolerances of single waterlines, { \"6.5 m\" = \"1 mm\" }.",
+    ),
+    key("tolerance", "cells", Kind::NamedLengths, &[], "Tolerances of single cells, { \"10@6.5\" = \"1 mm\" }."),
+    key("lock", "stations", Kind::Names, &[], "Stations that do not move: names of the table, or positions."),
+    key("lock", "waterlines", Kind::Names, &[], "Waterlines that do not move: heights."),
+    key("lock", "cells", Kind::Names, &[], "Cells that do not move, \"station@waterline\"."),
+    hold("displacement", &Kind::Displacement, "Displacement at the design draught. Default: \"table\"."),
+    hold("Cb", &Kind::Number, "Block coefficient, instead of the displacement."),
+    hold("LCB", &Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: \"table\"."),
+    hold("KB", &Kind::Length, "Height of the centre of buoyancy above the base line. Default: \"free\"."),
+    hold("LCF", &Kind::CentreOfBuoyancy, "Longitudinal centre of flotation. Default: \"free\"."),
+    hold("Cwp", &Kind::Number, "Waterplane coefficient. Default: \"free\"."),
+    hold("waterplane_area", &Kind::Area, "Waterplane area, instead of Cwp. Default: \"free\"."),
+    hold("Cm", &Kind::Number, "Midship section coefficient. Default: \"table\"."),
+    key(
+        "hold",
+        "section_areas",
+        Kind::SectionAreas,
+        &[],
+        "Areas of sections below the design draught, both sides: [[x, area], [x, area, band]].",
+    ),
+    key(
+        "energy",
+        "true_curvature",
+        Kind::Switch,
+        &[],
+        "Whether the energy is that of true curvature: the metric is refreshed while the functional falls. Default: false.",
+    ),
+    key(
+        "suspects",
+        "exclude",
+        Kind::Switch,
+        &[],
+        "Whether cells that are more likely wrong than right are left out. Default: true.",
+    ),
+    key(
+        "signs",
+        "impose",
+        Kind::Switch,
+        &[],
+        "Whether changes of curvature that are noise are forbidden. Default: true.",
+    ),
+];
+
+/// What a job file says; what it does not say is none.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct JobFile {
+    /// The table of offsets, relative to the file.
+    pub table: Option<String>,
+    /// Main dimensions that stand over those of the table.
+    pub stated: StatedParticulars,
+    /// Density of the water \[t/m^3\].
+    pub density: Option<f64>,
+    /// Order of the energy.
+    pub order: Option<usize>,
+    /// Weight of bending along the ship.
+    pub anisotropy: Option<f64>,
+    /// Smoothing weight; none for `auto`.
+    pub weight: Option<Option<f64>>,
+    /// Tolerance of all offsets \[m\].
+    pub tolerance: Option<f64>,
+    /// Tolerances of single lines and cells \[m\].
+    pub tolerances: Vec<(Mark, f64)>,
+    /// What does not move.
+    pub locks: Vec<Mark>,
+    /// What is held, or left free.
+    pub hold: Vec<(Quantity, Wish)>,
+    /// Section areas: x \[m\], area and band \[m^2\].
+    pub section_areas: Vec<[f64; 3]>,
+    /// Whether suspects are left out.
+    pub exclude_suspects: Option<bool>,
+    /// Whether signs are imposed.
+    pub signs: Option<bool>,
+    /// Whether the energy is that of true curvature.
+    pub true_curvature: Option<bool>,
+}
+
+/// Reads a job file. `file` is its name for messages.
+///
+/// # Errors
+/// Every problem of the file at once.
+pub fn read_job(file: &str, text: &str) -> Result<JobFile, Vec<Diagnostic>> {
+    let mut document = Document::with_keys(file, text, JOB_KEYS, "a job");
+    if !document.problems.iter().any(|p| p.code == "E120") {
+        let job = interpret(&mut document);
+        if document.problems.is_empty() {
+            return Ok(job);
+        }
+    }
+    document.problems.sort_by_key(|p| (p.line.unwrap_or(0), p.column.unwrap_or(0)));
+    document.problems.dedup();
+    Err(document.problems)
+}
+
+/// What an option of a command says, in the words of the job file: `key` is the path of a key, `value` the text of its value.
+///
+/// # Errors
+/// Every problem of the value; the option stands for the file in the messages.
+pub fn read_option(option: &str, key: &str, value: &str) -> Result<JobFile, Vec<Diagnostic>> {
+    let kind = JOB_KEYS.iter().find(|k| k.path() == key).map(|k| k.kind);
+    // Texts are quoted, as in a file; lists, switches and whole numbers stand as they are.
+    let bare = match kind {
+        Some(Kind::Integer(..) | Kind::Switch) => true,
+        Some(Kind::OrWord(Kind::Area, _)) => value.trim().parse::<f64>().is_ok(),
+        _ => false,
+    };
+    let quoted = serde_json::Value::String(value.to_owned()).to_string();
+    let text = match kind {
+        Some(Kind::Names) => format!("{key} = [{quoted}]"),
+        _ if bare => format!("{key} = {value}"),
+        _ => format!("{key} = {quoted}"),
+    };
+    read_job(option, &text)
+        .map(|mut job| {
+            job.locks.iter_mut().for_each(Mark::without_place);
+            job
+        })
+        .map_err(|problems| {
+            problems.into_iter().map(|problem| Diagnostic { line: None, column: None, ..problem }).collect()
+        })
+}
+
+fn interpret(document: &mut Document<'_>) -> JobFile {
+    document.integer("schema");
+    let mut job = JobFile {
+        table: document.text("table.file"),
+        stated: StatedParticulars {
+            length_between_perpendiculars: positive(document, "dimensions.Lpp", "length"),
+            breadth: positive(document, "dimensions.B", "length"),
+            draught: positive(document, "dimensions.T", "length"),
+            depth: positive(document, "dimensions.D", "length"),
+        },
+        density: positive(document, "water.density", "density"),
+        order: document.integer("energy.order").map(|order| order as usize),
+        anisotropy: positive(document, "energy.anisotropy", "number"),
+        weight: weight(document),
+        tolerance: document.number("tolerance.table").filter(|&t| not_negative(document, "tolerance.table", t)),
+        exclude_suspects: document.switch("suspects.exclude"),
+        signs: document.switch("signs.impose"),
+        true_curvature: document.switch("energy.true_curvature"),
+        ..JobFile::default()
+    };
+    spot::read(document, &mut job);
+    hold::read(document, &mut job);
+    job
+}
+
+/// The number of a key that must be above 0.
+fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> {
+    let value = document.number(path)?;
+    if value > 0.0 {
+        return Some(value);
+    }
+    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+    document.problem("E124", path, &span, format!("{path} is {value}"), format!("Expected a positive {noun}."));
+    None
+}
+
+fn not_negative(document: &mut Document<'_>, path: &str, value: f64) -> bool {
+    if value < 0.0 {
+        let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+        let message = format!("{path} is {value} m");
+        document.problem("E124", path, &span, message, "A tolerance is 0 or more; 0 locks.".into());
+    }
+    value >= 0.0
+}
+
+fn weight(document: &mut Document<'_>) -> Option<Option<f64>> {
+    let Scalar::Measure(measure) = document.number_or_word("energy.weight")? else { return Some(None) };
+    if measure.value > 0.0 {
+        return Some(Some(measure.value));
+    }
+    let span = document.entry("energy.weight").map_or(0..0, |e| e.span.clone());
+    let message = format!("energy.weight is {}", measure.value);
+    document.problem("E124", "energy.weight", &span, message, "Expected a positive number, or \"auto\".".into());
+    None
+}
+
+impl JobFile {
+    /// This job with what `other` says over it; locks, tolerances of lines and section areas are added.
+    #[must_use]
+    pub fn with(mut self, other: Self) -> Self {
+        let (stated, over) = (&mut self.stated, &other.stated);
+        stated.length_between_perpendiculars =
+            over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
+        stated.breadth = over.breadth.or(stated.breadth);
+        stated.draught = over.draught.or(stated.draught);
+        stated.depth = over.depth.or(stated.depth);
+        for (quantity, wish) in other.hold {
+            self.hold.retain(|(mine, _)| *mine != quantity && mine.twin() != Some(quantity));
+            self.hold.push((quantity, wish));
+        }
+        self.tolerances.extend(other.tolerances);
+        self.locks.extend(other.locks);
+        self.section_areas.extend(other.section_areas);
+        Self {
+            table: other.table.or(self.table),
+            density: other.density.or(self.density),
+            order: other.order.or(self.order),
+            anisotropy: other.anisotropy.or(self.anisotropy),
+            weight: other.weight.or(self.weight),
+            tolerance: other.tolerance.or(self.tolerance),
+            exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
+            signs: other.signs.or(self.signs),
+            true_curvature: other.true_curvature.or(self.true_curvature),
+            ..self
+        }
+    }
+
+    /// The job for a table whose L_PP is `length` \[m\], and for water of the density of the file or of 1.025 t/m^3.
+    ///
+    /// # Errors
+    /// Names of stations, waterlines and cells that the table does not have, all of them.
+    pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
+        let mut job = Job::default();
+        job.energy.order = self.order;
+        job.energy.anisotropy = self.anisotropy.unwrap_or(job.energy.anisotropy);
+        job.weight = self.weight.flatten();
+        job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
+        job.signs = self.signs.unwrap_or(true);
+        job.true_curvature = self.true_curvature.unwrap_or(false);
+        job.tolerance.table = self.tolerance;
+        job.holding = self.holding(length);
+        let mut problems = Vec::new();
+        for (mark, tolerance) in &self.tolerances {
+            match mark.find(table) {
+                Ok(Spot::Station(station)) => job.tolerance.stations.push((station, *tolerance)),
+                Ok(Spot::Waterline(waterline)) => job.tolerance.waterlines.push((waterline, *tolerance)),
+                Ok(Spot::Cell(station, waterline)) => job.tolerance.cells.push((station, waterline, *tolerance)),
+                Err(problem) => problems.push(*problem),
+            }
+        }
+        for mark in &self.locks {
+            match mark.find(table) {
+                Ok(spot) => job.locked.extend(spot.cells(table)),
+                Err(problem) => problems.push(*problem),
+            }
+        }
+        job.locked.sort_unstable();
+        job.locked.dedup();
+        if problems.is_empty() { Ok(job) } else { Err(problems) }
+    }
+
+    fn holding(&self, length: f64) -> Holding {
+        if self.hold.is_empty() && self.section_areas.is_empty() {
+            return Holding::Table;
+        }
+        let density = self.density.unwrap_or(crate::hydrostatics::Conventions::default().density);
+        hold::holding(&self.hold, &self.section_areas, length, density)
+    }
+}
+
+/// A message about the job at a place of its file.
+fn message(
+    code: &'static str,
+    (file, key): (&str, &str),
+    at: Option<(usize, usize)>,
+    message: String,
+    help: String,
+) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        code,
+        file: file.to_owned(),
+        line: at.map(|at| at.0),
+        column: at.map(|at| at.1),
+        key: key.to_owned(),
+        message,
+        help,
+    }
+}
+
+/// Line and column of a byte of the document.
+fn place(document: &Document<'_>, byte: usize) -> Option<(usize, usize)> {
+    Some(position(document.text, byte))
+}
+
+/// A text, or a number as it is written.
+fn name(raw: &Raw) -> Option<String> {
+    match raw {
+        Raw::Text(text) if !text.trim().is_empty() => Some(text.trim().to_owned()),
+        Raw::Number(value) if value.is_finite() => Some(format!("{value}")),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+//! What a job holds of the hull.
+
+use super::super::document::{Document, Raw};
+use super::super::keys::Kind;
+use super::super::value::{Scalar, expected};
+use super::super::wishes::position_along;
+use super::{HOLD, JobFile};
+use crate::fairing::constraint::Constraint;
+use crate::fairing::job::Holding;
+use crate::units::Dimension;
+
+/// A quantity of the hull that a job can hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Displacement.
+    Displacement,
+    /// C_B.
+    BlockCoefficient,
+    /// LCB.
+    CentreOfBuoyancy,
+    /// KB.
+    HeightOfBuoyancy,
+    /// LCF.
+    CentreOfFlotation,
+    /// C_WP.
+    WaterplaneCoefficient,
+    /// A_W.
+    WaterplaneArea,
+    /// C_M.
+    MidshipCoefficient,
+}
+
+/// What is wished of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wish {
+    /// The value of the table's own surface.
+    Table,
+    /// Nothing.
+    Free,
+    /// A mass \[t\], which the density makes a volume.
+    Mass(f64),
+    /// A position along the ship: share of L_PP, and metres forward of AP.
+    Along([f64; 2]),
+    /// A number in the SI unit of the quantity.
+    Value(f64),
+}
+
+impl Quantity {
+    /// Every quantity.
+    pub const ALL: [Self; 8] = [
+        Self::Displacement,
+        Self::BlockCoefficient,
+        Self::CentreOfBuoyancy,
+        Self::HeightOfBuoyancy,
+        Self::CentreOfFlotation,
+        Self::WaterplaneCoefficient,
+        Self::WaterplaneArea,
+        Self::MidshipCoefficient,
+    ];
+
+    /// The key of `[hold]`.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::BlockCoefficient => "Cb",
+            Self::CentreOfBuoyancy => "LCB",
+            Self::HeightOfBuoyancy => "KB",
+            Self::CentreOfFlotation => "LCF",
+            Self::WaterplaneCoefficient => "Cwp",
+            Self::WaterplaneArea => "waterplane_area",
+            Self::MidshipCoefficient => "Cm",
+        }
+    }
+
+    /// The quantity that says the same in another unit.
+    #[must_use]
+    pub fn twin(self) -> Option<Self> {
+        match self {
+            Self::Displacement => Some(Self::BlockCoefficient),
+            Self::BlockCoefficient => Some(Self::Displacement),
+            Self::WaterplaneArea => Some(Self::WaterplaneCoefficient),
+            Self::WaterplaneCoefficient => Some(Self::WaterplaneArea),
+            _ => None,
+        }
+    }
+
+    fn constraint(self, target: f64) -> Constraint {
+        match self {
+            Self::Displacement => Constraint::Displacement(target),
+            Self::BlockCoefficient => Constraint::BlockCoefficient(target),
+            Self::CentreOfBuoyancy => Constraint::CentreOfBuoyancy(target),
+            Self::HeightOfBuoyancy => Constraint::HeightOfBuoyancy(target),
+            Self::CentreOfFlotation => Constraint::CentreOfFlotation(target),
+            Self::WaterplaneCoefficient => Constraint::WaterplaneCoefficient(target),
+            Self::WaterplaneArea => Constraint::WaterplaneArea(target),
+            Self::MidshipCoefficient => Constraint::MidshipCoefficient(target),
+        }
+    }
+}
+
+/// What is held of the table when nothing is said.
+const DEFAULT: [Quantity; 3] = [Quantity::Displacement, Quantity::CentreOfBuoyancy, Quantity::MidshipCoefficient];
+
+/// Reads `[hold]`.
+pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
+    for quantity in Quantity::ALL {
+        if let Some(wish) = wish(document, quantity) {
+            job.hold.push((quantity, wish));
+        }
+    }
+    let named = |quantity: Quantity| job.hold.iter().any(|(q, w)| *q == quantity && *w != Wish::Free);
+    for (first, second) in [
+        (Quantity::Displacement, Quantity::BlockCoefficient),
+        (Quantity::WaterplaneArea, Quantity::WaterplaneCoefficient),
+    ] {
+        if named(first) && named(second) {
+            let path = format!("hold.{}", second.key());
+            let span = document.entry(&path).map_or(0..0, |e| e.key_span.clone());
+            let message = format!("{} and {} say the same", first.key(), second.key());
+            document.problem("E170", &path, &span, message, "Give one of them.".into());
+        }
+    }
+    section_areas(document, job);
+}
+
+fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
+    let path = format!("hold.{}", quantity.key());
+    let (raw, span, kind) = document.raw(&path)?;
+    if matches!(quantity, Quantity::CentreOfBuoyancy | Quantity::CentreOfFlotation) {
+        let Raw::Text(text) = &raw else {
+            if matches!(raw, Raw::Number(_)) {
+                let message = format!("{path} is {}, and its unit is not said", raw.describe());
+                let help = "Write \"+0.8 %\" (of Lpp from midship, + forward) or \"41.0 m AP\".".into();
+                document.problem("E123", &path, &span, message, help);
+            } else {
+                document.unexpected(&path, &raw, &span, kind);
+            }
+            return None;
+        };
+        if text.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+            return position_along(document, &path, text, &span, kind).map(Wish::Along);
+        }
+        return document.one_of(&path, text, &span, &HOLD).map(word);
+    }
+    let measure = match document.measure_or_word(&path)? {
+        Scalar::Word(found) => return Some(word(found)),
+        Scalar::Measure(measure) => measure,
+    };
+    let fraction = matches!(kind, Kind::OrWord(Kind::Number, _));
+    if measure.value > 0.0 && (!fraction || measure.value <= 1.0) {
+        let mass = quantity == Quantity::Displacement && measure.dimension != Dimension::Volume;
+        return Some(if mass { Wish::Mass(measure.value) } else { Wish::Value(measure.value) });
+    }
+    let help = if fraction { "Expected a number above 0, at most 1." } else { "Expected a positive number." };
+    document.problem("E124", &path, &span, format!("{path} is {}", measure.value), help.into());
+    None
+}
+
+fn word(word: &str) -> Wish {
+    if word == "free" { Wish::Free } else { Wish::Table }
+}
+
+fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
+    let path = "hold.section_areas";
+    let Some((raw, span, kind)) = document.raw(path) else { return };
+    let Raw::Array(items) = &raw else {
+        document.unexpected(path, &raw, &span, kind);
+        return;
+    };
+    for (item, at) in items {
+        let numbers: Option<Vec<f64>> = match item {
+            Raw::Array(numbers) => {
+                let finite = |(raw, _): &(Raw, _)| match raw {
+                    Raw::Number(value) if value.is_finite() => Some(*value),
+                    _ => None,
+                };
+                numbers.iter().map(finite).collect()
+            }
+            _ => None,
+        };
+        match numbers.as_deref() {
+            Some(&[x, area]) if area > 0.0 => job.section_areas.push([x, area, 0.0]),
+            Some(&[x, area, band]) if area > 0.0 && band >= 0.0 => job.section_areas.push([x, area, band]),
+            _ => {
+                let message = format!("{path}: an item is {}", item.describe());
+                document.problem("E122", path, at, message, format!("Expected {}.", expected(kind)));
+            }
+        }
+    }
+}
+
+/// The constraints; what is said stands over the default.
+pub(super) fn holding(hold: &[(Quantity, Wish)], areas: &[[f64; 3]], length: f64, density: f64) -> Holding {
+    let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
+    let silent = |quantity: &Quantity| !said(*quantity) && !quantity.twin().is_some_and(said);
+    let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0)).collect();
+    let mut given = Vec::new();
+    for &(quantity, wish) in hold {
+        match wish {
+            Wish::Free => {}
+            Wish::Table => own.push(quantity.constraint(0.0)),
+            Wish::Mass(mass) => given.push(quantity.constraint(mass / density)),
+            Wish::Along([share, shift]) => given.push(quantity.constraint(share * length + shift)),
+            Wish::Value(value) => given.push(quantity.constraint(value)),
+        }
+    }
+    given.extend(areas.iter().map(|&[x, area, band]| Constraint::SectionArea { x, area, band }));
+    Holding::Both { own, given }
+}

@@ -1,0 +1,268 @@
+//! `fairing.json`, the certificate of a fair hull, and `changes.csv`, every offset before and after.
+
+use serde_json::{Value, json};
+
+use super::number::{cell, json_number, line};
+use crate::fairing::bends::Line;
+use crate::fairing::job::{Change, Held, Outcome};
+use crate::fairing::program::RowName;
+use crate::hull::{Cut, OffsetTable, SideKind};
+use crate::qp::Status;
+
+/// What writing the fair table in its notation did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RoundingEffect {
+    /// Largest change of an offset \[m\].
+    pub largest: f64,
+    /// Root of the mean square of all changes \[m\].
+    pub root_mean_square: f64,
+    /// Volume of the surface through the written table less that through the exact one \[m^3\]; none when either is not there.
+    pub volume: Option<f64>,
+    /// The same over the volume.
+    pub volume_share: Option<f64>,
+}
+
+/// The word for the end of the program.
+#[must_use]
+pub fn status_word(status: Status) -> &'static str {
+    match status {
+        Status::Optimal => "optimal",
+        Status::Infeasible => "infeasible",
+        Status::Unbounded => "unbounded",
+        Status::Limit => "limit",
+    }
+}
+
+/// Name and unit of the target of a constraint: both sides of the certificate are in this unit.
+fn unit(held: &Held) -> &'static str {
+    match held.constraint.key() {
+        "displacement" => "m3",
+        "lcb" | "kb" | "lcf" => "m",
+        "waterplane_area" | "section_area" => "m2",
+        _ => "-",
+    }
+}
+
+fn at(cut: &Cut) -> f64 {
+    match *cut {
+        Cut::Station { x } => x,
+        Cut::Waterline { z } => z,
+        Cut::Buttock { y } => y,
+        Cut::Diagonal { height, .. } => height,
+        Cut::Plane { offset, .. } => offset,
+    }
+}
+
+fn number(value: f64) -> Value {
+    json_number(Some(value))
+}
+
+/// Inflections of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it.
+fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
+    let list = outcome.turns.iter().filter(|turns| crate::fairing::inspect::kind(&turns.cut) == kind);
+    list.map(|turns| {
+        let mut entry = json!({ "at": number(at(&turns.cut)), "before": turns.before, "after": turns.after });
+        if let Some((count, proved)) = turns.minimum {
+            entry["minimum"] = json!(count);
+            entry["minimum_proved"] = json!(proved);
+        }
+        let guarded = outcome.faired.guarded.as_ref();
+        let line = match turns.cut {
+            Cut::Station { x } => Line::Station(x),
+            Cut::Waterline { z } => Line::Waterline(z),
+            _ => return entry,
+        };
+        if let Some(guarded) = guarded {
+            if guarded.asked.contains(&line) {
+                entry["allowed"] = json!(turns.minimum.map(|(count, _)| count));
+            } else if guarded.kept.contains(&line) {
+                entry["allowed"] = json!(turns.before);
+            }
+            if let Some((_, price)) = guarded.released.iter().find(|(other, _)| *other == line) {
+                // Not a number: nothing satisfies the least inflections of all lines together.
+                entry["released_at"] = json_number(price.is_finite().then_some(*price));
+            }
+        }
+        entry
+    })
+    .collect()
+}
+
+/// Why the wishes cannot all be had: the least factor on the tolerances, and for each constraint alone what the others leave it,
+/// in the unit of its quantity.
+fn diagnosis(outcome: &Outcome) -> Value {
+    let Some(found) = &outcome.faired.diagnosis else { return Value::Null };
+    let reaches: Vec<Value> = found
+        .reaches
+        .iter()
+        .filter_map(|reach| {
+            let held = outcome.held.get(reach.constraint)?;
+            let [low, high] = outcome.reached_values(reach).map_or([None; 2], |ends| ends.map(Some));
+            Some(json!({
+                "kind": held.constraint.key(), "least": json_number(low), "greatest": json_number(high),
+                "target": number(held.constraint.target()),
+            }))
+        })
+        .collect();
+    let cheapest = found.cheapest().and_then(|reach| outcome.held.get(reach.constraint));
+    json!({
+        "widening": json_number(found.widening),
+        "alone": reaches,
+        "cheapest": cheapest.map(|held| held.constraint.key()),
+    })
+}
+
+fn place(table: &OffsetTable, change: &Change) -> Value {
+    let station = table.stations.get(change.station).map(|station| &station.station.name);
+    json!({
+        "station": station, "waterline": change.waterline.and_then(|j| table.waterlines.get(j)),
+        "x": number(change.x), "z": number(change.z),
+        "before": number(change.before), "after": number(change.after), "move": number(change.after - change.before),
+    })
+}
+
+/// The certificate. `suspects` are the suspects as `check` writes them; `table` is the table as it was read.
+#[must_use]
+pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingEffect, suspects: &[Value]) -> Value {
+    let faired = &outcome.faired;
+    let certificate = &faired.solved.certificate;
+    let constraints: Vec<Value> = outcome
+        .held
+        .iter()
+        .map(|held| {
+            let target = held.constraint.target();
+            json!({
+                "kind": held.constraint.key(), "name": held.constraint.words(), "unit": unit(held),
+                "target": number(target), "before": number(held.before), "after": number(held.after),
+                "residual": number(held.after - target), "multiplier": number(held.multiplier),
+                "price": number(held.price),
+            })
+        })
+        .collect();
+    let (rms, max, largest) = outcome.moves();
+    let tolerances = outcome.changes.iter().filter_map(|change| change.tolerance).filter(|t| *t > 0.0);
+    let range = tolerances.fold(None, |range: Option<[f64; 2]>, t| {
+        Some(range.map_or([t, t], |[least, most]| [least.min(t), most.max(t)]))
+    });
+    let trials: Vec<Value> = faired
+        .trials
+        .iter()
+        .map(|trial| {
+            json!({
+                "weight": number(trial.lambda), "gcv": number(trial.gcv), "rms": number(trial.rms),
+                "energy": number(trial.energy), "edf": number(trial.edf),
+            })
+        })
+        .collect();
+    let signs = faired.patterns.as_ref().map(|patterns| {
+        let rows = faired.program.names.iter().filter(|name| matches!(name, RowName::Sign(..))).count();
+        let lobes: usize = patterns.iter().map(|pattern| pattern.flipped.len()).sum();
+        json!({ "imposed": rows, "lobes_taken_out": lobes, "price": number(faired.price) })
+    });
+    json!({
+        "name": table.name,
+        "status": status_word(outcome.status),
+        "energy": {
+            "before": number(outcome.energy[0]), "after": number(outcome.energy[1]), "order": outcome.order,
+        },
+        "certificate": {
+            "primal": number(certificate.primal), "dual": number(certificate.dual), "gap": number(certificate.gap),
+            "stationarity": number(certificate.stationarity), "max_violation": number(certificate.max_violation),
+        },
+        "constraints": constraints,
+        "inflections": {
+            "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
+            "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
+        },
+        "signs": signs,
+        "infeasible": diagnosis(outcome),
+        "moves": { "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)) },
+        "tolerance": {
+            "least": json_number(range.map(|r| r[0])), "largest": json_number(range.map(|r| r[1])),
+            "reached": reached(outcome).count(),
+        },
+        "rounding": {
+            "largest": number(rounding.largest), "rms": number(rounding.root_mean_square),
+            "volume": json_number(rounding.volume), "volume_share": json_number(rounding.volume_share),
+        },
+        "noise": { "sigma": number(faired.sigma) },
+        // The functional of true curvature at the convex answer and after each refresh of its metric.
+        "refreshes": faired.refreshed.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
+        "smoothing": { "weight": number(faired.lambda), "edf": number(faired.edf), "trials": trials },
+        "suspects": suspects,
+        "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
+        "notes": outcome.notes,
+        "work": { "qps": faired.programs, "iterations": faired.iterations },
+    })
+}
+
+/// The offsets that stop at their tolerance, to a thousandth of it; locked ones are not among them.
+pub fn reached(outcome: &Outcome) -> impl Iterator<Item = &Change> {
+    outcome.changes.iter().filter(|change| {
+        let tolerance = change.tolerance.filter(|tolerance| *tolerance > 0.0 && !change.locked);
+        tolerance.is_some_and(|tolerance| (change.after - change.before).abs() >= 0.999 * tolerance)
+    })
+}
+
+/// The text of an offset in a table; empty where none is kept.
+fn text(table: &OffsetTable, change: &Change) -> String {
+    let station = table.stations.get(change.station);
+    let cell = change.waterline.and_then(|j| station?.half_breadths.get(j)).and_then(|cell| cell.written.as_ref());
+    let side = || {
+        let lines = table.form.side_columns.iter().find(|side| side.kind == SideKind::DeckHalfBreadth)?;
+        lines.texts.get(change.station)?.as_ref().map(|kept| kept.text.clone())
+    };
+    match change.waterline {
+        Some(_) => cell.map(|written| written.text.clone()).unwrap_or_default(),
+        None => side().unwrap_or_default(),
+    }
+}
+
+/// One row an offset: station, waterline (`deck` for the deck at side), place, before, after, move (outward positive), tolerance,
+/// the share of it that is used, whether it is locked or was left out as a suspect, and its text in the old table and in
+/// `written`, the new one as it is read back.
+#[must_use]
+pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&OffsetTable>) -> String {
+    let head = [
+        "station",
+        "waterline",
+        "x [m]",
+        "z [m]",
+        "before [m]",
+        "after [m]",
+        "move [m]",
+        "tolerance [m]",
+        "used",
+        "locked",
+        "suspect",
+        "text before",
+        "text after",
+    ];
+    let mut csv = line(&head.map(str::to_owned));
+    let yes = |flag: bool| if flag { "yes".to_owned() } else { String::new() };
+    for change in &outcome.changes {
+        let Some(station) = table.stations.get(change.station) else { continue };
+        let moved = change.after - change.before;
+        let waterline = match change.waterline {
+            Some(j) => cell(table.waterlines.get(j).copied()),
+            None => "deck".to_owned(),
+        };
+        let used = change.tolerance.filter(|t| *t > 0.0).map(|tolerance| moved.abs() / tolerance);
+        csv.push_str(&line(&[
+            station.station.name.clone(),
+            waterline,
+            cell(Some(change.x)),
+            cell(Some(change.z)),
+            cell(Some(change.before)),
+            cell(Some(change.after)),
+            cell(Some(moved)),
+            cell(change.tolerance),
+            used.map(|used| format!("{used:.3}")).unwrap_or_default(),
+            yes(change.locked),
+            yes(change.suspect),
+            text(table, change),
+            written.map(|written| text(written, change)).unwrap_or_default(),
+        ]));
+    }
+    csv
+}

@@ -1,0 +1,169 @@
+//! Curvature of stations and waterlines as linear forms of the half-breadths, and the guard that no line bends more often after
+//! than before.
+//!
+//! A station is the line x(u, v) = X of the chart. With dv = 1, du = a = -x_v / x_u and u'' = a a_u + a_v along it,
+//!
+//! ```text
+//! y'  = a y_u + y_v,      y'' = a^2 y_uu + 2 a y_uv + y_vv + u'' y_u,      z' and z'' likewise,
+//! kappa = (z' y'' - z'' y') / (z'^2 + y'^2)^(3/2):
+//! ```
+//!
+//! the chart is fixed, so that the numerator is linear in the net of y and its sign is the sign of curvature, without
+//! approximation. Waterlines are the same with u and v, x and z exchanged.
+//!
+//! The start passes through its own signs and through every offset, so that imposing them on a line never makes a program
+//! infeasible whose other limits the start meets.
+
+use super::model::{Limit, Row, value};
+use super::surface::{FairSurface, basis_row};
+use crate::spline::{BsplineSurface, KnotVector};
+
+/// Points of a line in a span of the knots across it: the second derivative of a cubic is straight there, so that its ends count.
+const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
+
+/// Curvature below this part of the largest of the line is none.
+pub const DEAD: f64 = 0.01;
+
+/// A line of the ship's drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Line {
+    /// The station at x \[m\].
+    Station(f64),
+    /// The waterline at z \[m\].
+    Waterline(f64),
+}
+
+/// The numerator of curvature at a point, and (x'^2 or z'^2, the form of y').
+#[derive(Debug, Clone)]
+pub struct Bend {
+    /// z' y'' - z'' y' on a station, x' y'' - x'' y' on a waterline, over the net.
+    pub numerator: Row,
+    /// y' over the net.
+    pub slope: Row,
+    /// z' or x' \[m\].
+    pub along: f64,
+    /// Where along the line: z of a station, x of a waterline \[m\].
+    pub at: f64,
+}
+
+/// The bend of the station or the waterline through (u, v); none where the chart has no such line.
+#[must_use]
+pub fn bend(surface: &BsplineSurface<3>, at: [f64; 2], station: bool) -> Option<Bend> {
+    let d = surface.derivatives::<3>(at[0], at[1]);
+    // (s, t): the parameter that follows and the one that runs; held and along: the coordinate that stays and the one that runs.
+    let (held, along) = if station { (0, 2) } else { (2, 0) };
+    let order = |s: usize, t: usize| if station { [s, t] } else { [t, s] };
+    let c = |axis: usize, s: usize, t: usize| {
+        let [a, b] = order(s, t);
+        d[a][b][axis]
+    };
+    let steep = c(held, 1, 0);
+    let level = c(held, 0, 1);
+    // The line runs along the parameter itself where the held coordinate does not change with it.
+    let (a, bent) = if level == 0.0 && c(held, 1, 1) == 0.0 && c(held, 0, 2) == 0.0 {
+        (0.0, 0.0)
+    } else if steep.abs() > 1e-9 * (steep.abs() + level.abs()) {
+        let a = -level / steep;
+        let by_s = -(c(held, 1, 1) * steep - level * c(held, 2, 0)) / (steep * steep);
+        let by_t = -(c(held, 0, 2) * steep - level * c(held, 1, 1)) / (steep * steep);
+        (a, a * by_s + by_t)
+    } else {
+        return None;
+    };
+    let first = a * c(along, 1, 0) + c(along, 0, 1);
+    let second = a * a * c(along, 2, 0) + 2.0 * a * c(along, 1, 1) + c(along, 0, 2) + bent * c(along, 1, 0);
+    let row = |s: usize, t: usize| basis_row(surface, at, order(s, t));
+    let (s, t, ss, st, tt) = (row(1, 0), row(0, 1), row(2, 0), row(1, 1), row(0, 2));
+    let (mut numerator, mut slope) = (Row::with_capacity(s.len()), Row::with_capacity(s.len()));
+    for k in 0..s.len() {
+        let dy = a * s[k].1 + t[k].1;
+        let ddy = a * a * ss[k].1 + 2.0 * a * st[k].1 + tt[k].1 + bent * s[k].1;
+        slope.push((s[k].0, dy));
+        numerator.push((s[k].0, first * ddy - second * dy));
+    }
+    Some(Bend { numerator, slope, along: first, at: d[0][0][along] })
+}
+
+impl Bend {
+    /// Curvature of the line for a net \[1/m\].
+    #[must_use]
+    pub fn curvature(&self, net: &[f64]) -> f64 {
+        let speed = self.along.hypot(value(&self.slope, net));
+        if speed > 0.0 { value(&self.numerator, net) / speed.powi(3) } else { 0.0 }
+    }
+}
+
+impl Bend {
+    /// The limit that gives the numerator a sign, scaled to size 1; none where the line has no bend to give.
+    #[must_use]
+    pub fn limit(&self, positive: bool) -> Option<Limit> {
+        let (lower, upper) = if positive { (0.0, f64::INFINITY) } else { (f64::NEG_INFINITY, 0.0) };
+        self.row().map(|row| Limit { row, lower, upper })
+    }
+
+    /// The numerator scaled to size 1.
+    fn row(&self) -> Option<Row> {
+        let size = self.numerator.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
+        (size > 0.0).then(|| self.numerator.iter().map(|&(i, value)| (i, value / size)).collect())
+    }
+}
+
+/// Points inside the spans.
+fn sites(knots: &KnotVector) -> Vec<f64> {
+    let breaks = knots.breakpoints();
+    breaks.windows(2).flat_map(|w| PLACES.map(|part| w[0] + (w[1] - w[0]) * part)).collect()
+}
+
+/// The bends along a line, from keel to deck or from aft forward.
+#[must_use]
+pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
+    let hull = &surface.hull;
+    let net = hull.surface();
+    match line {
+        Line::Station(x) => {
+            let along = sites(net.v()).into_iter();
+            along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
+        }
+        Line::Waterline(z) => {
+            let along = sites(net.u()).into_iter();
+            along.filter_map(|u| hull.height_parameter_at(u, z).and_then(|v| bend(net, [u, v], false))).collect()
+        }
+    }
+}
+
+/// Signs of curvature along bends, 0 within the dead band.
+#[must_use]
+pub fn signs(bends: &[Bend], net: &[f64]) -> Vec<i8> {
+    let curvature: Vec<f64> = bends.iter().map(|bend| bend.curvature(net)).collect();
+    let mut sizes: Vec<f64> = curvature.iter().map(|k| k.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // The ninth decile: a tight bilge does not make flats of everything else.
+    let large = sizes.get(sizes.len() * 9 / 10).copied().unwrap_or(0.0);
+    let sign = |k: f64| match k {
+        k if k.abs() <= DEAD * large => 0,
+        k if k > 0.0 => 1,
+        _ => -1,
+    };
+    curvature.into_iter().map(sign).collect()
+}
+
+/// Changes of sign, zeros left out.
+#[must_use]
+pub fn changes(signs: &[i8]) -> usize {
+    let told: Vec<i8> = signs.iter().copied().filter(|&sign| sign != 0).collect();
+    told.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
+/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is.
+#[must_use]
+pub fn kept(bends: &[Bend], start: &[f64]) -> Vec<Limit> {
+    let signs = signs(bends, start);
+    let limits = bends.iter().zip(signs).filter_map(|(bend, sign)| match sign {
+        0 => bend.row().map(|row| {
+            let band = value(&row, start).abs();
+            Limit { row, lower: -band, upper: band }
+        }),
+        _ => bend.limit(sign > 0),
+    });
+    limits.collect()
+}

@@ -1,0 +1,40 @@
+//! 0 <= y <= B/2 over the surface: at the points of a grid four times as fine as the knots, where the surface comes near a limit.
+//!
+//! Limits of the control values would be sufficient and far too strict: the control points of a full waterline lie outside it.
+//! Between the points of the grid the surface may pass a limit by h^2/8 times its second derivative, h a quarter of a span.
+
+use super::super::model::{Limit, value};
+use super::super::surface::basis_row;
+use crate::hull::Hull;
+use crate::spline::KnotVector;
+
+/// Points a span.
+const FINENESS: usize = 4;
+
+/// Points of the grid along one direction.
+fn sites(knots: &KnotVector) -> Vec<f64> {
+    let breaks = knots.breakpoints();
+    let inner =
+        breaks.windows(2).flat_map(|w| (0..FINENESS).map(move |k| w[0] + (w[1] - w[0]) * k as f64 / FINENESS as f64));
+    inner.chain(breaks.last().copied()).collect()
+}
+
+/// Limits of the half-breadth wherever that of `net` is within `margin` \[m\] of the centreplane or of `greatest` \[m\].
+#[must_use]
+pub fn breadths(hull: &Hull, net: &[f64], greatest: f64, margin: f64) -> Vec<Limit> {
+    let surface = hull.surface();
+    let (us, vs) = (sites(surface.u()), sites(surface.v()));
+    let mut limits = Vec::new();
+    for &u in &us {
+        for &v in &vs {
+            let row = basis_row(surface, [u, v], [0, 0]);
+            let y = value(&row, net);
+            let lower = if y < margin { 0.0 } else { f64::NEG_INFINITY };
+            let upper = if y > greatest - margin { greatest } else { f64::INFINITY };
+            if lower.is_finite() || upper.is_finite() {
+                limits.push(Limit { row, lower, upper });
+            }
+        }
+    }
+    limits
+}

@@ -1,0 +1,157 @@
+//! What a fair hull has to hold, one file each: linear rows over the net, each the same row that the hydrostatics evaluate.
+
+mod area;
+mod breadth;
+mod centre;
+mod volume;
+mod waterplane;
+
+use super::model::{Limit, Row};
+use crate::hull::Hull;
+
+/// A wish for the whole hull.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Constraint {
+    /// Displaced volume \[m^3\] at the design draught.
+    Displacement(f64),
+    /// Block coefficient: volume over L_PP B T.
+    BlockCoefficient(f64),
+    /// Longitudinal centre of buoyancy \[m\] forward of AP.
+    CentreOfBuoyancy(f64),
+    /// Height of the centre of buoyancy \[m\] above the base line.
+    HeightOfBuoyancy(f64),
+    /// Waterplane area \[m^2\].
+    WaterplaneArea(f64),
+    /// Waterplane coefficient: waterplane area over L_PP B.
+    WaterplaneCoefficient(f64),
+    /// Longitudinal centre of flotation \[m\] forward of AP.
+    CentreOfFlotation(f64),
+    /// Midship section coefficient: area of the section at L_PP/2 over B T.
+    MidshipCoefficient(f64),
+    /// Area of the section \[m^2\] at x \[m\], within a band \[m^2\]; 0 for exactly.
+    SectionArea {
+        /// Position forward of AP \[m\].
+        x: f64,
+        /// Area, both sides \[m^2\].
+        area: f64,
+        /// Half width of the band \[m^2\].
+        band: f64,
+    },
+}
+
+impl Constraint {
+    /// Name in files.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Displacement(_) => "displacement",
+            Self::BlockCoefficient(_) => "block_coefficient",
+            Self::CentreOfBuoyancy(_) => "lcb",
+            Self::HeightOfBuoyancy(_) => "kb",
+            Self::WaterplaneArea(_) => "waterplane_area",
+            Self::WaterplaneCoefficient(_) => "waterplane_coefficient",
+            Self::CentreOfFlotation(_) => "lcf",
+            Self::MidshipCoefficient(_) => "midship_coefficient",
+            Self::SectionArea { .. } => "section_area",
+        }
+    }
+
+    /// In words, for people.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Displacement(_) => "displacement".to_owned(),
+            Self::BlockCoefficient(_) => "C_B".to_owned(),
+            Self::CentreOfBuoyancy(_) => "LCB".to_owned(),
+            Self::HeightOfBuoyancy(_) => "KB".to_owned(),
+            Self::WaterplaneArea(_) => "waterplane area".to_owned(),
+            Self::WaterplaneCoefficient(_) => "C_WP".to_owned(),
+            Self::CentreOfFlotation(_) => "LCF".to_owned(),
+            Self::MidshipCoefficient(_) => "C_M".to_owned(),
+            Self::SectionArea { x, .. } => format!("section area at x = {x:.3} m"),
+        }
+    }
+
+    /// What is wished, in the unit of the quantity.
+    #[must_use]
+    pub fn target(&self) -> f64 {
+        match *self {
+            Self::Displacement(value)
+            | Self::BlockCoefficient(value)
+            | Self::CentreOfBuoyancy(value)
+            | Self::HeightOfBuoyancy(value)
+            | Self::WaterplaneArea(value)
+            | Self::WaterplaneCoefficient(value)
+            | Self::CentreOfFlotation(value)
+            | Self::MidshipCoefficient(value)
+            | Self::SectionArea { area: value, .. } => value,
+        }
+    }
+
+    /// The same wish with another target.
+    #[must_use]
+    pub fn with_target(self, target: f64) -> Self {
+        match self {
+            Self::Displacement(_) => Self::Displacement(target),
+            Self::BlockCoefficient(_) => Self::BlockCoefficient(target),
+            Self::CentreOfBuoyancy(_) => Self::CentreOfBuoyancy(target),
+            Self::HeightOfBuoyancy(_) => Self::HeightOfBuoyancy(target),
+            Self::WaterplaneArea(_) => Self::WaterplaneArea(target),
+            Self::WaterplaneCoefficient(_) => Self::WaterplaneCoefficient(target),
+            Self::CentreOfFlotation(_) => Self::CentreOfFlotation(target),
+            Self::MidshipCoefficient(_) => Self::MidshipCoefficient(target),
+            Self::SectionArea { x, band, .. } => Self::SectionArea { x, area: target, band },
+        }
+    }
+
+    /// The quantity of a hull, in its unit.
+    #[must_use]
+    pub fn value(&self, hull: &Hull) -> f64 {
+        match *self {
+            Self::Displacement(_) => volume::volume(hull),
+            Self::BlockCoefficient(_) => volume::block_coefficient(hull),
+            Self::CentreOfBuoyancy(_) => centre::longitudinal(hull),
+            Self::HeightOfBuoyancy(_) => centre::vertical(hull),
+            Self::WaterplaneArea(_) => waterplane::area(hull),
+            Self::WaterplaneCoefficient(_) => waterplane::coefficient(hull),
+            Self::CentreOfFlotation(_) => waterplane::centre(hull),
+            Self::MidshipCoefficient(_) => area::midship_coefficient(hull),
+            Self::SectionArea { x, .. } => area::section(hull, x),
+        }
+    }
+
+    /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for centres: an
+    /// error over L_PP or T) is an error of the row.
+    #[must_use]
+    pub fn limit(&self, hull: &Hull) -> Limit {
+        match *self {
+            Self::Displacement(target) => volume::displacement(hull, target),
+            Self::BlockCoefficient(target) => volume::block(hull, target),
+            Self::CentreOfBuoyancy(target) => centre::longitudinal_limit(hull, target),
+            Self::HeightOfBuoyancy(target) => centre::vertical_limit(hull, target),
+            Self::WaterplaneArea(target) => waterplane::area_limit(hull, target),
+            Self::WaterplaneCoefficient(target) => waterplane::coefficient_limit(hull, target),
+            Self::CentreOfFlotation(target) => waterplane::centre_limit(hull, target),
+            Self::MidshipCoefficient(target) => area::midship_limit(hull, target),
+            Self::SectionArea { x, area, band } => area::section_limit(hull, x, area, band),
+        }
+    }
+}
+
+pub use breadth::breadths;
+
+/// A dense row without its zeros, times a factor.
+fn compressed(row: &[f64], factor: f64) -> Row {
+    row.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(i, value)| (i, factor * value)).collect()
+}
+
+/// row . c = target, the row and the target over `scale`.
+fn equal(row: &[f64], target: f64, scale: f64) -> Limit {
+    Limit { row: compressed(row, 1.0 / scale), lower: target / scale, upper: target / scale }
+}
+
+/// (moment row - target * size row) . c = 0 over the size that the hull has now: the centre moment/size lies at `target`.
+fn centred(moment: &[f64], size: &[f64], target: f64, scale: f64) -> Limit {
+    let row: Vec<f64> = moment.iter().zip(size).map(|(moment, size)| moment - target * size).collect();
+    equal(&row, 0.0, scale)
+}

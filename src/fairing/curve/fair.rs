@@ -1,0 +1,570 @@
+//! The whole job of fairing a curve.
+
+use super::super::inflections::{Bands, BandsError, Inflections, minimum_inflections};
+use super::super::model::{Limit, Model, Row, value};
+use super::super::pattern::{Pattern, SignForms};
+use super::super::program::{Program, RowName, Solved, Wishes};
+use super::super::smoothing::{Smoothed, Smoother, Trial};
+use super::given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
+use super::result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind, inflections};
+use super::signs::{Signs, scores};
+use super::space::{CurveSpace, checked};
+use crate::qp::{Problem, SparseRows, Status};
+use crate::spline::{BsplineCurve, Condition, Energy, KnotVector};
+
+/// Dearest pattern, in units of sigma^2.
+pub const PRICE: f64 = 12.0;
+/// Slopes below this are mild: the metric changes energies by less than a few parts in a hundred.
+const MILD: f64 = 0.1;
+/// Most refreshes of the metric after the first.
+const REFRESHES: usize = 5;
+/// The exact functional must fall by this part of itself.
+const FALL: f64 = 1e-6;
+/// Most programs in the search for the best places of the changes.
+const MOVES: usize = 40;
+/// Noise levels of a tolerance that is not given.
+const LEVELS: f64 = 3.0;
+/// Rounding that a tolerance forgives, as a part of it.
+const SLACK: f64 = 1e-6;
+
+/// The programs of one job.
+struct Job<'a> {
+    settings: &'a CurveSettings,
+    space: CurveSpace,
+    forms: [SignForms; 2],
+    model: Model,
+    smoother: Smoother,
+    lambda: f64,
+    wishes: Wishes,
+    programs: usize,
+    iterations: usize,
+}
+
+/// A pattern that was solved for.
+struct Patterned {
+    signs: Signs,
+    solved: Solved,
+}
+
+impl Job<'_> {
+    fn program(&self, wishes: &Wishes, pattern: Option<&Pattern>) -> Program {
+        let none = Pattern { signs: Vec::new(), imposed: Vec::new(), flipped: Vec::new() };
+        let patterns = pattern.map(|pattern| [pattern.clone(), none]);
+        let signs = patterns.as_ref().map(|patterns| (&self.forms, patterns));
+        Program::new(&self.model, &self.smoother, self.lambda, wishes, signs)
+    }
+
+    fn solve(&mut self, wishes: &Wishes, pattern: Option<&Pattern>) -> Result<Solved, CurveError> {
+        let program = self.program(wishes, pattern);
+        let solved = program.solve(&self.model, &self.smoother, self.lambda, &self.settings.solver)?;
+        self.programs += 1;
+        self.iterations += solved.solution.iterations;
+        Ok(solved)
+    }
+
+    /// The best pattern with these numbers of changes: that which overrules least, its changes moved while the objective falls.
+    fn pattern(&mut self, z: &[f64], starts: &[usize], counts: &[usize]) -> Result<Option<Patterned>, CurveError> {
+        let Some(signs) = Signs::best(z, starts, counts) else { return Ok(None) };
+        let wishes = self.wishes.clone();
+        let solved = self.solve(&wishes, Some(&signs.pattern(z)))?;
+        let mut best = Patterned { signs, solved };
+        let value = |solved: &Solved| if solved.is_optimal() { solved.objective } else { f64::INFINITY };
+        let budget = self.programs + MOVES;
+        let mut better = true;
+        while better && self.programs < budget {
+            better = false;
+            for (stretch, &count) in counts.iter().enumerate() {
+                for which in 0..count {
+                    for by in [-1, 1, -2, 2] {
+                        let Some(signs) = best.signs.moved(stretch, which, by) else { continue };
+                        let solved = self.solve(&wishes, Some(&signs.pattern(z)))?;
+                        if value(&solved) < value(&best.solved) * (1.0 - FALL) {
+                            best = Patterned { signs, solved };
+                            better = true;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(best.solved.is_optimal().then_some(best))
+    }
+
+    /// The energy with the metric of a curve, at the same weight.
+    fn remeasure(&mut self, curve: &BsplineCurve<1>) {
+        let weight = self.lambda * self.smoother.unit;
+        self.model.energy = self.space.energy(Some(curve));
+        self.smoother = Smoother::new(&self.model);
+        self.lambda = weight / self.smoother.unit;
+    }
+
+    /// sum w r^2 + mu E with the metric of the curve itself.
+    fn exact(&self, net: &[f64]) -> Result<f64, CurveError> {
+        let energy = self.space.exact_energy(&self.space.curve(net)?);
+        let misfit: f64 = self.model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
+        Ok(misfit + self.lambda * self.smoother.unit * energy)
+    }
+
+    /// The smallest factor on the tolerances with which a program has a solution; none when there is none at all.
+    fn widening(&mut self, pattern: Option<&Pattern>) -> Result<Option<f64>, CurveError> {
+        let program = self.program(&self.wishes, pattern);
+        let n = program.problem.linear.len();
+        let tolerance = |k: usize| self.model.readings[k].tolerance.unwrap_or_default();
+        let widest = (0..self.model.readings.len()).fold(0.0_f64, |most, k| most.max(tolerance(k)));
+        if widest <= 0.0 {
+            return Ok(None);
+        }
+        let mut rows = SparseRows::new(n + 1);
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for (index, name) in program.names.iter().enumerate() {
+            let (columns, values) = program.problem.rows.row(index);
+            let entries = || columns.iter().copied().zip(values.iter().copied());
+            let limits = [program.problem.lower[index], program.problem.upper[index]];
+            match *name {
+                RowName::Tolerance(k) if tolerance(k) > 0.0 => {
+                    let middle = 0.5 * (limits[0] + limits[1]);
+                    for sign in [-1.0, 1.0] {
+                        rows.push(entries().chain([(n, sign * tolerance(k) / widest)]));
+                        lower.push(if sign > 0.0 { middle } else { f64::NEG_INFINITY });
+                        upper.push(if sign > 0.0 { f64::INFINITY } else { middle });
+                    }
+                }
+                _ => {
+                    rows.push(entries());
+                    lower.push(limits[0]);
+                    upper.push(limits[1]);
+                }
+            }
+        }
+        let mut linear = vec![0.0; n + 1];
+        linear[n] = 1.0;
+        let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
+        let solution = problem.solve(&self.settings.solver)?;
+        self.programs += 1;
+        self.iterations += solution.iterations;
+        Ok((solution.status == Status::Optimal).then(|| solution.x[n] / widest))
+    }
+}
+
+/// Fairs a curve; points must have rising abscissae.
+///
+/// # Errors
+/// [`CurveError`] when the question is none; that wishes cannot be had together is a status.
+pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<FairCurve, CurveError> {
+    checked(points, settings)?;
+    // Sites and values are judged before anything is built on them.
+    let read: Vec<usize> = (0..points.len()).filter(|&k| points[k].y.is_some()).collect();
+    let all: Vec<f64> = points.iter().map(|point| point.x).collect();
+    Bands::new(all, vec![0.0; points.len()], vec![0.0; points.len()], Vec::new())?;
+    let space = CurveSpace::new(points, settings.order)?;
+    let model = space.model(points, &vec![None; points.len()], space.energy(None));
+    let smoother = Smoother::new(&model);
+    let forms = [space.forms(), SignForms { along_u: false, shape: [0, 0], rows: Vec::new() }];
+    let mut job = Job {
+        settings,
+        space,
+        forms,
+        model,
+        smoother,
+        lambda: 1.0,
+        wishes: Wishes { widening: 1.0, ..Wishes::default() },
+        programs: 0,
+        iterations: 0,
+    };
+    let (mut smoothed, mut trials) = smooth(&mut job)?;
+    let first = job.space.curve(&job.smoother.reduced.expand(&smoothed.free))?;
+    let steep = settings.true_curvature && job.space.steepest(&first) > MILD;
+    let mut refreshes = 0;
+    if steep {
+        job.remeasure(&first);
+        (smoothed, trials) = smooth(&mut job)?;
+        refreshes = 1;
+    }
+    let sigma = smoothed.sigma(job.smoother.count()).max(settings.quantum / 12f64.sqrt()).max(1e-12);
+    let tolerances = tolerances(points, settings, sigma);
+    job.model = job.space.model(points, &tolerances, job.model.energy.clone());
+    let batten = batten(points, &read)?;
+    let wished = limits(&job.space, settings);
+    job.wishes.constraints = wished.iter().map(|wish| wish.limit.clone()).collect();
+
+    let bands = bands(points, &read, &tolerances)?;
+    let least = minimum_inflections(&bands);
+    let knuckles: Vec<f64> = points.iter().filter(|p| p.knuckle).map(|p| p.x).collect();
+    let starts = job.space.stretches(&knuckles);
+
+    let mut wishes = job.wishes.clone();
+    let mut free = job.solve(&wishes, None)?;
+    let mut status = FairStatus::Optimal;
+    let mut contradictory = false;
+    if free.solution.status == Status::Infeasible || (!free.is_optimal() && free.certificate.max_violation > SLACK) {
+        status = FairStatus::Infeasible;
+        match job.widening(None)? {
+            Some(factor) => job.wishes.widening = factor * (1.0 + SLACK),
+            // No tolerance would do: what is locked and wished contradicts itself.
+            None => {
+                job.wishes.constraints.clear();
+                contradictory = true;
+            }
+        }
+        wishes = job.wishes.clone();
+        free = job.solve(&wishes, None)?;
+    }
+    let z = scores(&job.forms[0], &job.smoother, &smoothed, &free.net);
+    let choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
+    let (mut solved, pattern) = match choice.taken {
+        Some(taken) => (taken.solved, Some(taken.signs.pattern(&z))),
+        None => (free.clone(), None),
+    };
+    if choice.widening > 1.0 {
+        status = FairStatus::Infeasible;
+        contradictory |= choice.widening.is_infinite();
+    }
+    // The metric follows the curve while the exact functional falls.
+    if steep && status == FairStatus::Optimal && solved.is_optimal() {
+        let mut exact = job.exact(&solved.net)?;
+        let wishes = job.wishes.clone();
+        for _ in 0..REFRESHES {
+            let kept = (job.model.energy.clone(), job.smoother.clone(), job.lambda);
+            let curve = job.space.curve(&solved.net)?;
+            job.remeasure(&curve);
+            let next = job.solve(&wishes, pattern.as_ref())?;
+            let now = if next.is_optimal() { job.exact(&next.net)? } else { f64::INFINITY };
+            if now >= exact * (1.0 - FALL) {
+                (job.model.energy, job.smoother, job.lambda) = kept;
+                break;
+            }
+            (solved, exact) = (next, now);
+            refreshes += 1;
+        }
+    }
+    if status == FairStatus::Optimal && !solved.is_optimal() {
+        status = FairStatus::Limit;
+    }
+    let curve = job.space.curve(&solved.net)?;
+    let lines = priced(&mut job, &wished, &solved, pattern.as_ref(), &batten)?;
+    let moves = moved(points, &curve, &tolerances, job.wishes.widening);
+    let through = job.space.exact_energy(&interpolant(&job, points, &read)?);
+    Ok(FairCurve {
+        status,
+        points: moves,
+        order: settings.order,
+        energy: [job.space.exact_energy(&curve), through],
+        sigma,
+        lambda: job.lambda,
+        freedom: smoothed.edf,
+        trials,
+        certificate: solved.certificate,
+        lines,
+        least,
+        inflections: [inflections(&batten, &knuckles), inflections(&curve, &knuckles)],
+        allowed: choice.allowed,
+        price: choice.price,
+        refused: choice.refused,
+        widening: if contradictory { f64::INFINITY } else { job.wishes.widening },
+        work: [job.programs, job.iterations],
+        refreshes,
+        curve,
+        batten,
+    })
+}
+
+/// The smoothing weight: given, or by cross-validation and not below what the rounding of the readings asks for.
+fn smooth(job: &mut Job) -> Result<(Smoothed, Vec<Trial>), CurveError> {
+    let (mut lambda, trials) = match job.settings.weight {
+        Some(weight) => (weight, Vec::new()),
+        None => job.smoother.cross_validated()?,
+    };
+    let mut smoothed = job.smoother.at(lambda)?;
+    let rounding = job.settings.quantum / 12f64.sqrt();
+    while job.settings.weight.is_none() && smoothed.sigma(job.smoother.count()) < rounding && lambda < 1e3 {
+        lambda *= 2.0;
+        smoothed = job.smoother.at(lambda)?;
+    }
+    job.lambda = lambda;
+    Ok((smoothed, trials))
+}
+
+fn tolerances(points: &[CurvePoint], settings: &CurveSettings, sigma: f64) -> Vec<Option<f64>> {
+    let usual = |point: &CurvePoint| {
+        let own = (LEVELS * sigma / point.weight.sqrt()).max(2.0 * settings.quantum);
+        point.tolerance.or(settings.tolerance).unwrap_or(own)
+    };
+    points.iter().map(|point| point.y.map(|_| if point.locked { 0.0 } else { usual(point) })).collect()
+}
+
+fn bands(points: &[CurvePoint], read: &[usize], tolerances: &[Option<f64>]) -> Result<Bands, CurveError> {
+    let mut knuckles = Vec::new();
+    for (k, point) in points.iter().enumerate().filter(|(_, point)| point.knuckle) {
+        let place = read.iter().position(|&r| r == k).filter(|_| point.y.is_some());
+        knuckles.push(place.ok_or(BandsError::Knuckle(k))?);
+    }
+    let sites = read.iter().map(|&k| points[k].x).collect();
+    let values = read.iter().map(|&k| points[k].y.unwrap_or_default()).collect();
+    let widths = read.iter().map(|&k| tolerances[k].unwrap_or_default()).collect();
+    Ok(Bands::new(sites, values, widths, knuckles)?)
+}
+
+/// The cubic spline of least bending through the points as given.
+fn batten(points: &[CurvePoint], read: &[usize]) -> Result<BsplineCurve<1>, CurveError> {
+    let (mut breaks, mut times) = (Vec::new(), Vec::new());
+    for (index, &k) in read.iter().enumerate() {
+        breaks.push(points[k].x);
+        if index > 0 && index + 1 < read.len() {
+            times.push(if points[k].knuckle { 3 } else { 1 });
+        }
+    }
+    let knots = KnotVector::from_breakpoints(3, &breaks, &times)?;
+    through(&knots, 2, points, read)
+}
+
+fn through(
+    knots: &KnotVector,
+    order: usize,
+    points: &[CurvePoint],
+    read: &[usize],
+) -> Result<BsplineCurve<1>, CurveError> {
+    let conditions: Vec<Condition> = read.iter().map(|&k| Condition { site: points[k].x, order: 0 }).collect();
+    let values: Vec<f64> = read.iter().map(|&k| points[k].y.unwrap_or_default()).collect();
+    let net = Energy::new(knots, order).interpolation(&conditions)?.solve(&values);
+    Ok(BsplineCurve::new(knots.clone(), net.into_iter().map(|c| [c]).collect())?)
+}
+
+/// The spline of least energy of this order through the points as given; of less order where knuckles leave that one open.
+fn interpolant(job: &Job, points: &[CurvePoint], read: &[usize]) -> Result<BsplineCurve<1>, CurveError> {
+    let exact = (2..=job.space.order).rev().find_map(|order| through(&job.space.knots, order, points, read).ok());
+    match exact {
+        Some(curve) => Ok(curve),
+        None => batten(points, read),
+    }
+}
+
+/// Area under the batten through the points as given, and the abscissa of its centroid.
+///
+/// # Errors
+/// [`CurveError`] when the points make no curve.
+pub fn area_and_centroid(points: &[CurvePoint]) -> Result<[f64; 2], CurveError> {
+    let read: Vec<usize> = (0..points.len()).filter(|&k| points[k].y.is_some()).collect();
+    if read.len() < 3 {
+        return Err(CurveError::TooFew { found: read.len(), order: 2, needed: 3 });
+    }
+    let batten = batten(points, &read)?;
+    Ok([quantity(LineKind::Area, &batten), quantity(LineKind::Centroid, &batten)])
+}
+
+/// A constraint of the whole curve.
+struct Wished {
+    kind: LineKind,
+    target: f64,
+    limit: Limit,
+}
+
+fn limits(space: &CurveSpace, settings: &CurveSettings) -> Vec<Wished> {
+    let mut list = Vec::new();
+    let dense = |row: Vec<f64>, scale: f64| -> Row {
+        row.into_iter().enumerate().map(|(i, v)| (i, v / scale)).filter(|entry| entry.1 != 0.0).collect()
+    };
+    let (from, to) = space.knots.domain();
+    for (kind, x, slope) in
+        [(LineKind::FirstSlope, from, settings.slopes[0]), (LineKind::LastSlope, to, settings.slopes[1])]
+    {
+        if let Some(target) = slope {
+            list.push(Wished { kind, target, limit: Limit { row: space.row(x, 1), lower: target, upper: target } });
+        }
+    }
+    // In units of a mean ordinate over the whole length.
+    let length = to - from;
+    if let Some(target) = settings.area {
+        let row = dense(space.moment(0), length);
+        let right = target / length;
+        list.push(Wished { kind: LineKind::Area, target, limit: Limit { row, lower: right, upper: right } });
+    }
+    if let Some(target) = settings.centroid {
+        // int (x - target) y dx = 0 with the area that the points have.
+        let row: Vec<f64> = space.moment(1).iter().zip(space.moment(0)).map(|(m, a)| m - target * a).collect();
+        let limit = Limit { row: dense(row, length * length), lower: 0.0, upper: 0.0 };
+        list.push(Wished { kind: LineKind::Centroid, target, limit });
+    }
+    list
+}
+
+/// The quantity of a constraint for a curve.
+fn quantity(kind: LineKind, curve: &BsplineCurve<1>) -> f64 {
+    let (from, to) = curve.knots().domain();
+    let moment = |power: u32| -> f64 {
+        curve.knots().moments(power, from, to).iter().zip(curve.points()).map(|(m, c)| m * c[0]).sum()
+    };
+    match kind {
+        LineKind::Area => moment(0),
+        LineKind::Centroid => moment(1) / moment(0),
+        LineKind::FirstSlope => curve.derivatives::<2>(from)[1][0],
+        LineKind::LastSlope => curve.derivatives::<2>(to)[1][0],
+    }
+}
+
+/// The lines of the list of constraints; each is priced by leaving it out.
+fn priced(
+    job: &mut Job,
+    wished: &[Wished],
+    solved: &Solved,
+    pattern: Option<&Pattern>,
+    batten: &BsplineCurve<1>,
+) -> Result<Vec<CurveLine>, CurveError> {
+    let curve = job.space.curve(&solved.net)?;
+    let names = job.program(&job.wishes, pattern).names;
+    let readings = job.model.readings.len().max(1) as f64;
+    // sqrt of the objective over the readings: a length, and it cannot fall when a constraint is added.
+    let size = |solved: &Solved| (solved.objective.max(0.0) / readings).sqrt();
+    let mut lines = Vec::new();
+    for (index, wish) in wished.iter().enumerate() {
+        let multiplier = names.iter().position(|name| *name == RowName::Constraint(index));
+        let mut price = 0.0;
+        if index < job.wishes.constraints.len() {
+            let mut without = job.wishes.clone();
+            without.constraints.remove(index);
+            let other = job.solve(&without, pattern)?;
+            price = (size(solved) - size(&other)).max(0.0);
+        }
+        lines.push(CurveLine {
+            kind: wish.kind,
+            target: wish.target,
+            before: quantity(wish.kind, batten),
+            after: quantity(wish.kind, &curve),
+            multiplier: multiplier.map_or(0.0, |row| solved.solution.multipliers[row]),
+            price,
+        });
+    }
+    Ok(lines)
+}
+
+fn moved(points: &[CurvePoint], curve: &BsplineCurve<1>, tolerances: &[Option<f64>], widening: f64) -> Vec<CurveMove> {
+    let one = |(point, tolerance): (&CurvePoint, &Option<f64>)| {
+        let d = curve.derivatives::<3>(point.x);
+        let after = d[0][0];
+        let active = match (point.y, tolerance) {
+            (Some(y), Some(t)) => (after - y).abs() >= t * widening * (1.0 - 1e-4),
+            _ => false,
+        };
+        CurveMove {
+            x: point.x,
+            before: point.y,
+            after,
+            tolerance: *tolerance,
+            active,
+            slope: d[1][0],
+            curvature: d[2][0] / (1.0 + d[1][0] * d[1][0]).powf(1.5),
+        }
+    };
+    points.iter().zip(tolerances).map(one).collect()
+}
+
+/// What was decided about the signs.
+struct Choice {
+    taken: Option<Patterned>,
+    allowed: Option<usize>,
+    price: f64,
+    refused: Vec<(usize, f64)>,
+    widening: f64,
+}
+
+/// The pattern: the least number of changes that the price allows, or the number that is wished.
+fn choose(
+    job: &mut Job,
+    z: &[f64],
+    starts: &[usize],
+    least: &Inflections,
+    free: &Solved,
+    sigma: f64,
+) -> Result<Choice, CurveError> {
+    let mut choice = Choice { taken: None, allowed: None, price: 0.0, refused: Vec::new(), widening: 1.0 };
+    let raw: Vec<usize> = (0..starts.len() - 1).map(|s| changes(job, free, starts[s], starts[s + 1])).collect();
+    let price = |solved: &Solved| ((solved.objective - free.objective) / (sigma * sigma)).max(0.0);
+    match job.settings.inflections {
+        InflectionWish::Any => {}
+        InflectionWish::Least => {
+            let mut counts: Vec<usize> = least.stretches.iter().map(|stretch| stretch.inflections.len()).collect();
+            while counts.iter().zip(&raw).any(|(count, raw)| count < raw) {
+                let found = job.pattern(z, starts, &counts)?;
+                let cost = found.as_ref().map_or(f64::INFINITY, |found| price(&found.solved));
+                let total = counts.iter().sum();
+                if cost <= PRICE {
+                    choice.allowed = Some(total);
+                    choice.price = cost;
+                    choice.taken = found;
+                    return Ok(choice);
+                }
+                choice.refused.push((total, cost));
+                let Some(stretch) = cheapest(z, starts, &counts, &raw) else { return Ok(choice) };
+                counts[stretch] += 1;
+            }
+            // The curve keeps to the number by itself.
+            choice.allowed = Some(counts.iter().sum());
+        }
+        InflectionWish::AtMost(wished) => {
+            let mut counts = vec![0; raw.len()];
+            while counts.iter().sum::<usize>() < wished {
+                let Some(stretch) = cheapest(z, starts, &counts, &raw) else { break };
+                counts[stretch] += 1;
+            }
+            choice.allowed = Some(wished);
+            if counts.iter().zip(&raw).all(|(count, raw)| count >= raw) {
+                return Ok(choice);
+            }
+            choice.taken = job.pattern(z, starts, &counts)?;
+            if choice.taken.is_none() {
+                widen(job, z, starts, &counts, &mut choice)?;
+            }
+            choice.price = choice.taken.as_ref().map_or(0.0, |taken| price(&taken.solved));
+        }
+    }
+    Ok(choice)
+}
+
+/// The tolerances that make a wished number of changes possible, and the best curve with them.
+fn widen(job: &mut Job, z: &[f64], starts: &[usize], counts: &[usize], choice: &mut Choice) -> Result<(), CurveError> {
+    let Some(mut best) = Signs::best(z, starts, counts) else { return Ok(()) };
+    let factor_of = |job: &mut Job, signs: &Signs| job.widening(Some(&signs.pattern(z)));
+    let Some(mut factor) = factor_of(job, &best)? else {
+        choice.widening = f64::INFINITY;
+        return Ok(());
+    };
+    let budget = job.programs + MOVES;
+    let mut better = true;
+    while better && job.programs < budget {
+        better = false;
+        for (stretch, &count) in counts.iter().enumerate() {
+            for which in 0..count {
+                for by in [-1, 1, -2, 2] {
+                    let Some(signs) = best.moved(stretch, which, by) else { continue };
+                    if let Some(now) = factor_of(job, &signs)?.filter(|now| *now < factor * (1.0 - FALL)) {
+                        (best, factor, better) = (signs, now, true);
+                    }
+                }
+            }
+        }
+    }
+    choice.widening = factor.max(1.0 + SLACK);
+    job.wishes.widening = factor * (1.0 + 1e-4);
+    let wishes = job.wishes.clone();
+    let solved = job.solve(&wishes, Some(&best.pattern(z)))?;
+    choice.taken = Some(Patterned { signs: best, solved });
+    Ok(())
+}
+
+/// Changes of sign of the forms of a stretch, flat ones passed over.
+fn changes(job: &Job, free: &Solved, from: usize, to: usize) -> usize {
+    let values: Vec<f64> = job.forms[0].rows[from..to].iter().map(|row| value(row, &free.net)).collect();
+    let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let seen: Vec<f64> = values.into_iter().filter(|v| v.abs() > 1e-9 * largest).collect();
+    seen.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count()
+}
+
+/// The stretch on which one change more saves most.
+fn cheapest(z: &[f64], starts: &[usize], counts: &[usize], raw: &[usize]) -> Option<usize> {
+    let cost = |counts: &[usize]| Signs::best(z, starts, counts).map(|signs| signs.cost.iter().sum::<f64>());
+    let now = cost(counts)?;
+    let gain = |stretch: usize| {
+        let mut more = counts.to_vec();
+        more[stretch] += 1;
+        cost(&more).map_or(f64::NEG_INFINITY, |then| now - then)
+    };
+    (0..counts.len()).filter(|&s| counts[s] < raw[s]).max_by(|&a, &b| gain(a).total_cmp(&gain(b)))
+}

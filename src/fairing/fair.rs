@@ -1,0 +1,396 @@
+//! The whole job of fairing a surface: smooth, find what is noise in the signs, solve one convex program with the wishes, and take
+//! no pattern without its price.
+//!
+//! 1. The weight by generalised cross-validation, not below what the rounding of the table alone asks for; sigma from it.
+//! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
+//! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) / sigma^2. Above [`PRICE`] the lobe with the
+//!    greatest sum of multiplier times raw violation gets its own sign back, and the program is solved again. On the net of a fit,
+//!    whose features are no noise: the lines of the table by [`super::guard`].
+
+use super::bends::Line;
+use super::constraint::{Constraint, breadths};
+use super::guard::{Guarded, Question};
+use super::infeasible::{Diagnosis, diagnose};
+use super::least::TableLine;
+use super::model::{Limit, Model};
+use super::pattern::{Pattern, SignForms, pattern, sign_forms};
+use super::program::{Program, RowName, Solved, Wishes};
+use super::refresh::{RefreshError, refresh};
+use super::smoothing::{Smoothed, Smoother, Trial};
+use super::surface::FairSurface;
+use crate::numeric::SingularMatrix;
+use crate::qp::{ProblemError, Settings, Status};
+
+/// Room above the least widening, for an interior to solve in.
+const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
+
+/// Dearest pattern, in units of sigma^2.
+pub const PRICE: f64 = 12.0;
+
+/// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
+pub const MISFIT: f64 = 1.4;
+
+/// Most programs of the price guard.
+const ROUNDS: usize = 8;
+
+/// How a surface is faired.
+#[derive(Debug, Clone)]
+pub struct FairSettings {
+    /// Constraints of the whole hull.
+    pub constraints: Vec<Constraint>,
+    /// Smoothing weight; none: by cross-validation.
+    pub weight: Option<f64>,
+    /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
+    pub table_noise: Option<f64>,
+    /// Greatest noise level that is assumed where the model does not follow the hull everywhere \[m\].
+    pub most_noise: f64,
+    /// Least noise level that is assumed \[m\]: rounding of the table.
+    pub least_noise: f64,
+    /// Tolerance of a reading in noise levels, not below `least_tolerance`; none: no tolerances.
+    pub tolerance_levels: Option<f64>,
+    /// Least tolerance \[m\].
+    pub least_tolerance: f64,
+    /// Tolerances of single readings \[m\] that stand instead of these; empty for none at all.
+    pub tolerances: Vec<Option<f64>>,
+    /// Whether signs of curvature are imposed.
+    pub signs: bool,
+    /// Lines that must not bend more often than the start does.
+    pub lines: Vec<Line>,
+    /// Lines that keep the signs of the start in any case.
+    pub kept: Vec<Line>,
+    /// Whether the energy is that of true curvature, by refreshing the metric.
+    pub true_curvature: bool,
+    /// The solver.
+    pub solver: Settings,
+}
+
+/// Why nothing was faired.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FairError {
+    /// Readings and energy leave a control value open.
+    #[error("the offsets do not determine the surface: {0}")]
+    Undetermined(#[from] SingularMatrix),
+    /// Numbers that make no program.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// No metric for a refresh.
+    #[error(transparent)]
+    Refresh(#[from] RefreshError),
+}
+
+/// What fairing comes to.
+#[derive(Debug, Clone)]
+pub struct Faired {
+    /// All control values \[m\].
+    pub net: Vec<f64>,
+    /// Noise level of a reading \[m\].
+    pub sigma: f64,
+    /// Smoothing weight.
+    pub lambda: f64,
+    /// The search for the weight.
+    pub trials: Vec<Trial>,
+    /// Effective degrees of freedom of the smoothed net.
+    pub edf: f64,
+    /// The program that was solved last.
+    pub program: Program,
+    /// Its answer.
+    pub solved: Solved,
+    /// Forms whose signs are imposed.
+    pub forms: [SignForms; 2],
+    /// The pattern, when one was imposed.
+    pub patterns: Option<[Pattern; 2]>,
+    /// Why the wishes cannot all be had; the net is then the best compromise, with the tolerances widened.
+    pub diagnosis: Option<Diagnosis>,
+    /// What became of the lines of the table, on a net that follows its features.
+    pub guarded: Option<Guarded>,
+    /// Price of the signs in sigma^2.
+    pub price: f64,
+    /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
+    pub refreshed: Option<Vec<f64>>,
+    /// The smoothing problem, for further questions.
+    pub smoother: Smoother,
+    /// Programs solved.
+    pub programs: usize,
+    /// Iterations of the solver, all programs together.
+    pub iterations: usize,
+}
+
+/// How much is smoothed and how noisy the readings are, found once for all programs.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// The smoothing problem.
+    pub smoother: Smoother,
+    /// The weight.
+    pub lambda: f64,
+    /// The net for it.
+    pub smoothed: Smoothed,
+    /// Noise of a reading \[m\].
+    pub sigma: f64,
+    /// The search for the weight.
+    pub trials: Vec<Trial>,
+    /// The lines of the table with their least inflections, on a net that follows its features.
+    pub lines: Vec<TableLine>,
+}
+
+impl Prepared {
+    /// Finds weight and noise, and gives the readings of the surface their tolerances.
+    ///
+    /// # Errors
+    /// [`FairError`] when the readings leave a control value open.
+    pub fn new(surface: &mut FairSurface, settings: &FairSettings) -> Result<Self, FairError> {
+        let smoother = Smoother::new(&surface.model);
+        let search = match settings.weight {
+            Some(weight) => (weight, Vec::new()),
+            None => smoother.cross_validated()?,
+        };
+        Self::searched(surface, settings, smoother, search)
+    }
+
+    /// The same from a smoothing problem whose weight is known, with the search that found it.
+    ///
+    /// # Errors
+    /// [`FairError`] when the readings leave a control value open.
+    pub fn searched(
+        surface: &mut FairSurface,
+        settings: &FairSettings,
+        smoother: Smoother,
+        (mut lambda, trials): (f64, Vec<Trial>),
+    ) -> Result<Self, FairError> {
+        let count = smoother.count();
+        let mut smoothed = smoother.at(lambda)?;
+        // The table is at least as noisy as its rounding: not less smoothing than that.
+        while settings.weight.is_none() && smoothed.sigma(count) < settings.least_noise && lambda < 1e3 {
+            lambda *= 2.0;
+            smoothed = smoother.at(lambda)?;
+        }
+        let mut sigma = smoothed.sigma(count).max(1e-12);
+        let noise = settings.table_noise.map_or(f64::INFINITY, |noise| noise.max(settings.least_noise));
+        if settings.weight.is_none() && sigma > MISFIT * noise {
+            // Features that the offsets do not resolve rule the criterion: take the weight that serves the typical reading, and
+            // no more room than a designer would give.
+            let noise = noise.min(settings.most_noise.max(settings.least_noise));
+            lambda = smoother.for_noise(noise)?;
+            smoothed = smoother.at(lambda)?;
+            sigma = noise;
+        }
+        for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
+            let free = settings
+                .tolerance_levels
+                .map(|levels| (levels * sigma / reading.weight.max(1e-12).sqrt()).max(settings.least_tolerance));
+            let own = settings.tolerances.get(k).copied().flatten();
+            reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
+        }
+        let guarded = settings.signs;
+        let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
+        Ok(Self { smoother, lambda, smoothed, sigma, trials, lines })
+    }
+}
+
+/// Fairs.
+///
+/// # Errors
+/// [`FairError`] when the question is none; that wishes cannot be had is the status of the answer.
+pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
+    let prepared = Prepared::new(surface, settings)?;
+    fair_prepared(surface, settings, &prepared)
+}
+
+/// Fairs with a weight and a noise that are known.
+///
+/// # Errors
+/// [`FairError`] when the question is none.
+pub fn fair_prepared(
+    surface: &mut FairSurface,
+    settings: &FairSettings,
+    prepared: &Prepared,
+) -> Result<Faired, FairError> {
+    let Prepared { smoother, smoothed, .. } = prepared;
+    let (lambda, sigma) = (prepared.lambda, prepared.sigma);
+    let hull = &surface.hull;
+    let widest = surface.model.readings.iter().map(|reading| reading.value).fold(0.0, f64::max);
+    let greatest = widest.max(0.5 * hull.particulars().breadth);
+    let first = smoother.reduced.expand(&smoothed.free);
+    let constraints: Vec<Limit> = settings.constraints.iter().map(|constraint| constraint.limit(hull)).collect();
+    let wishes = Wishes {
+        constraints,
+        breadths: breadths(hull, &first, greatest, 2.0 * sigma),
+        bends: Vec::new(),
+        widening: 1.0,
+    };
+    let forms = sign_forms(surface);
+    let model = &surface.model.clone();
+    let mut program = Program::new(model, smoother, lambda, &wishes, None);
+    let mut solved = program.solve(model, smoother, lambda, &settings.solver)?;
+    let (mut programs, mut iterations) = (1, solved.solution.iterations);
+    let mut diagnosis = None;
+    if solved.solution.status != Status::Optimal {
+        let found = diagnose(&program, &settings.solver)?;
+        programs += 1 + 2 * found.reaches.len();
+        if let Some(factor) = found.widening {
+            // The best compromise: every wish, with tolerances as wide as they must be and some room to solve in.
+            for room in ROOMS {
+                let wider = Wishes { widening: factor.max(1.0) * (1.0 + room), ..wishes.clone() };
+                let compromise = Program::new(model, smoother, lambda, &wider, None);
+                let answer = compromise.solve(model, smoother, lambda, &settings.solver)?;
+                programs += 1;
+                iterations += answer.solution.iterations;
+                if answer.is_optimal() {
+                    (program, solved) = (compromise, answer);
+                    break;
+                }
+            }
+        }
+        if !solved.is_optimal() {
+            // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
+            solved.net.clone_from(&surface.start);
+            solved.solution.x = smoother.reduced.free.iter().map(|&i| surface.start[i]).collect();
+        }
+        diagnosis = Some(found);
+    }
+    let (mut patterns, mut price) = (None, 0.0);
+    if settings.signs && diagnosis.is_none() && surface.own && solved.is_optimal() {
+        let free = solved.objective;
+        let raw = solved.net.clone();
+        let mut found = [0, 1].map(|k| pattern(&forms[k], smoother, smoothed, sigma));
+        for round in 0..ROUNDS {
+            let candidate = Program::new(model, smoother, lambda, &wishes, Some((&forms, &found)));
+            let answer = candidate.solve(model, smoother, lambda, &settings.solver)?;
+            programs += 1;
+            iterations += answer.solution.iterations;
+            let feasible = answer.solution.status != Status::Infeasible;
+            price = (answer.objective - free) / (sigma * sigma);
+            let done = feasible && price <= PRICE;
+            if !done && round + 1 < ROUNDS && release(&mut found, &forms, &candidate, &answer, &raw) {
+                continue;
+            }
+            if done {
+                (program, solved) = (candidate, answer);
+                patterns = Some(found);
+            }
+            break;
+        }
+        if patterns.is_none() {
+            price = 0.0;
+        }
+    }
+    let mut guarded = None;
+    if settings.signs && diagnosis.is_none() && solved.is_optimal() {
+        let question = Question {
+            surface,
+            model,
+            smoother,
+            lambda,
+            sigma,
+            wishes: &wishes,
+            signs: patterns.as_ref().map(|patterns| (&forms, patterns)),
+            lines: &prepared.lines,
+            kept: &settings.kept,
+            solver: &settings.solver,
+        };
+        let mut found = question.run(&solved)?;
+        programs += found.programs;
+        iterations += found.iterations;
+        if let Some(accepted) = found.accepted.take() {
+            price += (accepted.1.objective - solved.objective) / (sigma * sigma);
+            (program, solved) = accepted;
+        }
+        guarded = Some(found);
+    }
+    let mut refreshed = None;
+    let (mut final_smoother, mut final_lambda) = (smoother.clone(), lambda);
+    if settings.true_curvature
+        && diagnosis.is_none()
+        && solved.is_optimal()
+        && let Some(found) = refresh(surface, smoother, lambda, &program, &solved, &settings.solver)?
+    {
+        programs += found.programs;
+        iterations += found.iterations;
+        (program, solved) = (found.program, found.solved);
+        (final_smoother, final_lambda) = (found.smoother, found.lambda);
+        refreshed = Some(found.functional);
+        surface.model.energy = found.model.energy;
+    }
+    Ok(Faired {
+        refreshed,
+        diagnosis,
+        guarded,
+        net: solved.net.clone(),
+        sigma,
+        lambda: final_lambda,
+        trials: prepared.trials.clone(),
+        edf: smoothed.edf,
+        program,
+        solved,
+        forms,
+        patterns,
+        price,
+        smoother: final_smoother,
+        programs,
+        iterations,
+    })
+}
+
+impl Faired {
+    /// Lines that keep the signs of the start.
+    #[must_use]
+    pub fn kept(&self) -> &[Line] {
+        self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
+    }
+
+    /// Multiplier of a constraint \[m^2 per unit of its row\].
+    #[must_use]
+    pub fn multiplier(&self, constraint: usize) -> f64 {
+        let place = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint));
+        place.map_or(0.0, |row| self.solved.solution.multipliers[row])
+    }
+
+    /// What a constraint costs \[m\]: how much the root of the mean square of the moves falls when it is dropped.
+    #[must_use]
+    pub fn price_of(&self, model: &Model, constraint: usize, solver: &Settings) -> f64 {
+        let Some(row) = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint)) else {
+            return 0.0;
+        };
+        let mut without = self.program.clone();
+        without.problem.lower[row] = f64::NEG_INFINITY;
+        without.problem.upper[row] = f64::INFINITY;
+        let rms = |net: &[f64]| {
+            let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
+            (squares / self.smoother.count().max(1) as f64).sqrt()
+        };
+        let solved = without.solve(model, &self.smoother, self.lambda, solver);
+        solved.ok().filter(Solved::is_optimal).map_or(0.0, |solved| rms(&self.net) - rms(&solved.net))
+    }
+}
+
+/// Gives the dearest flipped lobe its own sign back; false when none is left.
+fn release(
+    patterns: &mut [Pattern; 2],
+    forms: &[SignForms; 2],
+    program: &Program,
+    answer: &Solved,
+    raw: &[f64],
+) -> bool {
+    let mut charge = [0, 1].map(|which: usize| vec![0.0; forms[which].rows.len()]);
+    for (name, z) in program.names.iter().zip(&answer.solution.multipliers) {
+        if let RowName::Sign(which, k) = *name {
+            let value = super::model::value(&forms[which].rows[k], raw);
+            let against = if f64::from(patterns[which].imposed[k]) * value < 0.0 { value.abs() } else { 0.0 };
+            charge[which][k] = z.abs() * against;
+        }
+    }
+    let mut dearest: Option<(f64, usize, usize)> = None;
+    for (which, pattern) in patterns.iter().enumerate() {
+        for (index, lobe) in pattern.flipped.iter().enumerate() {
+            let sum: f64 = lobe.iter().map(|&k| charge[which][k]).sum();
+            if sum > 0.0 && dearest.is_none_or(|(most, _, _)| sum > most) {
+                dearest = Some((sum, which, index));
+            }
+        }
+    }
+    let Some((_, which, index)) = dearest else { return false };
+    let pattern = &mut patterns[which];
+    for k in pattern.flipped.remove(index) {
+        pattern.imposed[k] = 0;
+    }
+    true
+}

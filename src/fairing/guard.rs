@@ -1,0 +1,187 @@
+//! The lines of the table on a net that follows its features: asked for their least inflections at a price, and never allowed to
+//! bend more often than they did.
+//!
+//! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
+//! 2. Lines that cost more than [`PRICE`] are let go; when nothing satisfies all, those that the proof of it charges most.
+//! 3. On the net of a fit, a line that bends more often than at the start keeps the signs of the start, which the start itself
+//!    satisfies.
+//!
+//! Each round is one convex program; what is accepted last is optimal for the signs it has.
+
+use super::bends::{Line, kept as keep_signs};
+use super::fair::PRICE;
+use super::least::TableLine;
+use super::model::{Limit, Model};
+use super::pattern::{Pattern, SignForms};
+use super::program::{Program, RowName, Solved, Wishes};
+use super::smoothing::Smoother;
+use super::surface::FairSurface;
+use crate::qp::{ProblemError, Settings, Status};
+
+/// Most programs.
+const ROUNDS: usize = 8;
+
+/// A line whose proof of infeasibility has more than this part of the largest charge is let go.
+const SHARE: f64 = 0.5;
+
+/// What the guard comes to.
+#[derive(Debug, Clone)]
+pub struct Guarded {
+    /// The program that was accepted last, with its answer; none when the first one stands.
+    pub accepted: Option<(Program, Solved)>,
+    /// Lines that were asked for their least inflections and have them.
+    pub asked: Vec<Line>,
+    /// Lines that were let go, with their price in sigma^2 (infinite when nothing satisfied all).
+    pub released: Vec<(Line, f64)>,
+    /// Lines that keep the signs of the start.
+    pub kept: Vec<Line>,
+    /// The least inflections of every line, and whether they are proved.
+    pub least: Vec<(Line, usize, bool)>,
+    /// Programs solved.
+    pub programs: usize,
+    /// Iterations of the solver.
+    pub iterations: usize,
+}
+
+/// Signs that a line is asked for.
+struct Asked {
+    line: usize,
+    limits: Vec<Limit>,
+    /// Signs of the start, which are not let go.
+    start: bool,
+}
+
+/// What is solved again and again.
+pub(super) struct Question<'a> {
+    pub(super) surface: &'a FairSurface,
+    pub(super) model: &'a Model,
+    pub(super) smoother: &'a Smoother,
+    pub(super) lambda: f64,
+    pub(super) sigma: f64,
+    pub(super) wishes: &'a Wishes,
+    /// Signs of the whole that stay.
+    pub(super) signs: Option<(&'a [SignForms; 2], &'a [Pattern; 2])>,
+    pub(super) lines: &'a [TableLine],
+    pub(super) kept: &'a [Line],
+    pub(super) solver: &'a Settings,
+}
+
+impl Question<'_> {
+    /// Runs the guard from the net `free` without signs.
+    pub(super) fn run(&self, free: &Solved) -> Result<Guarded, ProblemError> {
+        let lines = self.lines;
+        let start = &self.surface.start;
+        let mut asked: Vec<Asked> = Vec::new();
+        for (k, line) in lines.iter().enumerate() {
+            if self.kept.contains(&line.line) {
+                asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
+            } else if line.bends_too_often(&free.net) {
+                asked.push(Asked { line: k, limits: line.wished(), start: false });
+            }
+        }
+        let mut guarded = Guarded {
+            accepted: None,
+            asked: Vec::new(),
+            released: Vec::new(),
+            kept: Vec::new(),
+            least: lines
+                .iter()
+                .filter_map(|line| line.least.as_ref().map(|least| (line.line, least.count, least.certified())))
+                .collect(),
+            programs: 0,
+            iterations: 0,
+        };
+        for round in 0..ROUNDS {
+            let last = round + 1 == ROUNDS;
+            if last {
+                // No agreement: only what cannot contradict itself.
+                for gone in asked.iter().filter(|asked| !asked.start) {
+                    guarded.released.push((lines[gone.line].line, f64::INFINITY));
+                }
+                asked.retain(|asked| asked.start);
+            }
+            let net = guarded.accepted.as_ref().map_or(&free.net, |(_, solved)| &solved.net).clone();
+            let mut added = false;
+            if round > 0 || asked.is_empty() {
+                for (k, line) in lines.iter().enumerate() {
+                    let known = asked.iter().any(|asked| asked.line == k && asked.start);
+                    if !self.surface.own && !known && line.count(&net) > line.count(start) {
+                        asked.retain(|asked| asked.line != k);
+                        asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
+                        added = true;
+                    }
+                }
+                let solved_already = guarded.accepted.is_some() || asked.is_empty();
+                if !added && solved_already && !last {
+                    break;
+                }
+            }
+            let (program, solved) = self.solve(&asked, &mut guarded)?;
+            let feasible = solved.solution.status == Status::Optimal;
+            if feasible {
+                let charges = charges(&program, &solved, &asked, &free.net);
+                let unit = self.sigma * self.sigma;
+                let dear = |k: usize| !asked[k].start && charges[k] > PRICE * unit;
+                if !last && (0..asked.len()).any(dear) {
+                    let gone: Vec<usize> = (0..asked.len()).filter(|&k| dear(k)).collect();
+                    guarded.released.extend(gone.iter().map(|&k| (lines[asked[k].line].line, charges[k] / unit)));
+                    remove(&mut asked, &gone);
+                    guarded.accepted = None;
+                    continue;
+                }
+                guarded.accepted = Some((program, solved));
+                continue;
+            }
+            let charges = charges(&program, &solved, &asked, &free.net);
+            let most = (0..asked.len()).filter(|&k| !asked[k].start).map(|k| charges[k]).fold(0.0, f64::max);
+            let gone: Vec<usize> =
+                (0..asked.len()).filter(|&k| !asked[k].start && charges[k] >= SHARE * most).collect();
+            if gone.is_empty() {
+                break;
+            }
+            guarded.released.extend(gone.iter().map(|&k| (lines[asked[k].line].line, f64::INFINITY)));
+            remove(&mut asked, &gone);
+            guarded.accepted = None;
+        }
+        let names = |start: bool| asked.iter().filter(|a| a.start == start).map(|a| lines[a.line].line).collect();
+        (guarded.asked, guarded.kept) = (names(false), names(true));
+        Ok(guarded)
+    }
+
+    fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
+        let bends = asked.iter().flat_map(|asked| asked.limits.iter().cloned()).collect();
+        let wishes = Wishes { bends, ..self.wishes.clone() };
+        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, self.signs);
+        let solved = program.solve(self.model, self.smoother, self.lambda, self.solver)?;
+        guarded.programs += 1;
+        guarded.iterations += solved.solution.iterations;
+        Ok((program, solved))
+    }
+}
+
+/// For each line the sum of multipliers times violations at the net without it.
+fn charges(program: &Program, solved: &Solved, asked: &[Asked], free: &[f64]) -> Vec<f64> {
+    let total = asked.iter().map(|asked| asked.limits.len()).sum();
+    let mut multipliers = vec![0.0; total];
+    for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
+        if let RowName::Bend(k) = *name {
+            multipliers[k] = *z;
+        }
+    }
+    let mut first = 0;
+    let mut charges = Vec::with_capacity(asked.len());
+    for asked in asked {
+        let own = &multipliers[first..first + asked.limits.len()];
+        first += asked.limits.len();
+        charges.push(TableLine::charge(&asked.limits, own, free));
+    }
+    charges
+}
+
+fn remove(asked: &mut Vec<Asked>, gone: &[usize]) {
+    let mut index = 0;
+    asked.retain(|_| {
+        index += 1;
+        !gone.contains(&(index - 1))
+    });
+}

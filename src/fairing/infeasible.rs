@@ -1,0 +1,116 @@
+//! When the wishes cannot all be had: how far each would have to give way, by linear programs over the same rows.
+//!
+//! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s delta_k and
+//!   the rest.
+//! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave, min and max
+//!   of its row. The distance from its target to that interval is what it would have to give.
+
+use super::program::{Program, RowName};
+use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+
+/// What one constraint could be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Index of the constraint.
+    pub constraint: usize,
+    /// Least and greatest value of its row within the tolerances and the other constraints; none when these cannot be had
+    /// themselves.
+    pub row: Option<[f64; 2]>,
+    /// Distance of the target from that interval, in units of the row.
+    pub missing: Option<f64>,
+}
+
+/// Why a program has no solution, in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// The least factor on the tolerances that makes the program feasible; none when no factor does.
+    pub widening: Option<f64>,
+    /// Each constraint alone.
+    pub reaches: Vec<Reach>,
+}
+
+impl Diagnosis {
+    /// The single constraint that has to give least, in units of its row.
+    #[must_use]
+    pub fn cheapest(&self) -> Option<&Reach> {
+        let able = self.reaches.iter().filter(|reach| reach.missing.is_some());
+        able.min_by(|a, b| a.missing.unwrap_or(f64::INFINITY).total_cmp(&b.missing.unwrap_or(f64::INFINITY)))
+    }
+}
+
+/// The least factor on the tolerances.
+///
+/// # Errors
+/// [`ProblemError`] when the numbers make no problem.
+pub fn least_widening(program: &Program, settings: &Settings) -> Result<Option<f64>, ProblemError> {
+    let problem = &program.problem;
+    let n = problem.linear.len();
+    let mut rows = SparseRows::new(n + 1);
+    let (mut lower, mut upper) = (Vec::new(), Vec::new());
+    for (k, name) in program.names.iter().enumerate() {
+        let (columns, values) = problem.rows.row(k);
+        let row = || columns.iter().copied().zip(values.iter().copied());
+        let (low, high) = (problem.lower[k], problem.upper[k]);
+        let half = 0.5 * (high - low);
+        if matches!(name, RowName::Tolerance(_)) && half > 0.0 {
+            let middle = 0.5 * (low + high);
+            rows.push(row().chain([(n, -half)]));
+            lower.push(f64::NEG_INFINITY);
+            upper.push(middle);
+            rows.push(row().chain([(n, half)]));
+            lower.push(middle);
+            upper.push(f64::INFINITY);
+        } else {
+            rows.push(row());
+            lower.push(low);
+            upper.push(high);
+        }
+    }
+    rows.push([(n, 1.0)]);
+    lower.push(0.0);
+    upper.push(f64::INFINITY);
+    let mut linear = vec![0.0; n + 1];
+    linear[n] = 1.0;
+    let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
+    let solution = problem.solve(settings)?;
+    Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
+}
+
+/// The interval of one row when its own limits are lifted.
+fn reach(program: &Program, row: usize, settings: &Settings) -> Result<Option<[f64; 2]>, ProblemError> {
+    let n = program.problem.linear.len();
+    let mut problem = program.problem.clone();
+    problem.quadratic = SparseRows::from_entries(n, n, &[]);
+    problem.lower[row] = f64::NEG_INFINITY;
+    problem.upper[row] = f64::INFINITY;
+    let mut ends = [0.0; 2];
+    for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+        problem.linear = vec![0.0; n];
+        let (columns, values) = program.problem.rows.row(row);
+        for (&column, value) in columns.iter().zip(values) {
+            problem.linear[column] = sign * value;
+        }
+        let solution = problem.solve(settings)?;
+        if solution.status != Status::Optimal {
+            return Ok(None);
+        }
+        *end = program.problem.rows.dot(row, &solution.x);
+    }
+    Ok(Some(ends))
+}
+
+/// Everything that can be said of a program without a solution.
+///
+/// # Errors
+/// [`ProblemError`] when the numbers make no problem.
+pub fn diagnose(program: &Program, settings: &Settings) -> Result<Diagnosis, ProblemError> {
+    let mut reaches = Vec::new();
+    for (row, name) in program.names.iter().enumerate() {
+        let RowName::Constraint(constraint) = *name else { continue };
+        let interval = reach(program, row, settings)?;
+        let (lower, upper) = (program.problem.lower[row], program.problem.upper[row]);
+        let missing = interval.map(|[low, high]| (lower - high).max(low - upper).max(0.0));
+        reaches.push(Reach { constraint, row: interval, missing });
+    }
+    Ok(Diagnosis { widening: least_widening(program, settings)?, reaches })
+}

@@ -1,0 +1,498 @@
+//! From a table of offsets and wishes to a fair hull with everything that proves it.
+//!
+//! The table is searched for suspects, which are left out unless they are kept; it is fitted (the hull before); the model of
+//! [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
+
+use super::bends::Line;
+use super::constraint::Constraint;
+use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
+use super::infeasible::Reach;
+use super::inspect::{CurveReport, Inspection, Planes, kind};
+use super::smoothing::{Smoothed, Smoother, Trial};
+use super::surface::{EnergySettings, FairSurface, Origin};
+use super::suspects::{Suspect, suspects};
+use crate::hull::{Cut, Entry, FitError, FitMethod, Hull, HullError, OffsetTable};
+use crate::qp::{Settings, Status};
+
+/// Least tolerance over the breadth: below it a difference is rounding.
+const LEAST_TOLERANCE: f64 = 1e-6;
+
+/// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
+const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
+
+/// Most times that lines which bend more often than before are added and the job is done again.
+const REPEATS: usize = 2;
+
+/// What is held of the hull.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Holding {
+    /// Displacement, LCB and C_M of the table's own surface.
+    Table,
+    /// These.
+    Given(Vec<Constraint>),
+    /// The first at the values of the table's own surface, the others as they are given.
+    Both {
+        /// Held at the table's own values, whatever their targets are.
+        own: Vec<Constraint>,
+        /// Held at their targets.
+        given: Vec<Constraint>,
+    },
+}
+
+/// How far a reading may move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tolerance {
+    /// The same for the whole table \[m\]; none: three noise levels, at least two quanta of the writing.
+    pub table: Option<f64>,
+    /// For single stations: (index, tolerance \[m\]).
+    pub stations: Vec<(usize, f64)>,
+    /// For single waterlines: (index, tolerance \[m\]).
+    pub waterlines: Vec<(usize, f64)>,
+    /// For single cells: (station, waterline, tolerance \[m\]).
+    pub cells: Vec<(usize, usize, f64)>,
+}
+
+/// What is wished.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// Order and direction of the energy.
+    pub energy: EnergySettings,
+    /// Smoothing weight; none: by cross-validation.
+    pub weight: Option<f64>,
+    /// What is held.
+    pub holding: Holding,
+    /// Tolerances.
+    pub tolerance: Tolerance,
+    /// Cells that must not move: (station, waterline).
+    pub locked: Vec<(usize, usize)>,
+    /// Whether suspects are left out.
+    pub exclude_suspects: bool,
+    /// Whether the energy is that of true curvature: the metric is refreshed until it stands still.
+    pub true_curvature: bool,
+    /// Whether extraneous changes of curvature are forbidden.
+    pub signs: bool,
+    /// The solver.
+    pub solver: Settings,
+}
+
+impl Default for Job {
+    fn default() -> Self {
+        Self {
+            energy: EnergySettings::default(),
+            weight: None,
+            holding: Holding::Table,
+            tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
+            locked: Vec::new(),
+            exclude_suspects: true,
+            signs: true,
+            true_curvature: false,
+            solver: Settings { tolerance: 1e-11, ..Settings::default() },
+        }
+    }
+}
+
+/// Why a table was not faired.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum JobError {
+    /// The table makes no surface.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The surface makes no hull.
+    #[error(transparent)]
+    Hull(#[from] HullError),
+    /// The offsets make no problem.
+    #[error(transparent)]
+    Fair(#[from] FairError),
+}
+
+/// A cell and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// Index of the station.
+    pub station: usize,
+    /// Index of the waterline; none for the deck at side.
+    pub waterline: Option<usize>,
+    /// Position forward of AP \[m\].
+    pub x: f64,
+    /// Height above the base line \[m\].
+    pub z: f64,
+    /// Half-breadth in the table \[m\].
+    pub before: f64,
+    /// Half-breadth of the fair surface \[m\].
+    pub after: f64,
+    /// Tolerance that was used \[m\]; none for cells that were left out.
+    pub tolerance: Option<f64>,
+    /// The cell was left out as a suspect.
+    pub suspect: bool,
+    /// The cell was locked.
+    pub locked: bool,
+}
+
+/// A constraint and how it is held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// The constraint with its target.
+    pub constraint: Constraint,
+    /// Its quantity before, for the surface through the table.
+    pub before: f64,
+    /// Its quantity after.
+    pub after: f64,
+    /// Multiplier of its row \[m^2 per unit of the row\].
+    pub multiplier: f64,
+    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
+    pub price: f64,
+}
+
+/// Inflections of one curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turns {
+    /// The plane that cuts it.
+    pub cut: Cut,
+    /// Inflections of the surface through the table.
+    pub before: usize,
+    /// Inflections of the fair surface.
+    pub after: usize,
+    /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved; none on lines
+    /// that the table does not have.
+    pub minimum: Option<(usize, bool)>,
+}
+
+/// What a job comes to.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// How the program ended.
+    pub status: Status,
+    /// The surface through the table.
+    pub before: Hull,
+    /// The fair hull.
+    pub after: Hull,
+    /// The table of the fair hull, in the writing of the old one and not rounded yet.
+    pub table: OffsetTable,
+    /// Every cell that was read.
+    pub changes: Vec<Change>,
+    /// Constraints.
+    pub held: Vec<Held>,
+    /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
+    pub turns: Vec<Turns>,
+    /// Suspects of the table.
+    pub suspects: Vec<Suspect>,
+    /// The program, its certificate, its noise level and its pattern.
+    pub faired: Faired,
+    /// Order of the energy.
+    pub order: usize,
+    /// Energy of the start net and of the fair net.
+    pub energy: [f64; 2],
+    /// What was assumed, in words.
+    pub notes: Vec<String>,
+}
+
+impl Job {
+    /// Fairs a table.
+    ///
+    /// # Errors
+    /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
+    pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
+        let found = suspects(table);
+        let mut clean = table.clone();
+        let excluded: Vec<(usize, usize)> = if self.exclude_suspects {
+            let certain = found.suspects.iter().filter(|suspect| suspect.probability > 0.5);
+            certain.map(|suspect| (suspect.station, suspect.waterline)).collect()
+        } else {
+            Vec::new()
+        };
+        // The chart needs the highest offset of every station: it is its deck at side. There the expected value stands in.
+        let mut charted = table.clone();
+        for suspect in &found.suspects {
+            let (station, waterline) = (suspect.station, suspect.waterline);
+            if excluded.contains(&(station, waterline)) {
+                clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
+                let higher = &table.stations[station].half_breadths[waterline + 1..];
+                let highest = higher.iter().all(|cell| cell.value().is_none());
+                charted.stations[station].half_breadths[waterline].entry =
+                    if highest { Entry::Given(suspect.verdict.expected) } else { Entry::Unknown };
+            }
+        }
+        let fitted = Hull::fit(&charted, &FitMethod::Graded)?;
+        let mut notes = fitted.notes;
+        let before = fitted.hull;
+        let quantum = table.form.quantum().unwrap_or(0.0);
+        let mut surface = FairSurface::new(&clean, &before, self.energy, true)?;
+        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
+        let noise = found.noise.max(quantum / 12f64.sqrt());
+        if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
+            surface = FairSurface::new(&clean, &before, self.energy, false)?;
+            search = None;
+        }
+        let locked = |place: &super::surface::Place| match place.origin {
+            Origin::HalfBreadth { station, waterline } => self.locked.contains(&(station, waterline)),
+            Origin::Deck { .. } => false,
+        };
+        surface.places.iter_mut().for_each(|place| place.locked |= locked(place));
+        let own = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
+        let constraints = match &self.holding {
+            Holding::Given(list) => list.clone(),
+            Holding::Both { own: list, given } => list.iter().map(own).chain(given.iter().copied()).collect(),
+            Holding::Table => {
+                [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
+                    .map(|constraint| own(&constraint))
+                    .to_vec()
+            }
+        };
+        // A net of its own has another volume between the offsets: the tolerances have room for the difference.
+        let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
+        let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
+        let waterlines = table.waterlines.iter().map(|&z| Line::Waterline(z));
+        let mut settings = FairSettings {
+            constraints,
+            weight: self.weight,
+            table_noise: Some(found.noise),
+            most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
+            least_noise: quantum / 12f64.sqrt(),
+            tolerance_levels: Some(3.0),
+            least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
+            tolerances: self.tolerances(&surface),
+            signs: self.signs,
+            true_curvature: self.true_curvature,
+            lines: stations.chain(waterlines).collect(),
+            kept: Vec::new(),
+            solver: self.solver.clone(),
+        };
+        let prepared = match search {
+            Some(search) if self.weight.is_none() => {
+                Prepared::searched(&mut surface, &settings, search.smoother, (search.smoothed.lambda, search.trials))?
+            }
+            _ => Prepared::new(&mut surface, &settings)?,
+        };
+        let mut faired = fair_prepared(&mut surface, &settings, &prepared)?;
+        let mut after = surface.hull_of(&faired.net)?;
+        let resolution = quantum.max(0.1 * faired.sigma);
+        let mut lines = turns(table, &before, &after, resolution);
+        for _ in 0..REPEATS {
+            let worse = lines.iter().filter(|turns| turns.after > turns.before).filter_map(|turns| match turns.cut {
+                Cut::Station { x } => Some(Line::Station(x)),
+                Cut::Waterline { z } => Some(Line::Waterline(z)),
+                _ => None,
+            });
+            let worse: Vec<Line> = worse.filter(|line| !faired.kept().contains(line)).collect();
+            if !self.signs || surface.own || worse.is_empty() {
+                break;
+            }
+            settings.kept = faired.kept().to_vec();
+            settings.kept.extend(worse);
+            faired = fair_prepared(&mut surface, &settings, &prepared)?;
+            after = surface.hull_of(&faired.net)?;
+            lines = turns(table, &before, &after, resolution);
+        }
+        let changes = changes(table, &surface, &after, &excluded);
+        for turns in &mut lines {
+            let line = match turns.cut {
+                Cut::Station { x } => Line::Station(x),
+                Cut::Waterline { z } => Line::Waterline(z),
+                _ => continue,
+            };
+            let least = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            turns.minimum = least.map(|(_, count, proved)| (*count, *proved));
+        }
+        let held = held(&surface, &settings, &faired, &before, &after);
+        let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
+        if !excluded.is_empty() {
+            notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
+        }
+        Ok(Outcome {
+            status: if faired.diagnosis.is_some() { Status::Infeasible } else { faired.solved.solution.status },
+            table: written(table, &changes),
+            before,
+            after,
+            changes,
+            held,
+            turns: lines,
+            suspects: found.suspects,
+            order: surface.order,
+            energy,
+            faired,
+            notes,
+        })
+    }
+
+    /// Tolerances that the job names, one a reading.
+    fn tolerances(&self, surface: &FairSurface) -> Vec<Option<f64>> {
+        let of = |list: &[(usize, f64)], index: usize| list.iter().rev().find(|(i, _)| *i == index).map(|(_, t)| *t);
+        surface
+            .places
+            .iter()
+            .map(|place| match place.origin {
+                Origin::HalfBreadth { station, waterline } => {
+                    let cell = self.tolerance.cells.iter().rev().find(|(s, w, _)| (*s, *w) == (station, waterline));
+                    cell.map(|(_, _, t)| *t)
+                        .or_else(|| of(&self.tolerance.waterlines, waterline))
+                        .or_else(|| of(&self.tolerance.stations, station))
+                        .or(self.tolerance.table)
+                }
+                Origin::Deck { station } => of(&self.tolerance.stations, station).or(self.tolerance.table),
+            })
+            .collect()
+    }
+}
+
+/// The smoothing problem of the quintic net and the weight that cross-validation finds for it.
+struct Search {
+    smoother: Smoother,
+    smoothed: Smoothed,
+    trials: Vec<Trial>,
+}
+
+impl Search {
+    fn new(surface: &FairSurface) -> Result<Self, FairError> {
+        let smoother = Smoother::new(&surface.model);
+        let (lambda, trials) = smoother.cross_validated()?;
+        Ok(Self { smoothed: smoother.at(lambda)?, smoother, trials })
+    }
+
+    /// Whether the net follows the table: what remains is the noise of the table.
+    fn follows(&self, before: &Hull, noise: f64) -> bool {
+        let least = LEAST_TOLERANCE * before.particulars().breadth;
+        self.smoothed.sigma(self.smoother.count()) <= MISFIT * noise.max(least)
+    }
+
+    /// Half the mean distance \[m\] between two surfaces whose displaced volumes differ.
+    fn gap(&self, surface: &FairSurface, before: &Hull) -> Result<f64, JobError> {
+        let own = surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))?;
+        let volume = Constraint::Displacement(0.0);
+        let p = before.particulars();
+        Ok((volume.value(&own) - volume.value(before)).abs() / (2.0 * p.length_between_perpendiculars * p.draught))
+    }
+}
+
+/// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
+fn changes(table: &OffsetTable, surface: &FairSurface, after: &Hull, excluded: &[(usize, usize)]) -> Vec<Change> {
+    let mut changes: Vec<Change> = Vec::new();
+    for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
+        let (station, waterline) = match place.origin {
+            Origin::HalfBreadth { station, waterline } => (station, Some(waterline)),
+            Origin::Deck { station } => (station, None),
+        };
+        changes.push(Change {
+            station,
+            waterline,
+            x: place.x,
+            z: place.z,
+            before: reading.value,
+            after: after.surface().eval(place.at[0], place.at[1])[1],
+            tolerance: reading.tolerance,
+            suspect: false,
+            locked: place.locked,
+        });
+    }
+    for &(station, waterline) in excluded {
+        let (column, z) = (&table.stations[station], table.waterlines[waterline]);
+        let x = column.station.x;
+        if let (Some(before), Some(after)) = (column.half_breadths[waterline].value(), after.half_breadth(x, z)) {
+            let waterline = Some(waterline);
+            changes.push(Change {
+                station,
+                waterline,
+                x,
+                z,
+                before,
+                after,
+                tolerance: None,
+                suspect: true,
+                locked: false,
+            });
+        }
+    }
+    changes.sort_by_key(|change| (change.station, change.waterline.unwrap_or(usize::MAX)));
+    changes
+}
+
+/// The table with the new half-breadths.
+fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
+    let mut table = table.clone();
+    for change in changes {
+        let station = &mut table.stations[change.station];
+        match change.waterline {
+            Some(waterline) => {
+                let cell = &mut station.half_breadths[waterline];
+                cell.entry = Entry::Given(change.after);
+                cell.written = None;
+            }
+            None => station.deck_half_breadth = Some(change.after),
+        }
+    }
+    table
+}
+
+/// Constraints with what they cost: the same program without the row.
+fn held(surface: &FairSurface, settings: &FairSettings, faired: &Faired, before: &Hull, after: &Hull) -> Vec<Held> {
+    let list = settings.constraints.iter().enumerate();
+    list.map(|(k, &constraint)| Held {
+        constraint,
+        before: constraint.value(before),
+        after: constraint.value(after),
+        multiplier: faired.multiplier(k),
+        price: faired.price_of(&surface.model, k, &settings.solver),
+    })
+    .collect()
+}
+
+/// Inflections of the lines of the table, of buttocks and of diagonals.
+fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Vec<Turns> {
+    let mut planes = Planes::with_defaults(before);
+    planes.stations = table.stations.iter().map(|station| station.station.x).collect();
+    planes.waterlines.clone_from(&table.waterlines);
+    let count = |hull: &Hull| -> Vec<(Cut, usize)> {
+        let curves: Vec<CurveReport> = Inspection::new(hull, &planes, tolerance).curves;
+        let mut list: Vec<(Cut, usize)> = Vec::new();
+        for curve in curves {
+            match list.last_mut() {
+                Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
+                _ => list.push((curve.cut, curve.inflections.len())),
+            }
+        }
+        list
+    };
+    let (old, new) = (count(before), count(after));
+    let cuts = old.iter().filter_map(|(cut, before)| {
+        let after = new.iter().find(|(other, _)| other == cut)?.1;
+        Some(Turns { cut: *cut, before: *before, after, minimum: None })
+    });
+    cuts.collect()
+}
+
+impl Outcome {
+    /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
+    #[must_use]
+    pub fn moves(&self) -> (f64, f64, Option<&Change>) {
+        let kept: Vec<&Change> = self.changes.iter().filter(|change| !change.suspect).collect();
+        let size = |change: &Change| (change.after - change.before).abs();
+        let squares: f64 = kept.iter().map(|change| size(change).powi(2)).sum();
+        let largest = kept.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b)));
+        ((squares / kept.len().max(1) as f64).sqrt(), largest.map_or(0.0, size), largest)
+    }
+
+    /// The least and the greatest value of a constraint's quantity within the tolerances and the other constraints; none when these
+    /// cannot be had. Rows are relative: to the target for sizes, to L_PP or T for centres, to B T for areas of sections.
+    #[must_use]
+    pub fn reached_values(&self, reach: &Reach) -> Option<[f64; 2]> {
+        let constraint = self.held.get(reach.constraint)?.constraint;
+        let p = self.before.particulars();
+        let target = constraint.target();
+        let of = |row: f64| match constraint {
+            Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => {
+                target + row * p.length_between_perpendiculars
+            }
+            Constraint::HeightOfBuoyancy(_) => target + row * p.draught,
+            Constraint::MidshipCoefficient(_) => row,
+            Constraint::SectionArea { .. } => row * p.breadth * p.draught,
+            _ => row * target,
+        };
+        reach.row.map(|ends| ends.map(of))
+    }
+
+    /// Inflections before and after of one kind of curve: station, waterline, buttock or diagonal.
+    #[must_use]
+    pub fn inflections(&self, of: &str) -> [usize; 2] {
+        let list = self.turns.iter().filter(|turns| kind(&turns.cut) == of);
+        list.fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
+    }
+}

@@ -1,0 +1,116 @@
+//! Least inflections on the lines of a table, as signs that the surface is asked to have.
+//!
+//! For each station and waterline the offsets with their tolerances have a proved least number of inflections
+//! ([`super::inflections`]), and a curve that has it. Where a line of the surface bends more often, it is asked for the signs of
+//! that curve; the inflections are free within the intervals in which they can lie. Lines are taken together into one program,
+//! so that they can contradict each other. The price of a line is
+//!
+//! ```text
+//! sum_k |z_k| v_k / sigma^2
+//! ```
+//!
+//! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by no more than the
+//! sum over all lines. A line dearer than [`super::fair::PRICE`] is let go, and so is the dearest one by the proof when nothing satisfies all.
+
+use super::bends::{Bend, Line, bends, changes, signs};
+use super::inflections::{Bands, Inflections, minimum_inflections};
+use super::model::{Limit, value};
+use super::surface::FairSurface;
+
+/// y'' below this part of its largest value has no sign.
+const STRAIGHT: f64 = 1e-6;
+
+/// A line of the table.
+#[derive(Debug, Clone)]
+pub struct TableLine {
+    /// Which.
+    pub line: Line,
+    /// Its bends on the surface.
+    pub bends: Vec<Bend>,
+    /// The least number of inflections, when the line has offsets enough.
+    pub least: Option<Inflections>,
+}
+
+/// Offsets of a line with their tolerances.
+fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
+    let same = 1e-9 * surface.hull.particulars().length_between_perpendiculars;
+    let mut points: Vec<(f64, f64, f64)> = Vec::new();
+    for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
+        let site = match line {
+            Line::Station(x) if (place.x - x).abs() < same => place.z,
+            Line::Waterline(z) if (place.z - z).abs() < same => place.x,
+            _ => continue,
+        };
+        if let Some(tolerance) = reading.tolerance {
+            points.push((site, reading.value, tolerance));
+        }
+    }
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points.dedup_by(|a, b| a.0 - b.0 < same);
+    let list = |of: fn(&(f64, f64, f64)) -> f64| points.iter().map(of).collect();
+    Bands::new(list(|p| p.0), list(|p| p.1), list(|p| p.2), Vec::new()).ok()
+}
+
+impl TableLine {
+    /// A line of the surface with the least number of inflections of its offsets.
+    #[must_use]
+    pub fn new(surface: &FairSurface, line: Line) -> Self {
+        let least = bands(surface, line).map(|bands| minimum_inflections(&bands));
+        Self { line, bends: bends(surface, line), least }
+    }
+
+    /// Inflections of a net along the line.
+    #[must_use]
+    pub fn count(&self, net: &[f64]) -> usize {
+        changes(&signs(&self.bends, net))
+    }
+
+    /// Whether a net bends more often than the offsets ask for.
+    #[must_use]
+    pub fn bends_too_often(&self, net: &[f64]) -> bool {
+        self.least.as_ref().is_some_and(|least| least.curve.is_some() && self.count(net) > least.count)
+    }
+
+    /// Limits that ask for the signs of the curve with the least inflections.
+    #[must_use]
+    pub fn wished(&self) -> Vec<Limit> {
+        let Some((least, curve)) = self.least.as_ref().and_then(|least| Some((least, least.curve.as_ref()?))) else {
+            return Vec::new();
+        };
+        let (from, to) = curve.knots().domain();
+        let second = |x: f64| curve.derivatives::<3>(x)[2][0];
+        let largest = self.bends.iter().filter(|bend| (from..=to).contains(&bend.at)).map(|bend| second(bend.at).abs());
+        let largest = largest.fold(0.0, f64::max);
+        let free: Vec<[f64; 2]> = least
+            .stretches
+            .iter()
+            .flat_map(|stretch| &stretch.inflections)
+            .map(|interval| [interval.from.min(interval.at), interval.to.max(interval.at)])
+            .collect();
+        let mut limits = Vec::new();
+        for bend in &self.bends {
+            let x = bend.at;
+            if !(from..=to).contains(&x) || free.iter().any(|[a, b]| (*a..=*b).contains(&x)) {
+                continue;
+            }
+            let sign = second(x);
+            if sign.abs() <= STRAIGHT * largest {
+                continue;
+            }
+            limits.extend(bend.limit(sign > 0.0));
+        }
+        limits
+    }
+
+    /// Sum of multiplier times violation at `net` over limits of the line.
+    #[must_use]
+    pub fn charge(limits: &[Limit], multipliers: &[f64], net: &[f64]) -> f64 {
+        let pairs = limits.iter().zip(multipliers);
+        pairs
+            .map(|(limit, z)| {
+                let y = value(&limit.row, net);
+                z.abs() * (limit.lower - y).max(y - limit.upper).max(0.0)
+            })
+            .sum()
+    }
+}

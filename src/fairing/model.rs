@@ -1,0 +1,166 @@
+//! The quadratic model that fairing a curve and fairing a surface have in common.
+//!
+//! Unknown control values c; an energy c'E c; readings a_k c = d_k with weights w_k (one over the square of the noise level relative
+//! to that of the others) and tolerances; control values that are known; and linear limits l <= r c <= u with names. What smooths
+//! ([`super::smoothing`]), what is robust ([`super::robust`]) and what is certified ([`super::solve`]) sees nothing else of a ship.
+
+use crate::numeric::SymmetricBand;
+use crate::qp::SparseRows;
+
+/// A row of a matrix: (column, value), columns rising.
+pub type Row = Vec<(usize, f64)>;
+
+/// One offset: what is read where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Basis values over the control values: the surface there is row . c \[m\].
+    pub row: Row,
+    /// What was read \[m\].
+    pub value: f64,
+    /// 1 over the square of the relative noise level; 0 leaves the reading out.
+    pub weight: f64,
+    /// How far the surface may depart from the reading \[m\]; none: as far as it likes.
+    pub tolerance: Option<f64>,
+}
+
+/// A linear limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// Row over the control values.
+    pub row: Row,
+    /// Lower limit, minus infinity for none.
+    pub lower: f64,
+    /// Upper limit, infinity for none.
+    pub upper: f64,
+}
+
+/// The model.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Energy: c'E c, banded in the order of the unknowns.
+    pub energy: SymmetricBand,
+    /// What was read.
+    pub readings: Vec<Reading>,
+    /// Control values that are known \[m\].
+    pub known: Vec<Option<f64>>,
+    /// Control values to stay near where nothing else is said \[m\].
+    pub start: Option<Vec<f64>>,
+}
+
+/// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
+#[derive(Debug, Clone)]
+pub struct Reduced {
+    /// Indices of the free control values in the whole.
+    pub free: Vec<usize>,
+    /// Where a control value stands among the free ones.
+    pub place: Vec<Option<usize>>,
+    /// E over the free values.
+    pub energy: SymmetricBand,
+    /// e = E_fk c_k.
+    pub pull: Vec<f64>,
+    /// c_k'E_kk c_k.
+    pub constant: f64,
+    /// Rows a_k over the free values.
+    pub data: SparseRows,
+    /// Free control values to stay near.
+    pub start: Option<Vec<f64>>,
+    /// d_k less what the known values contribute.
+    pub values: Vec<f64>,
+    /// Known values, 0 for free ones.
+    base: Vec<f64>,
+}
+
+impl Model {
+    /// Number of control values.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.known.len()
+    }
+
+    /// c'E c.
+    #[must_use]
+    pub fn energy_of(&self, c: &[f64]) -> f64 {
+        self.energy.apply(c).iter().zip(c).map(|(e, c)| e * c).sum()
+    }
+
+    /// Residuals a_k c - d_k \[m\].
+    #[must_use]
+    pub fn residuals(&self, c: &[f64]) -> Vec<f64> {
+        self.readings.iter().map(|reading| value(&reading.row, c) - reading.value).collect()
+    }
+
+    /// Takes the known control values out.
+    #[must_use]
+    pub fn reduced(&self) -> Reduced {
+        let n = self.unknowns();
+        let free: Vec<usize> = (0..n).filter(|&i| self.known[i].is_none()).collect();
+        let mut place = vec![None; n];
+        free.iter().enumerate().for_each(|(k, &i)| place[i] = Some(k));
+        let base: Vec<f64> = self.known.iter().map(|known| known.unwrap_or(0.0)).collect();
+        let w = self.energy.width();
+        let mut energy = SymmetricBand::zeros(free.len(), w.min(free.len().saturating_sub(1)));
+        for (k, &i) in free.iter().enumerate() {
+            for (j, l) in place.iter().enumerate().take(i + 1).skip(i.saturating_sub(w)) {
+                if let Some(l) = *l {
+                    let value = self.energy.get(i, j);
+                    if value != 0.0 {
+                        energy.add(k, l, value);
+                    }
+                }
+            }
+        }
+        let product = self.energy.apply(&base);
+        let mut data = SparseRows::new(free.len());
+        let mut values = Vec::with_capacity(self.readings.len());
+        for reading in &self.readings {
+            let (row, offset) = split(&reading.row, &place, &base);
+            data.push(row);
+            values.push(reading.value - offset);
+        }
+        Reduced {
+            pull: free.iter().map(|&i| product[i]).collect(),
+            constant: product.iter().zip(&base).map(|(e, c)| e * c).sum(),
+            start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i]).collect()),
+            free,
+            place,
+            energy,
+            data,
+            values,
+            base,
+        }
+    }
+}
+
+impl Reduced {
+    /// All control values from the free ones.
+    #[must_use]
+    pub fn expand(&self, free: &[f64]) -> Vec<f64> {
+        let mut all = self.base.clone();
+        self.free.iter().zip(free).for_each(|(&i, &value)| all[i] = value);
+        all
+    }
+
+    /// A row over the free values, and what the known ones contribute.
+    #[must_use]
+    pub fn row(&self, row: &[(usize, f64)]) -> (Row, f64) {
+        split(row, &self.place, &self.base)
+    }
+}
+
+fn split(row: &[(usize, f64)], place: &[Option<usize>], base: &[f64]) -> (Row, f64) {
+    let mut offset = 0.0;
+    let mut kept = Row::with_capacity(row.len());
+    for &(column, value) in row {
+        match place[column] {
+            Some(k) => kept.push((k, value)),
+            None => offset += value * base[column],
+        }
+    }
+    (kept, offset)
+}
+
+/// row . c.
+#[must_use]
+pub fn value(row: &[(usize, f64)], c: &[f64]) -> f64 {
+    row.iter().map(|&(column, value)| value * c[column]).sum()
+}

@@ -1,0 +1,171 @@
+//! From model, limits and signs to one convex quadratic program, and back with prices.
+//!
+//! minimise (1/2) c'(2 N) c - 2 b'c over the free control values, N = A'WA + lambda E, subject to the limits of the constraints,
+//! the tolerance of every reading, the signs of curvature and the limits of every control value. The objective is the
+//! weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
+
+use super::model::{Limit, Model};
+use super::pattern::{Pattern, SignForms};
+use super::smoothing::Smoother;
+use crate::numeric::SymmetricBand;
+use crate::qp::{Certificate, Problem, ProblemError, Settings, Solution, SparseRows, Status};
+
+/// What a row of the program stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowName {
+    /// A constraint of the whole hull: its index.
+    Constraint(usize),
+    /// The tolerance of a reading: its index.
+    Tolerance(usize),
+    /// A sign of curvature: which forms (0: waterlines, 1: across) and which of them.
+    Sign(usize, usize),
+    /// A sign of curvature that a line of the table keeps: its index.
+    Bend(usize),
+    /// A limit of the half-breadth at a point of the surface: its index.
+    Breadth(usize),
+}
+
+/// Everything that is wished.
+#[derive(Debug, Clone, Default)]
+pub struct Wishes {
+    /// Constraints of the whole hull.
+    pub constraints: Vec<Limit>,
+    /// Limits of half-breadths.
+    pub breadths: Vec<Limit>,
+    /// Signs of curvature that single lines keep.
+    pub bends: Vec<Limit>,
+    /// Multiplies every tolerance.
+    pub widening: f64,
+}
+
+/// A program ready to be solved.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// The problem over the free control values.
+    pub problem: Problem,
+    /// What each row stands for.
+    pub names: Vec<RowName>,
+}
+
+/// A solved program.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// How it ended, x and multipliers.
+    pub solution: Solution,
+    /// Bound and residuals computed outside the solver.
+    pub certificate: Certificate,
+    /// All control values \[m\].
+    pub net: Vec<f64>,
+    /// sum w r^2 + lambda c'E c \[m^2\].
+    pub objective: f64,
+}
+
+/// Both triangles of a band as rows.
+fn symmetric(band: &SymmetricBand, factor: f64) -> SparseRows {
+    let (n, w) = (band.size(), band.width());
+    let mut rows = SparseRows::new(n);
+    for i in 0..n {
+        let columns = i.saturating_sub(w)..=(i + w).min(n.saturating_sub(1));
+        rows.push(columns.map(|j| (j, factor * band.get(i, j))).filter(|&(j, value)| value != 0.0 || j == i));
+    }
+    rows
+}
+
+impl Program {
+    /// Assembles the program.
+    #[must_use]
+    pub fn new(
+        model: &Model,
+        smoother: &Smoother,
+        lambda: f64,
+        wishes: &Wishes,
+        signs: Option<(&[SignForms; 2], &[Pattern; 2])>,
+    ) -> Self {
+        let (normal, right) = smoother.normal(lambda);
+        let n = right.len();
+        let mut problem = Problem {
+            quadratic: symmetric(&normal, 2.0),
+            linear: right.iter().map(|b| -2.0 * b).collect(),
+            rows: SparseRows::new(n),
+            lower: Vec::new(),
+            upper: Vec::new(),
+        };
+        let mut names = Vec::new();
+        let reduced = &smoother.reduced;
+        let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64| {
+            let (row, offset) = reduced.row(row);
+            if row.iter().all(|(_, value)| value.abs() < 1e-14) {
+                return;
+            }
+            problem.rows.push(row);
+            problem.lower.push(lower - offset);
+            problem.upper.push(upper - offset);
+            names.push(name);
+        };
+        for (k, limit) in wishes.constraints.iter().enumerate() {
+            add(RowName::Constraint(k), &limit.row, limit.lower, limit.upper);
+        }
+        for (k, reading) in model.readings.iter().enumerate() {
+            if let Some(tolerance) = reading.tolerance.filter(|_| reading.weight > 0.0) {
+                let band = tolerance * wishes.widening;
+                add(RowName::Tolerance(k), &reading.row, reading.value - band, reading.value + band);
+            }
+        }
+        if let Some((forms, patterns)) = signs {
+            for (which, (forms, pattern)) in forms.iter().zip(patterns).enumerate() {
+                for (k, &sign) in pattern.imposed.iter().enumerate() {
+                    let limits = match sign {
+                        0 => continue,
+                        1.. => (0.0, f64::INFINITY),
+                        _ => (f64::NEG_INFINITY, 0.0),
+                    };
+                    add(RowName::Sign(which, k), &forms.rows[k], limits.0, limits.1);
+                }
+            }
+        }
+        for (k, limit) in wishes.bends.iter().enumerate() {
+            add(RowName::Bend(k), &limit.row, limit.lower, limit.upper);
+        }
+        for (k, limit) in wishes.breadths.iter().enumerate() {
+            add(RowName::Breadth(k), &limit.row, limit.lower, limit.upper);
+        }
+        Self { problem, names }
+    }
+
+    /// The same rows with the objective of another energy over the same unknowns.
+    #[must_use]
+    pub fn with_objective(&self, smoother: &Smoother, lambda: f64) -> Self {
+        let (normal, right) = smoother.normal(lambda);
+        let mut changed = self.clone();
+        changed.problem.quadratic = symmetric(&normal, 2.0);
+        changed.problem.linear = right.iter().map(|b| -2.0 * b).collect();
+        changed
+    }
+
+    /// Solves, and judges the answer.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when the numbers make no problem.
+    pub fn solve(
+        &self,
+        model: &Model,
+        smoother: &Smoother,
+        lambda: f64,
+        settings: &Settings,
+    ) -> Result<Solved, ProblemError> {
+        let solution = self.problem.solve(settings)?;
+        let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
+        let net = smoother.reduced.expand(&solution.x);
+        let misfit: f64 = model.residuals(&net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum();
+        let objective = misfit + lambda * smoother.unit * model.energy_of(&net);
+        Ok(Solved { solution, certificate, net, objective })
+    }
+}
+
+impl Solved {
+    /// Whether the optimum was found.
+    #[must_use]
+    pub fn is_optimal(&self) -> bool {
+        self.solution.status == Status::Optimal
+    }
+}

@@ -1,0 +1,308 @@
+//! How much to smooth: generalised cross-validation, the noise of the readings, leverages.
+//!
+//! For a weight lambda, c(lambda) minimises sum w_k (a_k c - d_k)^2 + lambda c'E c (Wahba 1990; E scaled to the mean size of A'WA). With
+//! N = A'WA + lambda E, the leverage of a reading is h_k = w_k a_k N^-1 a_k', edf = sum h_k, and
+//!
+//! ```text
+//! GCV(lambda) = m RSS / (m - gamma edf)^2,   gamma = 1.2 (Craven & Wahba 1979; Gu 2013, section 3.2, for gamma)
+//! sigma^2 = RSS / (m - edf)
+//! ```
+//!
+//! over the m readings of positive weight. All leverages come from the part of N^-1 inside the band, so that one weight costs a
+//! factor and an inverse of a banded matrix, O(n w^2), without any eigenproblem. The search is a scan of 25 powers followed by
+//! Brent's method on log lambda.
+
+use super::model::{Model, Reduced};
+use crate::numeric::{BandedCholesky, SingularMatrix, SymmetricBand};
+use argmin::core::{CostFunction, Executor, State};
+use argmin::solver::brent::BrentOpt;
+
+/// Weight of the degrees of freedom in the criterion; above 1 it guards against too little smoothing.
+pub const GAMMA: f64 = 1.2;
+
+/// Powers of ten of lambda that are scanned.
+const SCAN: [f64; 2] = [-11.0, 6.0];
+
+/// Least weight that is taken for a given noise.
+const LEAST: f64 = 1e-7;
+
+/// Weight of the start, over the mean of the diagonal of A'WA: it decides where readings and energy say nothing.
+const PRIOR: f64 = 1e-5;
+
+/// Steps of the scan.
+const STEPS: usize = 18;
+
+/// The smoothing problem, ready for any weight.
+#[derive(Debug, Clone)]
+pub struct Smoother {
+    /// The model without known values.
+    pub reduced: Reduced,
+    normal: SymmetricBand,
+    energy: SymmetricBand,
+    right: Vec<f64>,
+    pull: Vec<f64>,
+    weights: Vec<f64>,
+    /// What lambda = 1 stands for: multiplies E.
+    pub unit: f64,
+    count: usize,
+}
+
+/// A smoothed net.
+#[derive(Debug, Clone)]
+pub struct Smoothed {
+    /// The weight, in units of [`Smoother::unit`].
+    pub lambda: f64,
+    /// The free control values.
+    pub free: Vec<f64>,
+    /// Residuals a_k c - d_k of all readings \[m\].
+    pub residuals: Vec<f64>,
+    /// Leverages of all readings: w_k a_k N^-1 a_k'.
+    pub leverages: Vec<f64>,
+    /// Effective degrees of freedom.
+    pub edf: f64,
+    /// Weighted sum of squared residuals \[m^2\].
+    pub rss: f64,
+    /// c'E c, unscaled.
+    pub energy: f64,
+    /// Cholesky factor of N.
+    pub factor: BandedCholesky,
+}
+
+/// A point of the search, for the L-curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// The weight.
+    pub lambda: f64,
+    /// The criterion.
+    pub gcv: f64,
+    /// Root of the mean weighted square of the residuals \[m\].
+    pub rms: f64,
+    /// c'E c.
+    pub energy: f64,
+    /// Effective degrees of freedom.
+    pub edf: f64,
+}
+
+impl Smoothed {
+    /// The noise of a reading of weight 1 \[m\].
+    #[must_use]
+    pub fn sigma(&self, count: usize) -> f64 {
+        (self.rss / (count as f64 - self.edf).max(1.0)).sqrt()
+    }
+
+    /// The noise of a typical reading of weight 1 \[m\]: 1.4826 times the median of |r_k| sqrt(w_k) / sqrt(1 - h_k). Where the surface
+    /// has features that the offsets do not resolve, sigma is theirs and this is the noise.
+    #[must_use]
+    pub fn typical_noise(&self, weights: &[f64]) -> f64 {
+        let studentised = self.residuals.iter().zip(&self.leverages).zip(weights).filter(|(_, w)| **w > 0.0);
+        1.4826 * median(studentised.map(|((r, h), w)| r.abs() * w.sqrt() / (1.0 - h).max(1e-6).sqrt()).collect())
+    }
+
+    /// Residuals of readings left out one by one, r_k / (1 - h_k) \[m\]; readings of weight 0 are left out as they are.
+    #[must_use]
+    pub fn left_out(&self) -> Vec<f64> {
+        self.residuals.iter().zip(&self.leverages).map(|(r, h)| r / (1.0 - h).max(1e-9)).collect()
+    }
+}
+
+impl Smoother {
+    /// Assembles A'WA and E over the free control values.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        Self::weighted(model.reduced(), model.readings.iter().map(|reading| reading.weight).collect())
+    }
+
+    fn weighted(reduced: Reduced, weights: Vec<f64>) -> Self {
+        let n = reduced.free.len();
+        let mut width = reduced.energy.width();
+        for k in 0..reduced.data.row_count() {
+            let columns = reduced.data.row(k).0;
+            if let (Some(first), Some(last)) = (columns.first(), columns.last()) {
+                width = width.max(last - first);
+            }
+        }
+        let mut normal = SymmetricBand::zeros(n, width);
+        let mut right = vec![0.0; n];
+        for (k, &weight) in weights.iter().enumerate() {
+            if weight == 0.0 {
+                continue;
+            }
+            let (columns, values) = reduced.data.row(k);
+            for (a, &i) in columns.iter().enumerate() {
+                right[i] += weight * values[a] * reduced.values[k];
+                for (b, &j) in columns[..=a].iter().enumerate() {
+                    normal.add(i, j, weight * values[a] * values[b]);
+                }
+            }
+        }
+        if let Some(start) = &reduced.start {
+            let weight = PRIOR * normal.trace() / n.max(1) as f64;
+            for (i, value) in start.iter().enumerate() {
+                normal.add(i, i, weight);
+                right[i] += weight * value;
+            }
+        }
+        let trace = reduced.energy.trace();
+        let unit = if trace > 0.0 { normal.trace() / trace } else { 1.0 };
+        let mut energy = SymmetricBand::zeros(n, width);
+        for i in 0..n {
+            for j in i.saturating_sub(reduced.energy.width())..=i {
+                energy.add(i, j, unit * reduced.energy.get(i, j));
+            }
+        }
+        let pull = reduced.pull.iter().map(|e| unit * e).collect();
+        let count = weights.iter().filter(|&&weight| weight > 0.0).count();
+        Self { reduced, normal, energy, right, pull, weights, unit, count }
+    }
+
+    /// The same problem with other weights of the readings.
+    #[must_use]
+    pub fn reweighted(&self, weights: &[f64]) -> Self {
+        Self::weighted(self.reduced.clone(), weights.to_vec())
+    }
+
+    /// Number of readings of positive weight.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Weights of the readings.
+    #[must_use]
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// N = A'WA + lambda E and its right-hand side, for a quadratic program over the free values.
+    #[must_use]
+    pub fn normal(&self, lambda: f64) -> (SymmetricBand, Vec<f64>) {
+        let right = self.right.iter().zip(&self.pull).map(|(b, e)| b - lambda * e).collect();
+        (self.normal.plus(lambda, &self.energy), right)
+    }
+
+    /// The net for one weight.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when readings and energy together do not determine a control value.
+    pub fn at(&self, lambda: f64) -> Result<Smoothed, SingularMatrix> {
+        let (matrix, mut free) = self.normal(lambda);
+        let factor = matrix.factor()?;
+        factor.solve(&mut free);
+        let inverse = factor.inverse_band();
+        let data = &self.reduced.data;
+        let mut leverages = Vec::with_capacity(self.weights.len());
+        let mut residuals = Vec::with_capacity(self.weights.len());
+        let (mut rss, mut edf) = (0.0, 0.0);
+        for (k, &weight) in self.weights.iter().enumerate() {
+            let residual = data.dot(k, &free) - self.reduced.values[k];
+            residuals.push(residual);
+            if weight == 0.0 {
+                leverages.push(0.0);
+                continue;
+            }
+            let (columns, values) = data.row(k);
+            let mut leverage = 0.0;
+            for (a, &i) in columns.iter().enumerate() {
+                leverage += values[a] * values[a] * inverse.get(i, i);
+                for (b, &j) in columns[..a].iter().enumerate() {
+                    leverage += 2.0 * values[a] * values[b] * inverse.get(i, j);
+                }
+            }
+            leverages.push(weight * leverage);
+            edf += weight * leverage;
+            rss += weight * residual * residual;
+        }
+        let curved = self.reduced.energy.apply(&free);
+        let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
+        Ok(Smoothed { lambda, free, residuals, leverages, edf, rss, energy: energy + self.reduced.constant, factor })
+    }
+
+    fn trial(&self, lambda: f64) -> Option<Trial> {
+        let smoothed = self.at(lambda).ok()?;
+        let m = self.count as f64;
+        let freedom = m - GAMMA * smoothed.edf;
+        // Beyond the pole the criterion means nothing: too many degrees of freedom.
+        let gcv = if freedom > 0.0 { m * smoothed.rss / (freedom * freedom) } else { f64::INFINITY };
+        Some(Trial { lambda, gcv, rms: (smoothed.rss / m.max(1.0)).sqrt(), energy: smoothed.energy, edf: smoothed.edf })
+    }
+
+    /// The greatest weight of the scan at which the noise of the typical reading is not above `noise` \[m\]; the least weight when
+    /// there is none. Features that the offsets do not resolve do not count: half of the readings may depart further.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when no weight of the scan gives a net.
+    pub fn for_noise(&self, noise: f64) -> Result<f64, SingularMatrix> {
+        let step = (SCAN[1] - SCAN[0]) / (STEPS - 1) as f64;
+        let mut last = Err(SingularMatrix { column: 0 });
+        for k in (0..STEPS).rev() {
+            let lambda = 10f64.powf(SCAN[0] + step * k as f64);
+            if lambda < LEAST {
+                break;
+            }
+            match self.at(lambda) {
+                Ok(smoothed) if smoothed.typical_noise(&self.weights) <= noise => return Ok(lambda),
+                Ok(_) => last = Ok(lambda),
+                Err(error) => last = last.or(Err(error)),
+            }
+        }
+        last
+    }
+
+    /// The weight of least GCV, and every weight that was tried, in rising order.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when no weight of the scan gives a net.
+    pub fn cross_validated(&self) -> Result<(f64, Vec<Trial>), SingularMatrix> {
+        let step = (SCAN[1] - SCAN[0]) / (STEPS - 1) as f64;
+        let mut trials: Vec<Trial> = Vec::new();
+        // From the smoothest net on: once the criterion has grown tenfold beyond its least, less smoothing does not pay.
+        let mut least = f64::INFINITY;
+        for k in (0..STEPS).rev() {
+            let Some(trial) = self.trial(10f64.powf(SCAN[0] + step * k as f64)) else { continue };
+            trials.push(trial);
+            least = least.min(trial.gcv);
+            if trial.gcv > 10.0 * least || trial.gcv.is_infinite() {
+                break;
+            }
+        }
+        trials.reverse();
+        let finite = trials.iter().enumerate().filter(|(_, trial)| trial.gcv.is_finite());
+        let Some((best, _)) = finite.min_by(|a, b| a.1.gcv.total_cmp(&b.1.gcv)) else {
+            let lambda = trials.last().map_or(1.0, |trial| trial.lambda);
+            return self.at(lambda).map(|smoothed| (smoothed.lambda, trials));
+        };
+        let low = trials[best.saturating_sub(1)].lambda.log10();
+        let high = trials[(best + 1).min(trials.len() - 1)].lambda.log10();
+        let mut lambda = trials[best].lambda;
+        if high > low {
+            let solver = BrentOpt::new(low, high).set_tolerance(0.0, 0.02);
+            let run = Executor::new(Criterion(self), solver).configure(|state| state.max_iters(20)).run();
+            if let Some(found) = run.ok().and_then(|run| run.state().get_best_param().copied())
+                && let Some(trial) = self.trial(10f64.powf(found))
+                && trial.gcv <= trials[best].gcv
+            {
+                lambda = trial.lambda;
+                trials.push(trial);
+                trials.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
+            }
+        }
+        Ok((lambda, trials))
+    }
+}
+
+fn median(mut list: Vec<f64>) -> f64 {
+    list.sort_by(f64::total_cmp);
+    if list.is_empty() { 0.0 } else { 0.5 * (list[(list.len() - 1) / 2] + list[list.len() / 2]) }
+}
+
+struct Criterion<'a>(&'a Smoother);
+
+impl CostFunction for Criterion<'_> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, power: &f64) -> Result<f64, argmin::core::Error> {
+        let trial = self.0.trial(10f64.powf(*power)).filter(|trial| trial.gcv.is_finite());
+        trial.map(|trial| trial.gcv.ln()).ok_or_else(|| argmin::core::Error::msg("no net for this weight"))
+    }
+}

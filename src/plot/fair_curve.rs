@@ -1,0 +1,201 @@
+//! A curve before and after fairing: combs of curvature at one scale with the inflections ringed, and the move of every point
+//! within its tolerance.
+//!
+//! Curvature is that of the true curve; the sheet may stretch ordinates, and teeth stand normal to the line as it is drawn, on
+//! its convex side. Teeth that would leave the panel are cut off at its edge: the scale is the same for both.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::scale::{decimals, multiples, nice_step, sheet_scale};
+use super::{PlotError, Svg, caption};
+use crate::fairing::curve::FairCurve;
+use crate::spline::BsplineCurve;
+
+/// Width and height of the sheet \[mm\].
+const SHEET: [f64; 2] = [297.0, 222.0];
+/// Left and right edge of the panels \[mm\].
+const SIDES: [f64; 2] = [24.0, 285.0];
+/// Top and bottom of the panels before and after \[mm\].
+const PANELS: [[f64; 2]; 2] = [[22.0, 86.0], [96.0, 160.0]];
+/// Top and bottom of the panel of moves \[mm\].
+const MOVES: [f64; 2] = [174.0, 206.0];
+/// Room above and below the curve for the teeth \[mm\].
+const ROOM: f64 = 16.0;
+/// The longest tooth of the fair curve \[mm\].
+const TOOTH: f64 = 14.0;
+/// Teeth over the length.
+const TEETH: usize = 240;
+/// Radius of the rings \[mm\].
+const RING: f64 = 1.8;
+const COMB: &str = "#2166ac";
+const RED: &str = "#b30000";
+const GREY: &str = "#808080";
+
+/// Draws the figure.
+///
+/// # Errors
+/// [`PlotError::Chart`] for a curve without length.
+pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
+    let (from, to) = fair.curve.knots().domain();
+    if !(to > from && fair.points.len() > 1) {
+        return Err(PlotError::Chart("the curve has no length".to_owned()));
+    }
+    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    canvas.text([0.5 * SHEET[0], 8.0], "FAIRING OF A CURVE", &TextStyle::new(4.5, Anchor::Middle));
+    let abscissae: Vec<f64> = (0..=TEETH).map(|k| from + (to - from) * k as f64 / TEETH as f64).collect();
+    let largest = abscissae.iter().fold(0.0_f64, |most, &x| most.max(curvature(&fair.curve, x).abs()));
+    // Millimetres on paper for a curvature of 1/m.
+    let unit = 1.0 / sheet_scale(largest.max(1e-12), TOOTH);
+    let ordinates = fair.points.iter().flat_map(|p| [Some(p.after), p.before]).flatten();
+    let (low, high) = ordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(y), b.max(y)));
+    let height = PANELS[0][1] - PANELS[0][0] - 2.0 * ROOM;
+    let scale_x = (SIDES[1] - SIDES[0]) / (to - from);
+    let scale_y = height / (high - low).max(1e-9 * (to - from));
+    let text = TextStyle::new(2.8, Anchor::Middle);
+    canvas.text(
+        [0.5 * SHEET[0], 14.5],
+        &format!(
+            "combs at one scale: 10 mm = {} 1/m    ordinates drawn {:.3} times as large as abscissae    {} {} {}",
+            short(10.0 / unit),
+            scale_y / scale_x,
+            "inflections ringed, dots: points as given,",
+            "squares: locked,",
+            "triangles: at their tolerance"
+        ),
+        &text,
+    );
+    let drawn = [
+        (&fair.batten, &fair.inflections[0], "batten through the points"),
+        (&fair.curve, &fair.inflections[1], "fair curve"),
+    ];
+    for ((curve, inflections, name), panel) in drawn.into_iter().zip(PANELS) {
+        let place = |x: f64, y: f64| [SIDES[0] + (x - from) * scale_x, panel[1] - ROOM - (y - low) * scale_y];
+        let window = Rectangle::new(SIDES[0], panel[0], SIDES[1], panel[1]);
+        canvas.begin_clip(&Rectangle::new(SIDES[0] - 3.0, panel[0], SIDES[1] + 3.0, panel[1]));
+        let mut tips = Vec::new();
+        for &x in &abscissae {
+            let d = curve.derivatives::<2>(x);
+            let foot = place(x, d[0][0]);
+            // Normal to the line as drawn; y of the sheet points down.
+            let slope = d[1][0] * scale_y / scale_x;
+            let norm = slope.hypot(1.0);
+            let tooth = curvature(curve, x) * unit;
+            // The convex side: below where the curve is hollow (positive), above where it is full.
+            let tip = [foot[0] + tooth * slope / norm, foot[1] + tooth / norm];
+            canvas.line(foot, tip, &Pen::new(0.09, COMB));
+            tips.push(tip);
+        }
+        canvas.polyline(&tips, &Pen::new(0.2, COMB));
+        let line: Vec<[f64; 2]> = abscissae.iter().map(|&x| place(x, curve.eval(x)[0])).collect();
+        canvas.polyline(&line, &Pen::new(0.35, "#000000"));
+        for point in &fair.points {
+            let Some(before) = point.before else { continue };
+            let at = place(point.x, before);
+            match point.tolerance {
+                Some(t) if t <= 0.0 => square(&mut canvas, at),
+                _ if point.active => triangle(&mut canvas, at),
+                _ => ring(&mut canvas, at, 0.5, &Pen::new(0.35, RED)),
+            }
+        }
+        for &x in inflections {
+            ring(&mut canvas, place(x, curve.eval(x)[0]), RING, &Pen::new(0.4, RED));
+        }
+        canvas.end_group();
+        canvas.rectangle(&window, &Pen::new(0.2, GREY));
+        let label =
+            format!("{name}: {} inflection{}", inflections.len(), if inflections.len() == 1 { "" } else { "s" });
+        canvas.text([SIDES[0] + 2.0, panel[0] + 3.5], &label, &TextStyle::new(3.0, Anchor::Start).halo());
+        scale_marks(&mut canvas, [low, high], |y| panel[1] - ROOM - (y - low) * scale_y);
+    }
+    let step = nice_step(to - from, 10.0);
+    for x in multiples(step, from, to) {
+        let at = SIDES[0] + (x - from) * scale_x;
+        for (_, bottom) in PANELS.map(|p| (p[0], p[1])) {
+            canvas.line([at, bottom], [at, bottom + 1.2], &Pen::new(0.2, GREY));
+        }
+        canvas.text([at, MOVES[1] + 3.5], &format!("{x:.*}", decimals(step)), &TextStyle::new(2.6, Anchor::Middle));
+    }
+    canvas.text([SIDES[1], MOVES[1] + 8.0], "x [m]", &TextStyle::new(2.6, Anchor::End));
+    moves(&mut canvas, fair, |x| SIDES[0] + (x - from) * scale_x);
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    Ok(Svg { text: canvas.finish("fair-curve") })
+}
+
+/// y'' / (1 + y'^2)^(3/2).
+fn curvature(curve: &BsplineCurve<1>, x: f64) -> f64 {
+    let d = curve.derivatives::<3>(x);
+    d[2][0] / (1.0 + d[1][0] * d[1][0]).powf(1.5)
+}
+
+/// A positive number with three significant digits.
+fn short(value: f64) -> String {
+    let digits = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn scale_marks(canvas: &mut Canvas, [low, high]: [f64; 2], place: impl Fn(f64) -> f64) {
+    let step = nice_step(high - low, 5.0);
+    for y in multiples(step, low, high) {
+        let at = place(y);
+        canvas.line([SIDES[0] - 1.2, at], [SIDES[0], at], &Pen::new(0.2, GREY));
+        let text = format!("{y:.*}", decimals(step));
+        canvas.text([SIDES[0] - 2.0, at], &text, &TextStyle::new(2.6, Anchor::End));
+    }
+}
+
+fn ring(canvas: &mut Canvas, at: [f64; 2], radius: f64, pen: &Pen) {
+    let point = |k: i32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 24.0;
+        [at[0] + radius * angle.cos(), at[1] + radius * angle.sin()]
+    };
+    let points: Vec<[f64; 2]> = (0..=24).map(point).collect();
+    canvas.polyline(&points, pen);
+}
+
+fn square(canvas: &mut Canvas, [x, y]: [f64; 2]) {
+    canvas.fill(&Rectangle::new(x - 0.8, y - 0.8, x + 0.8, y + 0.8), RED);
+}
+
+fn triangle(canvas: &mut Canvas, [x, y]: [f64; 2]) {
+    canvas.area(&[[x - 1.0, y + 0.8], [x + 1.0, y + 0.8], [x, y - 1.0]], RED);
+}
+
+/// Bars of the moves over bands of the tolerances.
+fn moves(canvas: &mut Canvas, fair: &FairCurve, across: impl Fn(f64) -> f64) {
+    let window = Rectangle::new(SIDES[0], MOVES[0], SIDES[1], MOVES[1]);
+    let middle = 0.5 * (MOVES[0] + MOVES[1]);
+    let moved = |most: f64, value: Option<f64>| most.max(value.unwrap_or(0.0).abs());
+    let largest = fair.points.iter().fold(0.0, |most, p| moved(most, p.moved()));
+    // Bands much wider than the moves are cut off.
+    let widest = fair.points.iter().fold(0.0, |most, p| moved(most, p.tolerance)).min(3.0 * largest.max(1e-9));
+    let reach = 1.1 * largest.max(widest).max(1e-9);
+    let unit = 0.5 * window.height() / reach;
+    canvas.begin_clip(&Rectangle::new(window.left - 2.0, window.top, window.right + 2.0, window.bottom));
+    for point in &fair.points {
+        let x = across(point.x);
+        if let Some(tolerance) = point.tolerance {
+            let half = tolerance * unit;
+            canvas.fill(&Rectangle::new(x - 1.2, middle - half, x + 1.2, middle + half), "#dddddd");
+        }
+        if let Some(moved) = point.moved() {
+            let colour = if point.active { RED } else { COMB };
+            canvas.line([x, middle], [x, middle - moved * unit], &Pen::new(0.9, colour));
+        }
+    }
+    canvas.line([window.left, middle], [window.right, middle], &Pen::new(0.15, GREY));
+    canvas.end_group();
+    canvas.rectangle(&window, &Pen::new(0.2, GREY));
+    let (rms, most, at) = fair.moves();
+    let title = format!(
+        "moves [mm] within their tolerances (grey; red where used up): RMS {} mm, largest {} mm at x = {} m",
+        short(1e3 * rms),
+        short(1e3 * most),
+        short(at)
+    );
+    canvas.text([SIDES[0] + 2.0, MOVES[0] - 3.0], &title, &TextStyle::new(2.8, Anchor::Start));
+    let step = nice_step(2e3 * reach, 4.0);
+    for y in multiples(step, -1e3 * reach, 1e3 * reach) {
+        let text = format!("{:.*}", decimals(step), y + 0.0);
+        canvas.text([SIDES[0] - 2.0, middle - 1e-3 * y * unit], &text, &TextStyle::new(2.4, Anchor::End));
+    }
+}

@@ -1,0 +1,22 @@
+//! Convex quadratic programs,
+//!
+//! ```text
+//! minimise    1/2 x'P x + q'x
+//! subject to  l <= A x <= u
+//! ```
+//!
+//! with P positive semidefinite and sparse, rows of A sparse but for a few dense ones, and equalities as rows with l = u. What a
+//! solver says of its answer is not believed: [`Problem::certificate`] computes a lower bound of the optimum, the residuals
+//! and the violations from x and the multipliers alone. Knows no ship.
+
+mod certificate;
+mod clarabel;
+mod problem;
+mod proof;
+mod sparse;
+mod structured;
+
+pub use certificate::Certificate;
+pub use problem::{Engine, Problem, ProblemError, Settings, Solution, Status};
+pub use sparse::SparseRows;
+pub use structured::Solver;

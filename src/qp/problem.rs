@@ -1,0 +1,164 @@
+//! The problem, its settings and what comes back.
+
+use super::sparse::SparseRows;
+
+/// min 1/2 x'P x + q'x subject to l <= A x <= u.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// P, symmetric positive semidefinite, both triangles stored, n x n.
+    pub quadratic: SparseRows,
+    /// q, length n.
+    pub linear: Vec<f64>,
+    /// A, m x n.
+    pub rows: SparseRows,
+    /// l, length m; minus infinity where there is no lower limit.
+    pub lower: Vec<f64>,
+    /// u, length m; infinity where there is no upper limit; l = u is an equality.
+    pub upper: Vec<f64>,
+}
+
+/// Why numbers make no problem.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ProblemError {
+    /// Shapes that do not go together.
+    #[error("{what} has {found} entries, {expected} wanted")]
+    Shape {
+        /// Which part.
+        what: &'static str,
+        /// Entries found.
+        found: usize,
+        /// Entries wanted.
+        expected: usize,
+    },
+    /// A number that is none.
+    #[error("{what} {index} is not finite")]
+    NotFinite {
+        /// Which part.
+        what: &'static str,
+        /// Which entry.
+        index: usize,
+    },
+    /// Other places of entries than the solver was made for.
+    #[error("the entries are not where the solver expects them")]
+    Pattern,
+    /// A lower limit above the upper one.
+    #[error("row {row}: the lower limit lies above the upper one")]
+    Limits {
+        /// Which row.
+        row: usize,
+    },
+}
+
+/// Which solver works.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// Our own interior point: dense rows apart, patterns analysed once.
+    #[default]
+    Structured,
+    /// The conic interior point of Clarabel, a second opinion.
+    Clarabel,
+}
+
+/// How a problem is solved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The solver.
+    pub engine: Engine,
+    /// Relative tolerance of gap and residuals.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { engine: Engine::default(), tolerance: 1e-10, iterations: 200 }
+    }
+}
+
+/// How a solve ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Residuals and gap are within the tolerance.
+    Optimal,
+    /// No point satisfies the rows; the multipliers are a proof (Farkas): A'z = 0 and sup of the bound > 0.
+    Infeasible,
+    /// The objective falls without end from any feasible point; x is the direction.
+    Unbounded,
+    /// Stopped before the tolerance was met; the best point is given.
+    Limit,
+}
+
+/// What a solve comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// How it ended.
+    pub status: Status,
+    /// x, length n.
+    pub x: Vec<f64>,
+    /// z, one a row of A: P x + q + A'z = 0, z > 0 where the upper limit holds, z < 0 where the lower one does.
+    pub multipliers: Vec<f64>,
+    /// Iterations taken.
+    pub iterations: usize,
+}
+
+impl Problem {
+    /// Checks shapes and numbers.
+    ///
+    /// # Errors
+    /// [`ProblemError`] for the first part that is wrong.
+    pub fn check(&self) -> Result<(), ProblemError> {
+        let (n, m) = (self.linear.len(), self.rows.row_count());
+        let shapes = [
+            ("the quadratic part", self.quadratic.row_count(), n),
+            ("a row of the quadratic part", self.quadratic.column_count(), n),
+            ("a row", self.rows.column_count(), n),
+            ("the lower limits", self.lower.len(), m),
+            ("the upper limits", self.upper.len(), m),
+        ];
+        for (what, found, expected) in shapes {
+            if found != expected {
+                return Err(ProblemError::Shape { what, found, expected });
+            }
+        }
+        let numbers = [
+            ("quadratic entry", self.quadratic.values()),
+            ("linear entry", &self.linear[..]),
+            ("row entry", self.rows.values()),
+        ];
+        for (what, values) in numbers {
+            if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+                return Err(ProblemError::NotFinite { what, index });
+            }
+        }
+        for row in 0..m {
+            let (lower, upper) = (self.lower[row], self.upper[row]);
+            if lower.is_nan() || upper.is_nan() || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+                return Err(ProblemError::NotFinite { what: "limit of row", index: row });
+            }
+            if lower > upper {
+                return Err(ProblemError::Limits { row });
+            }
+        }
+        Ok(())
+    }
+
+    /// 1/2 x'P x + q'x.
+    #[must_use]
+    pub fn objective(&self, x: &[f64]) -> f64 {
+        let curved = self.quadratic.apply(x);
+        x.iter().zip(&curved).zip(&self.linear).map(|((x, p), q)| x * (0.5 * p + q)).sum()
+    }
+
+    /// Solves.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes or numbers are wrong; not solving is a [`Status`].
+    pub fn solve(&self, settings: &Settings) -> Result<Solution, ProblemError> {
+        self.check()?;
+        Ok(match settings.engine {
+            Engine::Structured => super::structured::Solver::new(self, settings)?.solve(),
+            Engine::Clarabel => super::clarabel::solve(self, settings),
+        })
+    }
+}

@@ -1,0 +1,171 @@
+//! A primal-dual interior point for programs whose rows are local but for a few dense ones.
+//!
+//! Every two-sided row has one value t between its limits and two slacks:
+//!
+//! ```text
+//! minimise 1/2 x'P x + q'x,   A x = t,   s_u = u - t > 0,   s_l = t - l > 0
+//! ```
+//!
+//! (an equality has t = u = l). With multipliers z = z_u - z_l the conditions of optimality are
+//!
+//! ```text
+//! P x + q + A'z = 0,   A x = t,   s_u z_u = s_l z_l = 0,   z_u, z_l >= 0
+//! ```
+//!
+//! and the iteration follows the points where the products equal a falling mu. With residuals r_d = P x + q + A'z, r_p = t - A x
+//! and targets tau of the products, Newton's equations give, row by row,
+//!
+//! ```text
+//! dt = A dx - r_p,   dz = gamma + W dt,   W = z_u/s_u + z_l/s_l,   gamma = (tau_u/s_u - z_u) - (tau_l/s_l - z_l)
+//! P dx + A'dz = -r_d,   A dx - dz/W = r_p - gamma/W
+//! ```
+//!
+//! Elimination of dz leaves the normal matrix N = P + A'WA. Bands and differences of a tensor-product net keep N in the pattern
+//! of P; the dense rows (volume, moments) stay outside and are served by a Schur complement ([`schur`]), so that N stays
+//! sparse. N is factored by supernodal Cholesky in an order of minimum degree ([`normal`], [`factor`]) once an iteration,
+//! and refinement removes what its regularisation changed ([`newton`]).
+//!
+//! An iteration ([`interior`]): the predictor aims at tau = 0 and shows how far it may go; mu falls by the cube of what it
+//! leaves (Mehrotra 1992), its second-order term ds dz corrects tau, and further correctors pull stray products back towards mu
+//! as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program has two. Beyond the
+//! tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit ([`start`]); a later solve of a
+//! [`Solver`] starts from the iterate its predecessor had before it neared the boundary. Where the iteration stalls two
+//! auxiliary programs look for a proof that there is no solution ([`phase`]).
+
+mod factor;
+mod interior;
+mod newton;
+mod normal;
+mod phase;
+mod point;
+mod scaled;
+mod schur;
+mod start;
+
+use super::problem::{Problem, ProblemError, Settings, Solution, Status};
+use interior::End;
+use newton::Newton;
+use point::Point;
+use scaled::Scaled;
+
+/// A solver that keeps orderings, patterns and the last solution over changes of the numbers.
+pub struct Solver {
+    problem: Problem,
+    settings: Settings,
+    scaled: Scaled,
+    newton: Option<Newton>,
+    kept: Option<Point>,
+    auxiliary: bool,
+}
+
+/// Multipliers that exclude feasible points within this radius count as a Farkas proof.
+const RADIUS: f64 = 1e7;
+/// A warm start that takes longer was none.
+const WARM: usize = 12;
+/// The largest defect of a ray.
+const DEFECT: f64 = 1e-8;
+
+impl Solver {
+    /// Orders and analyses.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes or numbers are wrong.
+    pub fn new(problem: &Problem, settings: &Settings) -> Result<Self, ProblemError> {
+        problem.check()?;
+        let scaled = Scaled::new(problem);
+        let newton = Newton::new(&scaled);
+        Ok(Self { problem: problem.clone(), settings: settings.clone(), scaled, newton, kept: None, auxiliary: false })
+    }
+
+    /// Takes other numbers with the same pattern: orderings, the symbolic factorisation and the warm start stay.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when shapes, patterns or numbers are wrong; the solver then keeps the old ones.
+    pub fn update(&mut self, problem: &Problem) -> Result<(), ProblemError> {
+        problem.check()?;
+        let same =
+            self.problem.quadratic.same_pattern(&problem.quadratic) && self.problem.rows.same_pattern(&problem.rows);
+        if !same {
+            return Err(ProblemError::Pattern);
+        }
+        self.problem.clone_from(problem);
+        self.scaled.load(problem);
+        Ok(())
+    }
+
+    /// Forgets the last solution: the next solve starts cold.
+    pub fn forget(&mut self) {
+        self.kept = None;
+    }
+
+    /// Solves; a solve after the first starts from an iterate of the last.
+    pub fn solve(&mut self) -> Solution {
+        let (n, m) = (self.problem.linear.len(), self.problem.rows.row_count());
+        let failed = Solution { status: Status::Limit, x: vec![0.0; n], multipliers: vec![0.0; m], iterations: 0 };
+        let Some(newton) = &mut self.newton else { return failed };
+        let warm = self.kept.take().map(|kept| start::warm(&self.scaled, &kept));
+        let mut outcome = None;
+        let mut iterations = 0;
+        if let Some(mut point) = warm {
+            let settings = Settings { iterations: self.settings.iterations.min(WARM), ..self.settings.clone() };
+            let (count, end) = interior::iterate(&self.scaled, newton, &mut point, &settings, &mut self.kept);
+            iterations = count;
+            outcome = (end == End::Optimal).then_some((point, end));
+        }
+        if outcome.is_none() {
+            let Some(mut point) = start::cold(&self.scaled, newton) else { return failed };
+            let (count, end) = interior::iterate(&self.scaled, newton, &mut point, &self.settings, &mut self.kept);
+            iterations += count;
+            outcome = Some((point, end));
+        }
+        let Some((point, end)) = outcome else { return failed };
+        let mut solution = Solution {
+            status: Status::Limit,
+            x: self.scaled.variables(&point.x),
+            multipliers: self.scaled.multipliers(&point.z),
+            iterations,
+        };
+        match end {
+            End::Optimal => solution.status = Status::Optimal,
+            _ if self.auxiliary => {}
+            _ => self.explain(&mut solution),
+        }
+        solution
+    }
+
+    /// Finds the proof that there is no solution, if there is one.
+    fn explain(&self, solution: &mut Solution) {
+        let problem = &self.problem;
+        let reach = solution.x.iter().fold(1.0_f64, |most, value| most.max(value.abs())).min(1e6);
+        if problem.infeasible_within(&solution.multipliers) >= RADIUS * reach {
+            solution.status = Status::Infeasible;
+            return;
+        }
+        if problem.ray_defect(&solution.x) <= DEFECT {
+            solution.status = Status::Unbounded;
+            return;
+        }
+        let auxiliary = |problem: &Problem| {
+            let mut solver = Self::new(problem, &self.settings).ok()?;
+            solver.auxiliary = true;
+            let answer = solver.solve();
+            Some(answer)
+        };
+        if let Some(answer) = auxiliary(&phase::nearest_feasible(problem)) {
+            let multipliers = phase::farkas(problem, &answer.multipliers);
+            solution.iterations += answer.iterations;
+            if problem.infeasible_within(&multipliers) >= RADIUS {
+                solution.status = Status::Infeasible;
+                solution.multipliers = multipliers;
+                return;
+            }
+        }
+        if let Some(answer) = auxiliary(&phase::steepest_ray(problem)) {
+            solution.iterations += answer.iterations;
+            if problem.ray_defect(&answer.x) <= DEFECT {
+                solution.status = Status::Unbounded;
+                solution.x = answer.x;
+            }
+        }
+    }
+}

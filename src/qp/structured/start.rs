@@ -1,0 +1,113 @@
+//! Where the iteration starts.
+
+use super::newton::{Newton, Right};
+use super::point::{Point, Side};
+use super::scaled::Scaled;
+
+/// Weight of every inequality in the first fit, in units of the mean diagonal of P.
+const SOFT: f64 = 1e-2;
+/// The same without P, in units of the largest |q|.
+const SOFT_LINEAR: f64 = 1.0;
+/// The first slacks, in units of the root mean square of A x.
+const MARGIN: f64 = 0.05;
+/// The first multipliers, in units of the largest gradient.
+const PULL: f64 = 0.02;
+
+/// Products of a warm start, in units of their mean.
+const SPREAD: f64 = 10.0;
+
+/// The least of 1/2 x'Px + q'x + SOFT/2 |A x - t|^2 on the equalities, t the nearest admissible values to 0, and all products s z
+/// equal.
+pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
+    let m = scaled.rows.row_count();
+    let bounded = |row: usize| scaled.upper[row].is_finite() || scaled.lower[row].is_finite();
+    let weight = if scaled.quadratic.values().iter().all(|value| *value == 0.0) { SOFT_LINEAR } else { SOFT };
+    let soft = |row: usize| if scaled.equal[row] || !bounded(row) { 0.0 } else { weight };
+    let weights: Vec<f64> = (0..m).map(soft).collect();
+    if !newton.factor(scaled, &weights) {
+        return None;
+    }
+    let f = scaled.linear.iter().map(|value| -value).collect();
+    let g = (0..m)
+        .map(|row| match (scaled.equal[row], scaled.inside[row]) {
+            (true, _) => scaled.upper[row],
+            (false, true) => weights[row] * middle(scaled.lower[row], scaled.upper[row]),
+            (false, false) => middle(scaled.lower[row], scaled.upper[row]),
+        })
+        .collect();
+    let step = newton.solve(scaled, &Right { f, g }, [1e-8, 1e-8]);
+    let values = scaled.rows.apply(&step.x);
+    let (mut sum, mut count) = (0.0, 0);
+    for (row, value) in values.iter().enumerate() {
+        if weights[row] > 0.0 {
+            // The size includes what the value must move.
+            let nearest = value.clamp(scaled.lower[row], scaled.upper[row]);
+            sum += (nearest.abs() + (value - nearest).abs()).powi(2);
+            count += 1;
+        }
+    }
+    let size = if count > 0 && sum > 0.0 { (sum / f64::from(count)).sqrt() } else { 1.0 };
+    let curved = scaled.quadratic.apply(&step.x);
+    let steepest = curved.iter().zip(&scaled.linear).fold(0.0_f64, |most, (p, q)| most.max(p.abs()).max(q.abs()));
+    let steepest = steepest.max(if weight == SOFT { rms(&step.x) } else { 0.0 });
+    let pull = if steepest > 0.0 { PULL * steepest } else { PULL };
+    Some(centred(scaled, step.x, &values, MARGIN * size, MARGIN * size * pull))
+}
+
+/// The point with these x, its slacks at least `margin` (or a quarter of the width), multipliers mu / s.
+fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -> Point {
+    let m = values.len();
+    let mut point = Point { x, z: vec![0.0; m], upper: vec![Side::NONE; m], lower: vec![Side::NONE; m] };
+    for (row, &value) in values.iter().enumerate() {
+        let (l, u) = (scaled.lower[row], scaled.upper[row]);
+        if scaled.equal[row] {
+            continue;
+        }
+        let inset = margin.min(0.25 * (u - l));
+        let t = value.clamp(l + inset, u - inset);
+        if u.is_finite() {
+            point.upper[row] = Side { s: u - t, z: mu / (u - t) };
+        }
+        if l.is_finite() {
+            point.lower[row] = Side { s: t - l, z: mu / (t - l) };
+        }
+        point.z[row] = point.upper[row].z - point.lower[row].z;
+    }
+    point
+}
+
+/// A kept iterate in the limits of a changed problem: x and multipliers stay, every t moves to where both its slacks are at least
+/// what they were (or a quarter of the width), and products that fall outside [mu / SPREAD, mu SPREAD] are brought back.
+pub(super) fn warm(scaled: &Scaled, kept: &Point) -> Point {
+    let mut point = kept.clone();
+    let values = scaled.rows.apply(&kept.x);
+    let mu = kept.complementarity() / kept.sides().max(1) as f64;
+    let side = |s: f64, z: f64| Side { s, z: z.clamp(mu / (SPREAD * s), mu * SPREAD / s) };
+    for (row, &value) in values.iter().enumerate() {
+        let (l, u) = (scaled.lower[row], scaled.upper[row]);
+        (point.upper[row], point.lower[row]) = (Side::NONE, Side::NONE);
+        if scaled.equal[row] {
+            continue;
+        }
+        let (above, below) = (kept.upper[row], kept.lower[row]);
+        let room = |s: f64| s.min(if u - l < f64::INFINITY { 0.25 * (u - l) } else { s.min(1.0) });
+        let t = value.clamp(l + room(below.s), u - room(above.s));
+        if u.is_finite() {
+            point.upper[row] = side(u - t, above.z);
+        }
+        if l.is_finite() {
+            point.lower[row] = side(t - l, below.z);
+        }
+        point.z[row] = point.upper[row].z - point.lower[row].z;
+    }
+    point
+}
+
+/// The admissible value nearest to 0, of a band its middle.
+fn middle(lower: f64, upper: f64) -> f64 {
+    if lower.is_finite() && upper.is_finite() { 0.5 * (lower + upper) } else { 0.0_f64.max(lower).min(upper) }
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}

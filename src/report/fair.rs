@@ -1,0 +1,338 @@
+//! The job of `fair`: a table of offsets or a job file in, the fair hull with its certificate out. Nothing is written here.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::check::suspect_json;
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::generate::{json_file, manifest_file};
+use super::source::{read_bytes, read_table_file, utf8};
+use crate::config::{self, Diagnostic, JobFile, Severity};
+use crate::exchange::{
+    ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
+    fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
+};
+use crate::fairing::job::{Job, Outcome};
+use crate::hull::{Functional, Hull, OffsetTable, TableLayout};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+use crate::qp::Status;
+
+/// A table, and what is wished for it.
+#[derive(Debug, Clone)]
+pub struct FairJob {
+    /// The table, with what the job says of its dimensions.
+    pub table: OffsetTable,
+    /// The job.
+    pub job: Job,
+    /// What was detected and assumed when the table was read.
+    pub reading: Vec<TableProblem>,
+    /// Conventions of what is printed.
+    pub conventions: Conventions,
+    table_file: PathBuf,
+    /// Name and text of the conventions beside the table.
+    beside: Option<(String, String)>,
+    /// The files that were read; the first is the one that the command named.
+    inputs: Vec<ManifestEntry>,
+    files: Vec<PathBuf>,
+}
+
+/// What fairing gives.
+#[derive(Debug, Clone)]
+pub struct FairOutputs {
+    /// The hull, what moved and what holds.
+    pub outcome: Outcome,
+    /// What writing the table in its notation did.
+    pub rounding: RoundingEffect,
+    /// Hydrostatics at the design draught, before and after.
+    pub rows: [Hydrostatics; 2],
+    /// The contents of `fairing.json`.
+    pub certificate: Value,
+    /// The files, in the order of their names; the manifest is the last.
+    pub files: Vec<OutputFile>,
+    table_file: PathBuf,
+}
+
+fn problem(code: &'static str, file: &Path, message: String, help: &str) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        code,
+        file: file.display().to_string(),
+        line: None,
+        column: None,
+        key: String::new(),
+        message,
+        help: help.to_owned(),
+    }
+}
+
+fn entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
+    ManifestEntry::new(&path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(), bytes)
+}
+
+fn is_job(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}
+
+/// The table file of a job file.
+fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
+    if !is_job(path) {
+        return Ok(path.to_owned());
+    }
+    match &job.table {
+        Some(table) => Ok(path.parent().unwrap_or(Path::new("")).join(table)),
+        None => {
+            let help = "Write [table] file = \"FILE\" in it, or give the table to the command";
+            Err(Failure::Input(vec![problem("E174", path, "the file names no table".to_owned(), help)]))
+        }
+    }
+}
+
+/// Reads what `fair` starts from: a table of offsets, or a job file (`.toml`) that names one. `options` stand over the job file:
+/// name of the option, path of the key, text of the value.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options.
+pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJob, Failure> {
+    let (mut inputs, mut files) = (Vec::new(), Vec::new());
+    let mut problems = Vec::new();
+    let mut said = JobFile::default();
+    if is_job(path) {
+        let bytes = read_bytes(path)?;
+        inputs.push(entry(path, &bytes));
+        files.push(path.to_owned());
+        match config::read_job(&path.display().to_string(), &utf8(path, bytes)?) {
+            Ok(file) => said = file,
+            Err(found) => problems.extend(found),
+        }
+    }
+    for (option, key, value) in options {
+        match config::read_option(option, key, value) {
+            Ok(option) => said = said.with(option),
+            Err(found) => problems.extend(found),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(Failure::Input(problems));
+    }
+    let table_file = table_of(path, &said)?;
+    let bytes = read_bytes(&table_file)?;
+    inputs.push(entry(&table_file, &bytes));
+    files.push(table_file.clone());
+    let beside_file = table_file.with_extension("toml");
+    let beside = if beside_file.is_file() && beside_file != path {
+        let bytes = read_bytes(&beside_file)?;
+        inputs.push(entry(&beside_file, &bytes));
+        files.push(beside_file.clone());
+        Some((beside_file.display().to_string(), utf8(&beside_file, bytes)?))
+    } else {
+        None
+    };
+    let (mut table, reading) = read_table_file(&table_file)?;
+    if table.name.trim().is_empty() {
+        table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    }
+    let (stated, over) = (&mut table.stated, &said.stated);
+    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
+    stated.breadth = over.breadth.or(stated.breadth);
+    stated.draught = over.draught.or(stated.draught);
+    stated.depth = over.depth.or(stated.depth);
+    let length = match stated.length_between_perpendiculars {
+        Some(length) => length,
+        None => fitted(&table, &table_file)?.particulars().length_between_perpendiculars,
+    };
+    let job = said.for_table(&table, length).map_err(Failure::Input)?;
+    let density = said.density.unwrap_or(Conventions::default().density);
+    let conventions = Conventions { density, ..Conventions::default() };
+    Ok(FairJob { table, job, reading, conventions, table_file, beside, inputs, files })
+}
+
+/// The surface through a table.
+fn fitted(table: &OffsetTable, file: &Path) -> Result<Hull, Failure> {
+    let fitted = Hull::fit(table, &crate::hull::FitMethod::Graded);
+    fitted.map(|fitted| fitted.hull).map_err(|error| Failure::Input(vec![problem("E175", file, error.to_string(), "")]))
+}
+
+impl FairJob {
+    /// The files that were read.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Stations, waterlines and offsets of the table.
+    #[must_use]
+    pub fn size(&self) -> [usize; 3] {
+        let cells = self.table.stations.iter().flat_map(|station| &station.half_breadths);
+        let given = cells.filter(|cell| cell.value().is_some()).count();
+        [self.table.stations.len(), self.table.waterlines.len(), given]
+    }
+}
+
+/// Name of the file of the fair table: `offsets.csv`, or with the extension of the other program's format it is written in.
+fn offsets_name(job: &FairJob) -> String {
+    let extension = job.table_file.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match (job.table.form.layout, job.table.form.program, extension) {
+        (TableLayout::Other, Some(_), Some(extension)) => format!("offsets.{extension}"),
+        _ => "offsets.csv".to_owned(),
+    }
+}
+
+/// The fair table with the texts of what did not move.
+fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
+    let mut table = outcome.table.clone();
+    for (station, old) in table.stations.iter_mut().zip(&job.table.stations) {
+        for (cell, old) in station.half_breadths.iter_mut().zip(&old.half_breadths) {
+            if let (Some(a), Some(b)) = (cell.value(), old.value())
+                && (a - b).abs() <= 1e-9
+            {
+                cell.clone_from(old);
+            }
+        }
+    }
+    table
+}
+
+/// What rounding did to the offsets and to the volume; the table as it is read back.
+fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (RoundingEffect, Option<OffsetTable>) {
+    let beside = job.beside.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
+    let back = read_table_with(name, text.as_bytes(), beside).ok().map(|read| read.table);
+    let volume = |table: &OffsetTable| {
+        let mut table = table.clone();
+        table.stated = job.table.stated;
+        let hull = fitted(&table, &job.table_file).ok()?;
+        Some(Functional::Volume.value(&hull, hull.particulars().draught))
+    };
+    let exact = volume(&outcome.table);
+    let written = back.as_ref().and_then(volume);
+    let change = exact.zip(written).map(|(exact, written)| written - exact);
+    let share = change.zip(exact).map(|(change, exact)| change / exact);
+    (RoundingEffect { volume: change, volume_share: share, ..RoundingEffect::default() }, back)
+}
+
+/// Fairs the table and makes every file about it.
+///
+/// # Errors
+/// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made. Wishes that cannot
+/// be had are [`FairOutputs::verdict`].
+pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
+    let refusal = |error: crate::fairing::job::JobError| {
+        let help = "Look at the table with `loftsman check` and `loftsman fit`";
+        Failure::Input(vec![problem("E175", &job.table_file, error.to_string(), help)])
+    };
+    let outcome = job.job.run(&job.table).map_err(refusal)?;
+    let draught = outcome.after.particulars().draught;
+    let row = |hull: &Hull| {
+        let mut rows = CurvesOfForm::new(hull, &[draught], &job.conventions).rows;
+        rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))
+    };
+    let rows = [row(&outcome.before)?, row(&outcome.after)?];
+    let name = offsets_name(job);
+    let written = write_table(&with_texts(job, &outcome), TableWriting::default());
+    let (effect, back) = rounded(job, &outcome, &name, &written.text);
+    let rounding = RoundingEffect {
+        largest: written.rounding.largest,
+        root_mean_square: written.rounding.root_mean_square,
+        ..effect
+    };
+    let suspects: Vec<Value> = outcome.suspects.iter().map(|suspect| suspect_json(&job.table, suspect)).collect();
+    let certificate = fairing_json(&job.table, &outcome, &rounding, &suspects);
+    let summary = summary(job, &outcome, &rows, &rounding);
+    let hull = write_hull(&outcome.after, &job.conventions);
+    let mut files = vec![
+        OutputFile::text("hull.json", hull.map_err(|e| Failure::Internal(format!("hull.json: {e}")))?),
+        OutputFile::text(&name, written.text),
+        OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
+        json_file("fairing.json", &certificate)?,
+        json_file("summary.json", &summary)?,
+    ];
+    if let Some((_, text)) = &job.beside {
+        // What the table leaves open belongs to the new one as well.
+        files.push(OutputFile::text("offsets.toml", text.clone()));
+    }
+    if figures {
+        files.extend(super::fair_figures::fair_figures(&job.table, &outcome)?);
+    }
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
+    let manifest = manifest_file(input, &files)?;
+    files.push(manifest);
+    Ok(FairOutputs { outcome, rounding, rows, certificate, files, table_file: job.table_file.clone() })
+}
+
+/// Contents of `summary.json`.
+fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding: &RoundingEffect) -> Value {
+    let targets: Vec<Value> = outcome
+        .held
+        .iter()
+        .map(|held| {
+            let target = held.constraint.target();
+            json!({
+                "key": held.constraint.key(), "requested": target, "achieved": held.after,
+                "error": held.after - target, "origin": if (held.before - target).abs() > 0.0 { "given" } else { "table" },
+            })
+        })
+        .collect();
+    let (rms, max, _) = outcome.moves();
+    let kinds = ["station", "waterline", "buttock", "diagonal"];
+    let inflections: serde_json::Map<String, Value> =
+        kinds.iter().map(|kind| (format!("{kind}s"), json!(outcome.inflections(kind)))).collect();
+    json!({
+        "name": job.table.name,
+        "status": status_word(outcome.status),
+        "inputs": job.inputs,
+        "particulars": Particulars::from(outcome.after.particulars()),
+        "design": row_json(&rows[1]),
+        "before": row_json(&rows[0]),
+        "targets": targets,
+        "moves": { "rms": rms, "max": max, "excluded": outcome.changes.iter().filter(|c| c.suspect).count() },
+        "inflections": inflections,
+        "rounding": { "largest": rounding.largest, "rms": rounding.root_mean_square, "volume_share": rounding.volume_share },
+        "conventions": conventions_json(&job.conventions),
+        "notes": outcome.notes,
+        "reading": job.reading.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    })
+}
+
+impl FairOutputs {
+    /// The failure that ends the program when the wishes cannot all be had.
+    ///
+    /// # Errors
+    /// [`Failure::Infeasible`].
+    pub fn verdict(&self) -> Result<(), Failure> {
+        let found = self.outcome.faired.diagnosis.as_ref();
+        let least = found.and_then(|found| found.widening).map(|factor| {
+            let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
+            format!(
+                " {factor:.3} times as wide ({:.1} mm where it is widest now {:.1} mm) would do;",
+                1e3 * factor * typical,
+                1e3 * typical
+            )
+        });
+        let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
+            let held = self.outcome.held.get(reach.constraint)?;
+            let [low, high] = self.outcome.reached_values(reach)?;
+            let (words, target) = (held.constraint.words(), held.constraint.target());
+            Some(format!(" {words} could be {low:.6} to {high:.6} where {target:.6} is asked for"))
+        });
+        let (code, message, help) = match self.outcome.status {
+            Status::Optimal => return Ok(()),
+            Status::Infeasible => (
+                "E401",
+                "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
+                format!(
+                    "Widen the tolerance, unlock cells or free one of the targets:{}{}",
+                    least.unwrap_or_default(),
+                    cheapest.unwrap_or_default()
+                ),
+            ),
+            Status::Unbounded | Status::Limit => (
+                "E402",
+                "the solver stopped before the optimum was proved; what was written is its best point",
+                "Look at the certificate in fairing.json".to_owned(),
+            ),
+        };
+        Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))
+    }
+}

@@ -1,0 +1,241 @@
+//! Fairing one curve: from a CSV file to the fair curve, its proof and its picture.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::Value;
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use crate::config::{Diagnostic, Severity};
+use crate::exchange::{curve_csv, curve_json, read_curve};
+use crate::fairing::curve::{CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve};
+use crate::plot::fair_curve_figure;
+use crate::units::Notation;
+
+/// Resolution of the picture \[dots per inch\].
+const DOTS_PER_INCH: f64 = 160.0;
+/// An abscissa on the command line names a point within this part of the length.
+const SAME: f64 = 1e-6;
+
+/// A number to be held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kept {
+    /// That of the points as given.
+    AsGiven,
+    /// This one.
+    At(f64),
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveJob {
+    /// The file.
+    pub path: PathBuf,
+    /// Unit of plain numbers.
+    pub unit: Notation,
+    /// Abscissae of points to be locked \[m\].
+    pub locks: Vec<f64>,
+    /// Abscissae of knuckles \[m\].
+    pub knuckles: Vec<f64>,
+    /// Area to be held.
+    pub area: Option<Kept>,
+    /// Abscissa of its centroid to be held.
+    pub centroid: Option<Kept>,
+    /// Everything else; the quantum is that of the file.
+    pub settings: CurveSettings,
+}
+
+/// A job that was done.
+#[derive(Debug, Clone)]
+pub struct FairedCurve {
+    /// The points as they were used.
+    pub points: Vec<CurvePoint>,
+    /// What came of them.
+    pub fair: FairCurve,
+    /// What was assumed.
+    pub notes: Vec<String>,
+    /// Time taken \[s\].
+    pub seconds: f64,
+    path: PathBuf,
+}
+
+fn diagnostic(code: &'static str, path: &Path, line: Option<usize>, message: String, help: String) -> Diagnostic {
+    let file = path.display().to_string();
+    Diagnostic { severity: Severity::Error, code, file, line, column: None, key: String::new(), message, help }
+}
+
+/// Reads and fairs.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] for lines that cannot be understood and points that make no curve; [`Failure::Usage`] for
+/// locks where no point is.
+pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
+    let path = &job.path;
+    let bytes = std::fs::read(path).map_err(|error| Failure::FileSystem { act: "read", path: path.clone(), error })?;
+    let input = |code, line, message, help| Failure::Input(vec![diagnostic(code, path, line, message, help)]);
+    let text = String::from_utf8(bytes)
+        .map_err(|_| input("E341", None, "the file is not text in UTF-8".to_owned(), String::new()))?;
+    let table = read_curve(&text, job.unit).map_err(|problems| {
+        let of = |p: crate::exchange::CurveProblem| diagnostic("E340", path, p.line, p.message, p.remedy);
+        Failure::Input(problems.into_iter().map(of).collect())
+    })?;
+    let mut points = table.points;
+    let length = points[points.len() - 1].x - points[0].x;
+    for (list, what) in [(&job.locks, "lock"), (&job.knuckles, "knuckle")] {
+        for &x in list {
+            let Some(point) = points.iter_mut().find(|point| (point.x - x).abs() <= SAME * length) else {
+                return Err(Failure::Usage(format!("--{what} {x}: there is no point at this abscissa")));
+            };
+            if what == "lock" { point.locked = true } else { point.knuckle = true }
+        }
+    }
+    let clock = Instant::now();
+    let refused = |error: crate::fairing::curve::CurveError| input("E342", None, error.to_string(), String::new());
+    let given = if job.area.is_some() || job.centroid.is_some() {
+        area_and_centroid(&points).map_err(refused)?
+    } else {
+        [0.0; 2]
+    };
+    let held = |kept: Option<Kept>, given: f64| {
+        kept.map(|kept| match kept {
+            Kept::AsGiven => given,
+            Kept::At(value) => value,
+        })
+    };
+    let settings = CurveSettings {
+        quantum: table.quantum,
+        area: held(job.area, given[0]),
+        centroid: held(job.centroid, given[1]),
+        // The slope of a curve of areas is no angle.
+        true_curvature: job.settings.true_curvature && table.lengths,
+        ..job.settings.clone()
+    };
+    let fair = fair_curve(&points, &settings).map_err(refused)?;
+    Ok(FairedCurve { points, fair, notes: table.notes, seconds: clock.elapsed().as_secs_f64(), path: path.clone() })
+}
+
+impl FairedCurve {
+    /// The failure that ends the program when the wishes could not be had.
+    ///
+    /// # Errors
+    /// [`Failure::Infeasible`] with the smallest tolerance that would do.
+    pub fn verdict(&self) -> Result<(), Failure> {
+        if self.fair.status != FairStatus::Infeasible {
+            return Ok(());
+        }
+        let (message, help) = if self.fair.widening.is_finite() {
+            let widest = self.fair.points.iter().filter_map(|p| p.tolerance).fold(0.0, f64::max);
+            (
+                format!(
+                    "what is wished cannot be had within the tolerances: they would have to be {:.4} times as wide, {} \
+                     where they are {}",
+                    self.fair.widening,
+                    metres(widest * self.fair.widening),
+                    metres(widest)
+                ),
+                "Give this tolerance, or wish for less; the curve that was written takes it.".to_owned(),
+            )
+        } else {
+            (
+                "what is wished contradicts what is locked at any tolerance".to_owned(),
+                "Unlock a point, or take back the area, the centroid, a slope or the number of inflections; the curve that was \
+                 written is without them."
+                    .to_owned(),
+            )
+        };
+        Err(Failure::Infeasible(vec![diagnostic("E410", &self.path, None, message, help)]))
+    }
+}
+
+/// A small length in millimetres, a larger one in metres.
+fn metres(value: f64) -> String {
+    if value.abs() < 1.0 { format!("{:.3} mm", 1e3 * value) } else { format!("{value:.4} m") }
+}
+
+/// The files of `fair-curve`.
+///
+/// # Errors
+/// [`Failure::Internal`] when the picture cannot be drawn.
+pub fn fair_curve_files(done: &FairedCurve, figures: bool) -> Result<Vec<OutputFile>, Failure> {
+    let json = serde_json::to_string_pretty(&fair_curve_json(done)).map_err(|e| Failure::Internal(e.to_string()))?;
+    let mut files = vec![
+        OutputFile::text("curve.csv", curve_csv(&done.points, &done.fair)),
+        OutputFile::text("fairing.json", json + "\n"),
+    ];
+    if figures {
+        let figure = fair_curve_figure(&done.fair).map_err(|error| Failure::Internal(error.to_string()))?;
+        let png = figure.to_png(DOTS_PER_INCH).map_err(|error| Failure::Internal(error.to_string()))?;
+        files.push(OutputFile::text("fair-curve.svg", figure.as_str().to_owned()));
+        files.push(OutputFile { name: "fair-curve.png".to_owned(), contents: png });
+    }
+    Ok(files)
+}
+
+/// `fairing.json`.
+#[must_use]
+pub fn fair_curve_json(done: &FairedCurve) -> Value {
+    curve_json(&done.points, &done.fair, done.seconds)
+}
+
+/// What is printed.
+#[must_use]
+pub fn fair_curve_page(done: &FairedCurve) -> String {
+    let fair = &done.fair;
+    let (rms, most, at) = fair.moves();
+    let mut page = String::new();
+    let list = |places: &[f64]| places.iter().map(|x| format!("{x:.3}")).collect::<Vec<_>>().join(", ");
+    let mut line = |text: String| {
+        let _ = writeln!(page, "{text}");
+    };
+    line(format!("status        {}", fair.status.as_str()));
+    line(format!(
+        "moves         RMS {}, largest {} at x = {at:.3} m; {} of {} points at their tolerance",
+        metres(rms),
+        metres(most),
+        fair.points.iter().filter(|point| point.active).count(),
+        fair.points.len()
+    ));
+    line(format!("noise         {}", metres(fair.sigma)));
+    line(format!("energy        order {}: {:.4e} -> {:.4e}", fair.order, fair.energy[1], fair.energy[0]));
+    let [before, after] = &fair.inflections;
+    let places = if after.is_empty() { String::new() } else { format!(" at x = {} m", list(after)) };
+    line(format!("inflections   {} -> {}{places}", before.len(), after.len()));
+    let proved = if fair.least.certified() { "proved" } else { "not proved to be the least" };
+    line(format!("  least       {} within the tolerances ({proved})", fair.least.count));
+    for place in fair.least.stretches.iter().flat_map(|stretch| &stretch.inflections) {
+        line(format!("              one between x = {:.3} and {:.3} m", place.from, place.to));
+    }
+    for smaller in &fair.least.smaller {
+        line(match smaller.factor {
+            Some(factor) => format!("              {} need {factor:.3} times the tolerances", smaller.count),
+            None => format!("              {} cannot be had at any tolerance: locked points forbid it", smaller.count),
+        });
+    }
+    line(match fair.allowed {
+        Some(allowed) => format!("  allowed     {allowed}, price {:.2} sigma^2 (limit {PRICE})", fair.price),
+        None => "  allowed     as they come".to_owned(),
+    });
+    for (count, price) in &fair.refused {
+        let price = if price.is_finite() { format!("cost {price:.1} sigma^2") } else { "cannot be had".to_owned() };
+        line(format!("              {count} {price}"));
+    }
+    for wish in &fair.lines {
+        line(format!(
+            "{:<13} {:.6} -> {:.6}, wished {:.6}; costs {} RMS",
+            wish.kind.key(),
+            wish.before,
+            wish.after,
+            wish.target,
+            metres(wish.price)
+        ));
+    }
+    let c = &fair.certificate;
+    line(format!(
+        "certificate   gap {:.1e}, stationarity {:.1e}, largest violation {:.1e}",
+        c.gap, c.stationarity, c.max_violation
+    ));
+    line(format!("work          {} programs, {} iterations, {:.3} s", fair.work[0], fair.work[1], done.seconds));
+    page
+}

@@ -1,0 +1,264 @@
+//! The page that `fair` prints: what moved, what holds and at which price, what bends, and the proof.
+
+use super::fair::{FairJob, FairOutputs};
+use super::page::{WIDTH, fixed, wrapped};
+use crate::exchange::{reached, status_word};
+use crate::fairing::constraint::Constraint;
+use crate::fairing::job::{Change, Held, Outcome};
+use crate::units::Notation;
+
+/// Moves and suspects that the page lists.
+const MOST_LINES: usize = 8;
+
+/// Remarks that the page shows.
+const MOST_REMARKS: usize = 8;
+
+/// A small length in the terms of the table: parts of an inch, or millimetres.
+fn small(length: f64, notation: Notation) -> String {
+    let sixteenths = (length / 0.0254 * 16.0).round();
+    if notation == Notation::FeetInchesEighths && (length - sixteenths * 0.0254 / 16.0).abs() < 1e-9 {
+        let (mut above, mut below) = (sixteenths as u64, 16u64);
+        while above > 0 && above.is_multiple_of(2) && below > 1 {
+            (above, below) = (above / 2, below / 2);
+        }
+        return if below == 1 { format!("{above} in") } else { format!("{above}/{below} in") };
+    }
+    format!("{} mm", millimetres(length))
+}
+
+/// Millimetres to three figures.
+fn millimetres(length: f64) -> String {
+    let value = 1000.0 * length;
+    let decimals = match value.abs() {
+        v if v >= 100.0 => 0,
+        v if v >= 10.0 => 1,
+        v if v >= 0.1 => 2,
+        _ => 3,
+    };
+    fixed(value, decimals)
+}
+
+/// What counts as the accuracy of the table \[m\], and what it is: two steps of its writing, or twice its noise where that is more.
+fn accuracy(job: &FairJob, outcome: &Outcome) -> (f64, &'static str) {
+    let steps = 2.0 * job.table.form.quantum().unwrap_or(0.0);
+    let noise = 2.0 * outcome.faired.sigma;
+    if noise > steps { (noise, " (twice the noise)") } else { (steps, "") }
+}
+
+fn counted(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// "station 5, waterline 2.000 m".
+fn place(job: &FairJob, change: &Change) -> String {
+    let name = job.table.stations.get(change.station).map_or("", |station| station.station.name.as_str());
+    match change.waterline {
+        Some(_) => format!("station {name}, waterline {} m", fixed(change.z, 3)),
+        None => format!("station {name}, deck at side"),
+    }
+}
+
+/// The offsets: how many stayed, how many moved more, how many are suspected.
+fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
+    let (limit, what) = accuracy(job, outcome);
+    let size = |change: &Change| (change.after - change.before).abs();
+    let kept: Vec<&Change> = outcome.changes.iter().filter(|change| !change.suspect).collect();
+    let mut more: Vec<&Change> = kept.iter().copied().filter(|change| size(change) > limit * (1.0 + 1e-9)).collect();
+    more.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let excluded: Vec<&Change> = outcome.changes.iter().filter(|change| change.suspect).collect();
+    let shown = small(limit, job.table.form.notation);
+    let mut line =
+        format!("{} of {} offsets kept within {shown}{what}", kept.len() - more.len(), outcome.changes.len());
+    if !more.is_empty() {
+        line.push_str(&format!("; {} moved more (listed)", more.len()));
+    }
+    line.push_str(&match excluded.len() {
+        0 => "; no suspected typing error is left out".to_owned(),
+        n => format!("; {} left out", counted(n, "suspected typing error", "suspected typing errors")),
+    });
+    let (rms, largest, at) = outcome.moves();
+    let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
+    line.push_str(&format!(
+        ". Moves: {} mm RMS, {} mm at most{at}; noise of the table {} mm.",
+        millimetres(rms),
+        millimetres(largest),
+        millimetres(outcome.faired.sigma)
+    ));
+    page.push_str(&wrapped(&line, 2));
+    for change in more.iter().take(MOST_LINES) {
+        page.push_str(&format!("  {:<46}{:>9} mm\n", place(job, change), signed(change.after - change.before)));
+    }
+    if more.len() > MOST_LINES {
+        page.push_str(&format!("  {} more: changes.csv\n", more.len() - MOST_LINES));
+    }
+    for change in &excluded {
+        let found =
+            outcome.suspects.iter().find(|s| (s.station, Some(s.waterline)) == (change.station, change.waterline));
+        let (id, written, why) = match found {
+            Some(s) => (s.id.as_str(), s.written.as_str(), s.hypothesis().as_str()),
+            None => ("", "", ""),
+        };
+        let text = format!(
+            "  {id} {}: written {written}, {} m; the fair hull has {} m ({why})",
+            place(job, change),
+            fixed(change.before, 4),
+            fixed(change.after, 4)
+        );
+        page.push_str(&format!("  {}", wrapped(&text, 5)));
+    }
+    let stopped = reached(outcome).count();
+    if stopped > 0 {
+        page.push_str(&format!("  {} at the tolerance\n", counted(stopped, "offset stops", "offsets stop")));
+    }
+    let locked = outcome.changes.iter().filter(|change| change.locked).count();
+    if locked > 0 {
+        let moved = outcome.changes.iter().filter(|change| change.locked).map(size).fold(0.0, f64::max);
+        let offsets = counted(locked, "offset is locked", "offsets are locked");
+        page.push_str(&format!("  {offsets}; the largest move of one is {moved:.0e} m\n"));
+    }
+}
+
+fn signed(length: f64) -> String {
+    let text = millimetres(length);
+    if text.starts_with('-') { text } else { format!("+{text}") }
+}
+
+/// A constraint before and after, and what holding it costs.
+fn held_line(held: &Held, length: f64) -> String {
+    let target = held.constraint.target();
+    let (unit, decimals) = match held.constraint {
+        Constraint::Displacement(_) => (" m3", 3),
+        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) | Constraint::HeightOfBuoyancy(_) => {
+            (" m", 4)
+        }
+        Constraint::WaterplaneArea(_) | Constraint::SectionArea { .. } => (" m2", 3),
+        _ => ("", 6),
+    };
+    let percent = match held.constraint {
+        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => {
+            format!(" ({:+.3} % L)", 100.0 * (held.after / length - 0.5))
+        }
+        _ => String::new(),
+    };
+    let words = held.constraint.words();
+    let off = match held.after - target {
+        off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
+        _ => "on target".to_owned(),
+    };
+    let price = match held.price {
+        // Without it the objective falls, but the moves need not.
+        price if price < 5e-7 => "costs no moves".to_owned(),
+        price => format!("costs {} mm RMS", millimetres(price)),
+    };
+    format!(
+        "{words}: {} -> {}{unit}{percent}, {off}; holding it {price}.",
+        fixed(held.before, decimals),
+        fixed(held.after, decimals),
+    )
+}
+
+/// Displacement, LCB, KB and C_M of both hulls.
+fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
+    let [before, after] = &outputs.rows;
+    let mass = |row: &crate::hydrostatics::Hydrostatics| super::page::value(row, "DISPM");
+    let change = match (before.displacement_volume, after.displacement_volume) {
+        (a, b) if a.abs() > 0.0 => format!(" ({})", fixed_sign(100.0 * (b / a - 1.0), 3, " %")),
+        _ => String::new(),
+    };
+    let mut line = format!("Displacement {} -> {} t{change}.", mass(before), mass(after));
+    let length = outputs.outcome.after.particulars().length_between_perpendiculars;
+    if let (Some(a), Some(b)) = (before.lcb, after.lcb) {
+        line.push_str(&format!(" LCB {}.", fixed_sign(100.0 * (b - a) / length, 3, " % L")));
+    }
+    let turns = ["waterline", "station", "buttock", "diagonal"].map(|kind| outputs.outcome.inflections(kind));
+    let sum = |side: usize| turns.iter().map(|counts| counts[side]).sum::<usize>();
+    line.push_str(&format!(" Inflections {} -> {}:", sum(0), sum(1)));
+    for (kind, [a, b]) in ["waterlines", "stations", "buttocks", "diagonals"].iter().zip(turns) {
+        line.push_str(&format!(" {kind} {a} -> {b}{}", if *kind == "diagonals" { "." } else { "," }));
+    }
+    page.push_str(&wrapped(&line, 2));
+    page.push_str("  (buttocks and diagonals are no lines of the table: they were never used)\n");
+    if outputs.outcome.held.is_empty() {
+        page.push_str("Nothing of the whole hull is held.\n");
+    }
+    for held in &outputs.outcome.held {
+        page.push_str(&wrapped(&held_line(held, length), 2));
+    }
+}
+
+fn fixed_sign(value: f64, decimals: usize, unit: &str) -> String {
+    let text = fixed(value, decimals);
+    let plain = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
+    if text.starts_with('-') || plain { format!("{text}{unit}") } else { format!("+{text}{unit}") }
+}
+
+/// The page of `fair`, at most 80 columns wide.
+#[must_use]
+pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
+    let outcome = &outputs.outcome;
+    let name: String = job.table.name.chars().take(WIDTH - 20).collect();
+    let p = outcome.after.particulars();
+    let mut page = format!("{name}: {}\n", status_word(outcome.status));
+    let length = p.length_between_perpendiculars;
+    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.breadth, p.draught, p.depth));
+    verdict(job, outcome, &mut page);
+    page.push('\n');
+    hydrostatics(outputs, &mut page);
+    page.push('\n');
+    let faired = &outcome.faired;
+    let certificate = &faired.solved.certificate;
+    let energy = outcome.energy[1] / outcome.energy[0];
+    let proof = format!(
+        "Proof: duality gap {:.0e}, stationarity {:.0e}, largest violation of a row {:.0e}, computed without the solver. Energy \
+         of order {}: {:.4} of that before. Smoothing weight {:.2e}, {:.1} degrees of freedom; {}, {} iterations.",
+        certificate.gap.abs(),
+        certificate.stationarity,
+        certificate.max_violation.max(0.0),
+        outcome.order,
+        energy,
+        faired.lambda,
+        faired.edf,
+        counted(faired.programs, "program", "programs"),
+        faired.iterations
+    );
+    page.push_str(&wrapped(&proof, 2));
+    let rounding = &outputs.rounding;
+    let volume = match rounding.volume_share {
+        Some(share) => format!("displacement {}", fixed_sign(100.0 * share, 4, " %")),
+        None => "displacement not known".to_owned(),
+    };
+    page.push_str(&wrapped(
+        &format!(
+            "Rounding to the notation of the table, the last step: {} mm at most, {} mm RMS, {volume}.",
+            millimetres(rounding.largest),
+            millimetres(rounding.root_mean_square)
+        ),
+        2,
+    ));
+    for note in outcome.notes.iter().take(MOST_REMARKS) {
+        page.push_str(&wrapped(&format!("- {note}"), 2));
+    }
+    let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
+    page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
+    page
+}
+
+/// Four lines for a job that runs again and again.
+#[must_use]
+pub fn fair_line(outputs: &FairOutputs) -> String {
+    let outcome = &outputs.outcome;
+    let (rms, largest, _) = outcome.moves();
+    let turns = ["waterline", "station", "buttock", "diagonal"].map(|kind| outcome.inflections(kind));
+    let after: usize = turns.iter().map(|counts| counts[1]).sum();
+    let row = &outputs.rows[1];
+    let value = |key: &str| super::page::value(row, key);
+    format!(
+        "{}: displacement {} t, CB {}, XCB {} m; moves {} mm RMS, {} mm at most; {after} inflections\n",
+        status_word(outcome.status),
+        value("DISPM"),
+        value("CB"),
+        value("XCB"),
+        millimetres(rms),
+        millimetres(largest)
+    )
+}

@@ -1,0 +1,294 @@
+//! The command `fair`: files, certificate, notation, locks, job files and their messages.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use loftsman::exchange::read_table;
+use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair, read_source};
+use serde_json::Value;
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// An empty folder of this test.
+fn folder(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fair-{test}"));
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn carried(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+const TABLE: &str = "tests/data/series60_cb060/offsets.csv";
+
+fn faired(input: &Path, options: &[(&str, &str, &str)]) -> (FairJob, FairOutputs) {
+    let options: Vec<_> = options.iter().map(|(option, key, value)| (*option, *key, (*value).to_owned())).collect();
+    let job = read_fair(input, &options).unwrap_or_else(|failure| panic!("{failure}"));
+    let outputs = fair_outputs(&job, false).unwrap_or_else(|failure| panic!("{failure}"));
+    (job, outputs)
+}
+
+fn file(outputs: &FairOutputs, name: &str) -> String {
+    let found = outputs.files.iter().find(|file| file.name == name).unwrap_or_else(|| panic!("no {name}"));
+    String::from_utf8(found.contents.clone()).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn a_table_becomes_a_fair_hull_with_its_files() {
+    let path = folder("files");
+    let out = path.join("out");
+    let arguments = ["fair", &carried(TABLE).display().to_string(), "-o", out.to_str().unwrap()];
+    let output = program(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = String::from_utf8(output.stdout).unwrap();
+    assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
+    let mut names: Vec<String> =
+        fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let expected = [
+        "changes.csv",
+        "fairing-body-plan.png",
+        "fairing-body-plan.svg",
+        "fairing-half-breadth-plan.png",
+        "fairing-half-breadth-plan.svg",
+        "fairing-moves.png",
+        "fairing-moves.svg",
+        "fairing.json",
+        "hull.json",
+        "manifest.json",
+        "offsets.csv",
+        "summary.json",
+    ];
+    assert_eq!(names, expected);
+    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    assert_eq!(certificate["status"], "optimal");
+    for key in ["primal", "dual", "gap", "stationarity", "max_violation"] {
+        number(&certificate["certificate"][key]);
+    }
+    assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-6);
+    let kinds: Vec<&str> =
+        certificate["constraints"].as_array().unwrap().iter().map(|c| c["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["displacement", "lcb", "midship_coefficient"]);
+    // Displacement of the hull that was written is that of the surface through the table.
+    let written = read_source(&out.join("hull.json")).unwrap().hull;
+    let held = &certificate["constraints"][0];
+    let volume = loftsman::hull::Functional::Volume.value(&written, written.particulars().draught);
+    assert!((volume / number(&held["target"]) - 1.0).abs() < 1e-10, "{volume} {held}");
+    assert!((number(&held["after"]) / number(&held["before"]) - 1.0).abs() < 1e-10, "{held}");
+    // The same bytes once more; what is there is not overwritten unasked.
+    let again = path.join("again");
+    let second = program(&["fair", arguments[1], "-o", again.to_str().unwrap(), "-q"]);
+    assert!(second.status.success() && second.stdout.is_empty() && second.stderr.is_empty());
+    for name in &names {
+        assert!(fs::read(out.join(name)).unwrap() == fs::read(again.join(name)).unwrap(), "{name}");
+    }
+    assert_eq!(program(&arguments).status.code(), Some(6));
+}
+
+#[test]
+fn the_table_keeps_its_notation_and_says_what_rounding_did() {
+    let (job, outputs) = faired(&carried(TABLE), &[]);
+    let (old, new) = (fs::read_to_string(carried(TABLE)).unwrap(), file(&outputs, "offsets.csv"));
+    assert_eq!(old.lines().next(), new.lines().next());
+    assert_eq!(old.lines().count(), new.lines().count());
+    let table = read_table("offsets.csv", new.as_bytes()).unwrap().table;
+    let quantum = table.form.quantum().unwrap();
+    assert_eq!(job.table.form.quantum(), Some(quantum));
+    let mut worst = 0.0_f64;
+    for (a, b) in outputs.outcome.table.stations.iter().zip(&table.stations) {
+        for (a, b) in a.half_breadths.iter().zip(&b.half_breadths) {
+            match (a.value(), b.value()) {
+                (Some(a), Some(b)) => worst = worst.max((a - b).abs()),
+                (a, b) => assert_eq!(a.is_some(), b.is_some()),
+            }
+        }
+    }
+    let said = outputs.rounding.largest;
+    assert!(worst <= 0.5 * quantum + 1e-12 && (said - worst).abs() < 1e-9, "{worst} {said}");
+    assert!(outputs.rounding.volume_share.unwrap().abs() < 1e-4);
+    // Texts of the changes are those of the two tables.
+    let changes = file(&outputs, "changes.csv");
+    let rows: Vec<Vec<&str>> = changes.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), outputs.outcome.changes.len());
+    for row in &rows {
+        let [before, after, moved] = [4, 5, 6].map(|k| row[k].parse::<f64>().unwrap());
+        assert!((after - before - moved).abs() < 1e-12);
+        assert!((row[11].parse::<f64>().unwrap() - before).abs() < 1e-9, "{row:?}");
+        assert!((row[12].parse::<f64>().unwrap() - after).abs() <= 0.5 * quantum + 1e-9, "{row:?}");
+    }
+    assert!(rows.iter().any(|row| row[6].parse::<f64>().unwrap().abs() > quantum));
+}
+
+#[test]
+fn feet_inches_and_eighths_stay_so() {
+    let path = folder("eighths");
+    let feet = path.join("feet.csv");
+    let table = carried("tests/data/wigley/offsets.csv");
+    let notation = ["convert", table.to_str().unwrap(), feet.to_str().unwrap(), "--notation", "feet-inches-eighths"];
+    let output = program(&notation);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let (job, outputs) = faired(&feet, &[]);
+    let new = file(&outputs, "offsets.csv");
+    let back = read_table("offsets.csv", new.as_bytes()).unwrap().table;
+    assert_eq!(back.form.notation, job.table.form.notation);
+    assert!(outputs.rounding.largest <= 0.0254 / 32.0 + 1e-12 && outputs.rounding.largest > 0.0);
+    let page = fair_page(&job, &outputs, "out");
+    assert!(page.contains("kept within 1/8 in"), "{page}");
+}
+
+#[test]
+fn targets_are_met_and_locks_hold() {
+    let options = [
+        ("--cb", "hold.Cb", "0.601"),
+        ("--lcb", "hold.LCB", "-1.45 %"),
+        ("--kb", "hold.KB", "table"),
+        ("--tolerance", "tolerance.table", "0.2 m"),
+        ("--lock", "lock.cells", "30.48@3.2512"),
+        ("--lock", "lock.cells", "9.144@6.5024"),
+        ("--draught", "dimensions.T", "6.5024"),
+    ];
+    let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
+    outputs.verdict().unwrap();
+    let held = &outputs.outcome.held;
+    let keys: Vec<&str> = held.iter().map(|held| held.constraint.key()).collect();
+    assert_eq!(keys, ["midship_coefficient", "kb", "block_coefficient", "lcb"]);
+    let p = outputs.outcome.after.particulars();
+    let targets = [held[0].before, held[1].before, 0.601, (0.5 - 0.0145) * p.length_between_perpendiculars];
+    for (held, target) in held.iter().zip(targets) {
+        assert!((held.after / target - 1.0).abs() < 1e-9, "{}: {} {target}", held.constraint.key(), held.after);
+    }
+    assert!((held[2].before - 0.601).abs() > 1e-5, "the target is not the table's own");
+    let locked: Vec<_> = outputs.outcome.changes.iter().filter(|change| change.locked).collect();
+    assert_eq!(locked.len(), 2);
+    for change in &locked {
+        assert!((change.after - change.before).abs() < 1e-9, "{change:?}");
+    }
+    assert!(outputs.outcome.changes.iter().any(|change| (change.after - change.before).abs() > 1e-4));
+    // What did not move keeps its text.
+    let changes = file(&outputs, "changes.csv");
+    let texts = changes.lines().map(|line| line.split(',').collect::<Vec<_>>()).filter(|row| row[9] == "yes");
+    assert!(texts.inspect(|row| assert_eq!(row[11], row[12], "{row:?}")).count() == locked.len());
+}
+
+#[test]
+fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
+    let out = folder("infeasible").join("out");
+    let table = carried(TABLE).display().to_string();
+    let arguments = ["fair", &table, "-o", out.to_str().unwrap(), "--cb", "0.7", "--tolerance", "1 mm", "--no-figures"];
+    let output = program(&arguments);
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    assert!(stderr(&output).contains("E401"), "{}", stderr(&output));
+    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    assert_eq!(certificate["status"], "infeasible");
+}
+
+#[test]
+fn a_misprint_is_left_out_and_listed() {
+    let table = carried("reports/suspects/series60-misprinted.csv");
+    let (job, outputs) = faired(&table, &[]);
+    let excluded: Vec<_> = outputs.outcome.changes.iter().filter(|change| change.suspect).collect();
+    assert!(!excluded.is_empty());
+    let page = fair_page(&job, &outputs, "out");
+    for change in &excluded {
+        assert!(change.tolerance.is_none());
+        let suspect = outputs
+            .outcome
+            .suspects
+            .iter()
+            .find(|s| (s.station, Some(s.waterline)) == (change.station, change.waterline))
+            .unwrap();
+        assert!(page.contains(&format!("{} station", suspect.id)), "{page}");
+    }
+    let listed = outputs.certificate["excluded"].as_array().unwrap();
+    assert_eq!(listed.len(), excluded.len());
+    let (_, kept) = faired(&table, &[("--keep-suspects", "suspects.exclude", "false")]);
+    assert!(kept.outcome.changes.iter().all(|change| !change.suspect));
+}
+
+#[test]
+fn every_job_of_the_examples_runs() {
+    let mut files: Vec<PathBuf> =
+        fs::read_dir(carried("configs/fair")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(!files.is_empty());
+    for path in files {
+        let (job, outputs) = faired(&path, &[]);
+        outputs.verdict().unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+        let page = fair_page(&job, &outputs, "out");
+        assert!(page.contains("holding it"), "{page}");
+        for held in &outputs.outcome.held {
+            let error = (held.after - held.constraint.target()).abs() / held.constraint.target().abs();
+            assert!(error < 1e-10, "{}: {} {error:e}", path.display(), held.constraint.key());
+        }
+    }
+}
+
+#[test]
+fn a_job_file_is_told_all_that_is_wrong_with_it() {
+    let path = folder("messages");
+    let job = path.join("job.toml");
+    fs::write(&job, "[table]\nfile = \"nothing.csv\"\n[hold]\nCbb = 0.6\nLCB = 1\n[lock]\ncells = [3]\n").unwrap();
+    let output = program(&["fair", job.to_str().unwrap(), "-o", path.join("out").to_str().unwrap(), "--cm", "2"]);
+    assert_eq!(output.status.code(), Some(3));
+    let said = stderr(&output);
+    for (line, words) in
+        [(4, "hold.Cbb is not a key of a job. Did you mean Cb?"), (5, "its unit is not said"), (7, "\"3\" is no cell")]
+    {
+        assert!(said.contains(&format!("job.toml:{line}:")) && said.contains(words), "{words}: {said}");
+    }
+    assert!(said.contains("--cm hold.Cm is 2"), "{said}");
+    fs::write(&job, format!("[table]\nfile = {:?}\n[lock]\nstations = [\"99\"]\n", carried(TABLE))).unwrap();
+    let output = program(&["fair", job.to_str().unwrap(), "-o", path.join("out").to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(stderr(&output).contains("E171") && stderr(&output).contains("job.toml:4:13"), "{}", stderr(&output));
+    fs::write(&job, "[table]\nfile = \"nothing.csv\"\n").unwrap();
+    assert_eq!(program(&["fair", job.to_str().unwrap()]).status.code(), Some(6));
+    fs::write(&job, "[energy]\norder = 3\n").unwrap();
+    let output = program(&["fair", job.to_str().unwrap()]);
+    assert!(output.status.code() == Some(3) && stderr(&output).contains("E174"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_changed_file_is_faired_again() {
+    use std::io::{BufRead, BufReader};
+    use std::time::{Duration, SystemTime};
+    let path = folder("watch");
+    let table = path.join("table.csv");
+    fs::copy(carried(TABLE), &table).unwrap();
+    let out = path.join("out");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_loftsman"))
+        .args(["fair", table.to_str().unwrap(), "-o", out.to_str().unwrap(), "--watch", "--no-figures"])
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    let first = lines
+        .find(|line| line.as_ref().is_ok_and(|line| line.contains("Written to") || line.contains("manifest.json")));
+    assert!(first.is_some());
+    let before = fs::read(out.join("fairing.json")).unwrap();
+    // A tenth of a metre narrower at the upper edge of five stations is another hull.
+    let text = fs::read_to_string(&table).unwrap().replace("8.1280\n", "8.0280\n");
+    fs::write(&table, text).unwrap();
+    let later = SystemTime::now() + Duration::from_secs(2);
+    fs::File::options().write(true).open(&table).unwrap().set_modified(later).unwrap();
+    let again = lines.find(|line| line.as_ref().is_ok_and(|line| line.starts_with("optimal: displacement")));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(again.is_some());
+    assert_ne!(before, fs::read(out.join("fairing.json")).unwrap());
+}

@@ -1,0 +1,144 @@
+//! Knuckles and tangent lines that `check` proposes where a table does not declare them.
+
+use std::path::Path;
+
+use loftsman::exchange::read_table;
+use loftsman::fairing::{LineCourse, LineKind, ProposedLine, proposed_lines, suspects};
+use loftsman::hull::{Cell, OffsetTable, StationOffsets};
+
+/// A small generator with its own sequence (splitmix64), so that the study is the same for ever.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn uniform(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let (a, b) = (self.uniform().max(1e-300), self.uniform());
+        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+    }
+}
+
+fn read(path: &Path) -> OffsetTable {
+    let bytes = std::fs::read(path).unwrap();
+    let name = path.display().to_string();
+    read_table(&name, &bytes).unwrap_or_else(|problems| panic!("{name}: {problems:?}")).table
+}
+
+/// 25 stations and 21 waterlines of a hull with half-breadths `half(x, z)`, normal noise and a tenth of a millimetre.
+fn made(half: impl Fn(f64, f64) -> f64, sigma: f64) -> OffsetTable {
+    let mut random = Random(77);
+    let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
+    let mut offset = |x: f64, z: f64| Cell::from(Some(((half(x, z) + sigma * random.normal()) * 1e4).round() / 1e4));
+    let stations = (0..25)
+        .map(|i| {
+            let x = 4.0 * f64::from(i) + 2.0;
+            let mut station = StationOffsets::new(format!("{i}"), x);
+            station.half_breadths = waterlines.iter().map(|&z| offset(x, z)).collect();
+            station
+        })
+        .collect();
+    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
+    table.form.decimals = Some(4);
+    table
+}
+
+fn lines_of(table: &OffsetTable) -> Vec<ProposedLine> {
+    proposed_lines(table, &suspects(table))
+}
+
+fn fullness(x: f64) -> f64 {
+    1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)
+}
+
+/// The place is that of a line of the table.
+fn same(found: f64, place: f64) -> bool {
+    (found - place).abs() < 1e-9
+}
+
+#[test]
+fn knuckles_and_the_upper_edge_of_a_bilge_are_proposed_where_they_run() {
+    // A chine at 6 m from end to end, with and without noise.
+    for sigma in [0.0, 0.002] {
+        let chined = |x: f64, z: f64| fullness(x) * (6.0 + 0.5 * z - 0.02 * z * z) + 0.35 * (z - 6.0).max(0.0);
+        let lines = lines_of(&made(chined, sigma));
+        let [line] = lines[..] else { panic!("{lines:?}") };
+        assert_eq!((line.kind, line.course), (LineKind::Knuckle, LineCourse::Waterline));
+        assert!(
+            same(line.at, 6.0) && same(line.reach[0], 2.0) && same(line.reach[1], 98.0) && line.gain > 5.0,
+            "{line:?}"
+        );
+    }
+    // A chine that ends amidships.
+    let ending = |x: f64, z: f64| {
+        fullness(x) * (6.0 + 0.5 * z - 0.02 * z * z) + if x < 50.0 { 0.35 * (z - 6.0).max(0.0) } else { 0.0 }
+    };
+    let lines = lines_of(&made(ending, 0.001));
+    assert!(
+        lines.iter().any(|l| l.course == LineCourse::Waterline
+            && same(l.at, 6.0)
+            && same(l.reach[0], 2.0)
+            && same(l.reach[1], 46.0)),
+        "{lines:?}"
+    );
+    // A bilge of 4 m radius under a flat side: the curvature breaks.
+    let bilge = |x: f64, z: f64| 9.0 * fullness(x) - 4.0 + (16.0 - 0.8 * (4.0 - z).max(0.0).powi(2)).sqrt();
+    let lines = lines_of(&made(bilge, 0.0));
+    let [line] = lines[..] else { panic!("{lines:?}") };
+    assert_eq!((line.kind, line.course), (LineKind::Tangent, LineCourse::Waterline));
+    assert!((line.at - 4.0).abs() <= 0.25 && same(line.reach[0], 2.0) && same(line.reach[1], 98.0), "{line:?}");
+    // The run begins at 62 m: a tangent line along a station.
+    let run = |x: f64, z: f64| (9.0 - 0.02 * (x - 62.0).max(0.0).powi(2)) * (1.0 - 0.3 * (1.0 - z / 12.0).powi(4));
+    for sigma in [0.0, 0.002] {
+        let lines = lines_of(&made(run, sigma));
+        let [line] = lines[..] else { panic!("{lines:?}") };
+        assert_eq!((line.kind, line.course), (LineKind::Tangent, LineCourse::Station));
+        assert!(same(line.at, 62.0) && line.gain > 5.0, "{line:?}");
+    }
+}
+
+#[test]
+fn no_line_is_proposed_on_smooth_hulls() {
+    let smooth = |x: f64, z: f64| 9.0 * fullness(x) * (1.0 - (1.0 - (z + 0.6) / 12.0).powi(6));
+    for sigma in [0.0, 0.001, 0.005] {
+        assert_eq!(lines_of(&made(smooth, sigma)), []);
+    }
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    for name in ["series60_cb060", "series60_cb070", "series60_cb075", "s175", "wigley", "pdstrip_yacht"] {
+        let lines = lines_of(&read(&own.join(name).join("offsets.csv")));
+        assert!(lines.is_empty(), "{name}: {lines:?}");
+    }
+}
+
+#[test]
+fn proposed_lines_are_printed_and_written() {
+    let mut text = String::from("x");
+    (0..16).for_each(|j| text.push_str(&format!(",{}", 0.5 * f64::from(j))));
+    for i in 0..12 {
+        text.push_str(&format!("\n{}", 5 * i));
+        for z in (0..16).map(|j| 0.5 * f64::from(j)) {
+            let y = 4.0 - 0.002 * (f64::from(5 * i) - 28.0).powi(2) + 0.3 * z + 0.4 * (z - 4.0).max(0.0);
+            text.push_str(&format!(",{y:.4}"));
+        }
+    }
+    let path = std::env::temp_dir().join(format!("loftsman-lines-{}.csv", std::process::id()));
+    std::fs::write(&path, text + "\n").unwrap();
+    let check = loftsman::report::check_table(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let json = loftsman::report::check_json(&check);
+    let line = &json["lines"][0];
+    assert_eq!((line["kind"].as_str(), line["course"].as_str()), (Some("knuckle"), Some("waterline")), "{json}");
+    assert!(line["at"] == 4.0 && line["from"] == 0.0 && line["to"] == 55.0 && line["gain"].as_f64().unwrap() > 5.0);
+    let page = loftsman::report::check_page(&check);
+    assert!(page.contains("knuckle along the waterline at 4.000 m, from 0.000 to 55.000 m"), "{page}");
+    assert!(check.verdict(&[]).is_ok(), "a line that may be declared is no error");
+}

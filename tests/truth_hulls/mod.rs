@@ -1,0 +1,454 @@
+//! Hulls whose true shape is known, tables of offsets with seeded errors sampled from them, and what fairing makes of these.
+//!
+//! Truths, the first five in closed form over the rectangle 0 <= x <= L, 0 <= z <= T with plumb ends:
+//!
+//! * Wigley: y = (B/2)(1 - s^2)(1 - w^2), s = 2x/L - 1, w = 1 - z/T (Wigley 1942);
+//! * S-shaped: y = (B/2)(1 - r(a)/r(1))(1 - w^2), a = |s|, r(t) = 1 - cos(sqrt(-m) t), t^2/2 or cosh(sqrt(m) t) - 1 for
+//!   m < 0, = 0, > 0 and m = 12 z/T - 8: hollow waterlines below, full ones above, y_xxx jumps amidships;
+//! * parallel middle body: flat from 0.36 L to 0.64 L, ends 1 - q(t)/q(1) with q(t) = k t - sin(k t) or sinh(k t) - k t;
+//! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a vertical side;
+//! * bulk carrier: the preset of the generator; Series 60 and S-175: surfaces fitted to the published tables.
+//!
+//! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the distance along
+//! the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it is above a hundredth of the
+//! largest of the truth's own line.
+
+#![allow(dead_code, unused_imports, unreachable_pub, reason = "the bench and the test use different parts")]
+
+mod measure;
+
+pub use measure::Summary;
+
+use std::path::Path;
+
+use loftsman::exchange::read_table;
+use loftsman::fairing::constraint::Constraint;
+use loftsman::fairing::job::{Holding, Job};
+use loftsman::fairing::{LineCourse, proposed_lines, suspects};
+use loftsman::hull::{
+    Cell, Entry, FeatureLine, FitMethod, Hull, LineKind, Marks, OffsetStation, OffsetTable, StatedParticulars,
+    StationOffsets, Written,
+};
+use loftsman::parametric::ShipType;
+use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::units::Notation;
+
+/// A small generator with its own sequence (splitmix64), so that the tables are the same for ever.
+pub struct Random(pub u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn uniform(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let (a, b) = (self.uniform().max(1e-300), self.uniform());
+        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+}
+
+/// A half-breadth over x and z \[m\].
+type HalfBreadth = Box<dyn Fn(f64, f64) -> Option<f64>>;
+
+/// A hull that is known.
+pub struct Truth {
+    pub length: f64,
+    pub breadth: f64,
+    pub draught: f64,
+    half: HalfBreadth,
+    /// The table without errors.
+    clean: OffsetTable,
+    /// Displacement \[m^3\] and LCB \[m\].
+    volume: f64,
+    lcb: f64,
+    /// x and z from which to which errors are counted.
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+/// What is wrong with a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Errors {
+    /// Normal, standard deviation \[m\].
+    Normal(f64),
+    /// Rounded to multiples \[m\].
+    Rounded(f64),
+    /// Rounded to eighths of an inch.
+    Eighths,
+    /// Normal with 2 mm, written in millimetres, and in three cells two neighbouring digits swapped.
+    Typing,
+    /// Normal with 2 mm, and 100, 150 and 300 mm too much or too little in three cells.
+    Outliers,
+}
+
+impl Errors {
+    /// Whether seeds matter.
+    pub fn is_random(self) -> bool {
+        !matches!(self, Self::Rounded(_) | Self::Eighths)
+    }
+
+    pub fn words(self) -> String {
+        match self {
+            Self::Normal(sigma) => format!("noise {:.0} mm", sigma * 1e3),
+            Self::Rounded(quantum) => format!("rounded to {:.0} mm", quantum * 1e3),
+            Self::Eighths => "rounded to 1/8 in".to_owned(),
+            Self::Typing => "2 mm and 3 swaps".to_owned(),
+            Self::Outliers => "2 mm and 3 outliers".to_owned(),
+        }
+    }
+}
+
+fn steps(to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| to * i as f64 / (count - 1) as f64).collect()
+}
+
+/// A truth in closed form; `breaks` where it is less smooth, for the quadrature.
+fn closed(
+    [length, breadth, draught]: [f64; 3],
+    [stations, waterlines]: [&[f64]; 2],
+    breaks: [&[f64]; 2],
+    half: impl Fn(f64, f64) -> f64 + 'static,
+) -> Truth {
+    let mut clean = OffsetTable { waterlines: waterlines.to_vec(), ..OffsetTable::default() };
+    clean.stated = StatedParticulars {
+        length_between_perpendiculars: Some(length),
+        breadth: Some(breadth),
+        draught: Some(draught),
+        depth: Some(draught),
+    };
+    for (i, &x) in stations.iter().enumerate() {
+        let mut station = StationOffsets::new(format!("{i}"), x);
+        station.half_breadths = waterlines.iter().map(|&z| Cell::from(Some(half(x, z).max(0.0)))).collect();
+        station.keel_height = Some(0.0);
+        clean.stations.push(station);
+    }
+    clean.endings = waterlines.iter().map(|_| [Some(0.0), Some(length)]).collect();
+    // Three-point Gauss in cells between the breaks: the moments of y.
+    let cells = |to: f64, inner: &[f64]| -> Vec<[f64; 2]> {
+        let mut edges = vec![0.0];
+        edges.extend(inner);
+        edges.push(to);
+        let points = [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)];
+        let mut rule = Vec::new();
+        for pair in edges.windows(2) {
+            let h = (pair[1] - pair[0]) / 60.0;
+            for k in 0..60 {
+                let middle = pair[0] + h * (f64::from(k) + 0.5);
+                rule.extend(points.map(|(t, w)| [middle + 0.5 * h * t, 0.5 * h * w]));
+            }
+        }
+        rule
+    };
+    let (mut volume, mut moment) = (0.0, 0.0);
+    let across = cells(draught, breaks[1]);
+    for [x, weight] in cells(length, breaks[0]) {
+        let area: f64 = across.iter().map(|[z, w]| 2.0 * w * half(x, *z)).sum();
+        volume += weight * area;
+        moment += weight * area * x;
+    }
+    Truth {
+        length,
+        breadth,
+        draught,
+        half: Box::new(move |x, z| Some(half(x, z))),
+        clean,
+        volume,
+        lcb: moment / volume,
+        from: [0.0, 0.0],
+        to: [length, draught],
+    }
+}
+
+pub fn wigley() -> Truth {
+    let (xs, zs) = (steps(100.0, 21), steps(6.25, 11));
+    closed([100.0, 10.0, 6.25], [&xs, &zs], [&[], &[]], |x, z| {
+        let (s, w) = (2.0 * x / 100.0 - 1.0, 1.0 - z / 6.25);
+        5.0 * (1.0 - s * s) * (1.0 - w * w)
+    })
+}
+
+pub fn s_shaped() -> Truth {
+    let (xs, zs) = (steps(100.0, 21), steps(6.0, 11));
+    closed([100.0, 16.0, 6.0], [&xs, &zs], [&[50.0], &[4.0]], |x, z| {
+        let (a, m, w) = ((x / 50.0 - 1.0).abs(), 12.0 * z / 6.0 - 8.0, 1.0 - z / 6.0);
+        let r = |t: f64| match m {
+            m if m > 1e-9 => (m.sqrt() * t).cosh() - 1.0,
+            m if m < -1e-9 => 1.0 - ((-m).sqrt() * t).cos(),
+            _ => 0.5 * t * t,
+        };
+        8.0 * (1.0 - r(a) / r(1.0)) * (1.0 - w * w)
+    })
+}
+
+pub fn middle_body() -> Truth {
+    let (xs, zs) = (steps(100.0, 21), steps(6.0, 13));
+    closed([100.0, 16.0, 6.0], [&xs, &zs], [&[36.0, 64.0], &[17.0 / 3.0]], |x, z| {
+        let (t, m, w) = ((((x - 50.0).abs() - 14.0) / 36.0).max(0.0), 3.0 * z - 17.0, 1.0 - z / 6.0);
+        let q = |t: f64| match m {
+            m if m > 1e-6 => (m.sqrt() * t).sinh() - m.sqrt() * t,
+            m if m < -1e-6 => (-m).sqrt() * t - ((-m).sqrt() * t).sin(),
+            _ => t * t * t,
+        };
+        8.0 * (1.0 - q(t) / q(1.0)) * (1.0 - w.powi(3))
+    })
+}
+
+/// Radius of the bilge of [`bilge`] \[m\].
+const RADIUS: f64 = 5.0;
+
+/// Heights of the tangent points of the bilge of [`bilge`] \[m\].
+pub fn tangents() -> [f64; 2] {
+    let (slope, radius) = (30f64.to_radians(), RADIUS);
+    let corner = 7.2 * slope.tan();
+    let reach = radius * (0.5 * (0.5 * std::f64::consts::PI - slope)).tan();
+    [corner - reach * slope.sin(), corner + reach]
+}
+
+pub fn bilge() -> Truth {
+    let [low, high] = tangents();
+    let zs = [0.0, 0.9, 1.8, low, 3.3, 4.0, 4.8, 5.6, 6.4, high, 8.0, 9.0];
+    closed([100.0, 16.0, 9.0], [&steps(100.0, 21), &zs], [&[], &[low, high]], move |x, z| {
+        let s = 2.0 * x / 100.0 - 1.0;
+        let section = match z {
+            z if z <= low => 0.8 + z / 30f64.to_radians().tan(),
+            z if z < high => 8.0 - RADIUS + (RADIUS * RADIUS - (high - z).powi(2)).max(0.0).sqrt(),
+            _ => 8.0,
+        };
+        section * (1.0 - s * s)
+    })
+}
+
+/// A surface as truth, with the table that a draughtsman lifts from it.
+fn surface(hull: Hull, clean: OffsetTable) -> Truth {
+    let p = *hull.particulars();
+    let (first, last) = (clean.stations[0].station.x, clean.stations[clean.stations.len() - 1].station.x);
+    let (low, high) = (clean.waterlines[0], clean.waterlines[clean.waterlines.len() - 1]);
+    Truth {
+        length: p.length_between_perpendiculars,
+        breadth: p.breadth,
+        draught: p.draught,
+        volume: Constraint::Displacement(0.0).value(&hull),
+        lcb: Constraint::CentreOfBuoyancy(0.0).value(&hull),
+        clean,
+        from: [first, low],
+        to: [last, high],
+        half: Box::new(move |x, z| hull.half_breadth(x, z)),
+    }
+}
+
+/// The surface through a published table of `tests/data`, brought to 120 m where it is a model's.
+pub fn published(folder: &str) -> Truth {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(folder).join("offsets.csv");
+    let bytes = std::fs::read(&path).unwrap();
+    let table = read_table("offsets.csv", &bytes).unwrap_or_else(|problems| panic!("{folder}: {problems:?}")).table;
+    let hull = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
+    let mut clean = table;
+    clean.form = OffsetTable::default().form;
+    for station in &mut clean.stations {
+        for (cell, &z) in station.half_breadths.iter_mut().zip(&clean.waterlines) {
+            if cell.value().is_some() {
+                *cell = Cell::from(hull.half_breadth(station.station.x, z));
+            }
+        }
+    }
+    surface(hull, clean)
+}
+
+pub fn bulk_carrier() -> Truth {
+    let wishes = Wishes {
+        ship_type: Some(ShipType::BulkCarrier),
+        length: 217.0,
+        breadth: Some(32.25),
+        draught: Some(12.2),
+        block_coefficient: Some(0.80),
+        midship_coefficient: Some(MidshipWish::Value(0.99)),
+        ..Wishes::default()
+    };
+    let hull = cosh::generate("bulk carrier", &wishes).unwrap().hull;
+    let stations: Vec<OffsetStation> =
+        (0..21).map(|i| OffsetStation { name: format!("{i}"), x: 10.85 * f64::from(i) }).collect();
+    let clean = OffsetTable::from_hull(&hull, &stations, &steps(12.2, 13), &[]);
+    surface(hull, clean)
+}
+
+impl Truth {
+    /// The table with its errors: cells of the centreplane stay, as a draughtsman knows them.
+    pub fn table(&self, errors: Errors, seed: u64) -> OffsetTable {
+        let mut random = Random(seed.wrapping_mul(7919).wrapping_add(31));
+        let mut table = self.clean.clone();
+        let rounded = |y: f64, quantum: f64| (y / quantum).round() * quantum;
+        let mut cells = Vec::new();
+        for (i, station) in table.stations.iter_mut().enumerate() {
+            for (j, cell) in station.half_breadths.iter_mut().enumerate() {
+                let Some(y) = cell.value().filter(|&y| y > 1e-9) else { continue };
+                let (other, far) = match errors {
+                    Errors::Normal(sigma) => (y + sigma * random.normal(), true),
+                    Errors::Rounded(quantum) => (rounded(y, quantum), true),
+                    Errors::Eighths => (rounded(y, 0.0254 / 8.0), true),
+                    Errors::Typing => (rounded(y + 0.002 * random.normal(), 0.001), y > 1.0),
+                    Errors::Outliers => (y + 0.002 * random.normal(), y > 0.5),
+                };
+                cell.entry = Entry::Given(other.max(0.0));
+                if far {
+                    cells.push((i, j));
+                }
+            }
+        }
+        match errors {
+            Errors::Eighths => {
+                table.form.notation = Notation::FeetInchesEighths;
+                table.form.decimals = None;
+            }
+            Errors::Rounded(_) => table.form.decimals = Some(2),
+            Errors::Typing => {
+                table.form.decimals = Some(3);
+                swaps(&mut table, &cells, &mut random);
+            }
+            Errors::Outliers => {
+                for size in [0.1, 0.15, 0.3] {
+                    let (i, j) = cells.swap_remove(random.below(cells.len()));
+                    let cell = &mut table.stations[i].half_breadths[j];
+                    let y = cell.value().unwrap_or(0.0);
+                    cell.entry = Entry::Given(if random.below(2) == 0 { y + size } else { y - size });
+                }
+            }
+            Errors::Normal(_) => {}
+        }
+        table
+    }
+
+    /// The half-breadth of a cell without errors \[m\].
+    pub fn cell(&self, station: usize, waterline: usize) -> Option<f64> {
+        self.clean.stations[station].half_breadths[waterline].value()
+    }
+
+    /// The job that a user gives: the table, and displacement and LCB of the ship that is meant.
+    pub fn job(&self) -> Job {
+        let held = vec![Constraint::Displacement(self.volume), Constraint::CentreOfBuoyancy(self.lcb)];
+        Job { holding: Holding::Given(held), ..Job::default() }
+    }
+}
+
+/// Two neighbouring digits of the number in metres swapped in three cells, by at least 20 mm.
+fn swaps(table: &mut OffsetTable, cells: &[(usize, usize)], random: &mut Random) {
+    let mut done: Vec<(usize, usize)> = Vec::new();
+    for _ in 0..10_000 {
+        let (i, j) = cells[random.below(cells.len())];
+        let cell = &mut table.stations[i].half_breadths[j];
+        let y = cell.value().unwrap_or(0.0);
+        let mut text: Vec<char> = format!("{y:.3}").chars().collect();
+        let k = random.below(text.len() - 1);
+        if done.contains(&(i, j)) || text[k] == '.' || text[k + 1] == '.' {
+            continue;
+        }
+        text.swap(k, k + 1);
+        let text: String = text.into_iter().collect();
+        let wrong: f64 = text.parse().unwrap_or(y);
+        if (wrong - y).abs() < 0.02 {
+            continue;
+        }
+        *cell = Cell {
+            entry: Entry::Given(wrong),
+            marks: Marks::default(),
+            written: Some(Written { text, row: i + 2, column: j + 2 }),
+        };
+        done.push((i, j));
+        if done.len() == 3 {
+            return;
+        }
+    }
+}
+
+/// Tangent lines and knuckles along waterlines that the program itself proposes for a table, as lines of the table.
+pub fn found_lines(table: &OffsetTable) -> Vec<FeatureLine> {
+    let found = proposed_lines(table, &suspects(table));
+    let level = found.iter().filter(|line| line.course == LineCourse::Waterline);
+    level
+        .map(|line| FeatureLine {
+            name: format!("{} {:.3}", line.kind.as_str(), line.at),
+            kind: LineKind::Tangent,
+            points: table
+                .stations
+                .iter()
+                .map(|s| [s.station.x, on(table, &s.half_breadths, line.at), line.at])
+                .collect(),
+        })
+        .collect()
+}
+
+/// The half-breadth of a station between its offsets.
+fn on(table: &OffsetTable, cells: &[Cell], z: f64) -> f64 {
+    let known: Vec<[f64; 2]> =
+        table.waterlines.iter().zip(cells).filter_map(|(&z, cell)| Some([z, cell.value()?])).collect();
+    let k = known.partition_point(|p| p[0] < z).clamp(1, known.len() - 1);
+    let [a, b] = [known[k - 1], known[k]];
+    a[1] + (b[1] - a[1]) * (z - a[0]) / (b[0] - a[0])
+}
+
+/// A case of the benchmark.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// Name of the truth.
+    pub name: &'static str,
+    /// Which truth.
+    pub truth: fn() -> Truth,
+    /// Which errors.
+    pub errors: Errors,
+    /// The lines that the program proposes are declared.
+    pub lines: bool,
+}
+
+impl Case {
+    /// Truth, errors, and whether lines are declared.
+    pub fn title(&self) -> String {
+        format!("{}, {}{}", self.name, self.errors.words(), if self.lines { ", lines found" } else { "" })
+    }
+}
+
+fn series60() -> Truth {
+    published("series60_cb060")
+}
+
+fn s175() -> Truth {
+    published("s175")
+}
+
+/// Every case of the benchmark. The third error is 0.5 % of B/2.
+pub fn cases() -> Vec<Case> {
+    type Kind = (&'static str, fn() -> Truth, f64, bool);
+    let truths: [Kind; 7] = [
+        ("Wigley", wigley, 0.025, false),
+        ("S-shaped", s_shaped, 0.04, false),
+        ("middle body", middle_body, 0.04, false),
+        ("bilge", bilge, 0.04, true),
+        ("bulk carrier", bulk_carrier, 0.0806, false),
+        ("Series 60", series60, 0.0406, false),
+        ("S-175", s175, 0.0635, false),
+    ];
+    let mut list = Vec::new();
+    for (name, truth, half_percent, lines) in truths {
+        let kinds = [
+            Errors::Normal(0.002),
+            Errors::Normal(0.01),
+            Errors::Normal(half_percent),
+            Errors::Rounded(0.05),
+            Errors::Eighths,
+            Errors::Typing,
+            Errors::Outliers,
+        ];
+        list.extend(kinds.map(|errors| Case { name, truth, errors, lines }));
+    }
+    list
+}
