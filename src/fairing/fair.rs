@@ -8,7 +8,7 @@
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
 use super::bends::Line;
-use super::constraint::{Constraint, breadths};
+use super::constraint::{Constraint, breadths, control_values};
 use super::guard::{Guarded, Question};
 use super::infeasible::{Diagnosis, diagnose};
 use super::least::TableLine;
@@ -224,6 +224,11 @@ pub fn fair_prepared(
     let (mut programs, mut iterations) = (1, solved.solution.iterations);
     let mut diagnosis = None;
     if solved.solution.status != Status::Optimal {
+        // A compromise may lie far from the smoothed net: the limits of a hull are needed everywhere.
+        let mut limits = breadths(hull, &first, greatest, f64::INFINITY);
+        limits.extend(control_values(&smoother.reduced.free, greatest));
+        let wishes = Wishes { breadths: limits, ..wishes.clone() };
+        program = Program::new(model, smoother, lambda, &wishes, None);
         let found = diagnose(&program, &settings.solver)?;
         programs += 1 + 2 * found.reaches.len();
         if let Some(factor) = found.widening {

@@ -245,7 +245,7 @@ mod tests {
             let mut points = Vec::new();
             for i in 0..4_u32 {
                 for j in 0..4_u32 {
-                    let (a, b) = (100.0 / 40.0, (skew + 30.0) / 40.0);
+                    let (a, b): (f64, f64) = (100.0 / 40.0, (skew + 30.0) / 40.0);
                     // Coefficients of u^k v^(3-k) in Bernstein form: falling factorials.
                     let binomial = [1.0, 3.0, 3.0, 1.0];
                     let fall = |n: u32, k: u32| (0..k).map(|m| f64::from(n) - f64::from(m)).product::<f64>();

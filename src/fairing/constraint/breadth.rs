@@ -38,3 +38,9 @@ pub fn breadths(hull: &Hull, net: &[f64], greatest: f64, margin: f64) -> Vec<Lim
     }
     limits
 }
+
+/// Limits of the control values themselves: from `-greatest` to `2 greatest` \[m\], which the net of any hull keeps.
+#[must_use]
+pub fn control_values(free: &[usize], greatest: f64) -> Vec<Limit> {
+    free.iter().map(|&i| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest }).collect()
+}
