@@ -8,9 +8,9 @@
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
 use super::bends::Line;
-use super::constraint::{Constraint, breadths, control_values};
+use super::constraint::{Constraint, between, breadths, broken};
 use super::guard::{Guarded, Question};
-use super::infeasible::{Diagnosis, diagnose};
+use super::infeasible::{Diagnosis, least_widening, reaches};
 use super::least::TableLine;
 use super::model::{Limit, Model};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
@@ -23,6 +23,16 @@ use crate::qp::{ProblemError, Settings, Status};
 
 /// Room above the least widening, for an interior to solve in.
 const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
+
+/// What an answer may break a limit of half-breadths by, over the greatest one.
+const LIMIT_SLACK: f64 = 1e-6;
+
+/// What the surface may move between the offsets beyond the tolerance, over the greatest half-breadth: room for the swings of a
+/// table's own surface, none for a displacement that is had by waves.
+const ROOM_BETWEEN: f64 = 0.02;
+
+/// Most times that limits are added that an answer breaks.
+const LIMIT_ROUNDS: usize = 10;
 
 /// Dearest pattern, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
@@ -211,47 +221,19 @@ pub fn fair_prepared(
     let greatest = widest.max(0.5 * hull.particulars().breadth);
     let first = smoother.reduced.expand(&smoothed.free);
     let constraints: Vec<Limit> = settings.constraints.iter().map(|constraint| constraint.limit(hull)).collect();
-    let wishes = Wishes {
+    let mut wishes = Wishes {
         constraints,
         breadths: breadths(hull, &first, greatest, 2.0 * sigma),
-        bends: Vec::new(),
         widening: 1.0,
+        ..Wishes::default()
     };
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
-    let mut program = Program::new(model, smoother, lambda, &wishes, None);
-    let mut solved = program.solve(model, smoother, lambda, &settings.solver)?;
-    let (mut programs, mut iterations) = (1, solved.solution.iterations);
-    let mut diagnosis = None;
-    if solved.solution.status != Status::Optimal {
-        // A compromise may lie far from the smoothed net: the limits of a hull are needed everywhere.
-        let mut limits = breadths(hull, &first, greatest, f64::INFINITY);
-        limits.extend(control_values(&smoother.reduced.free, greatest));
-        let wishes = Wishes { breadths: limits, ..wishes.clone() };
-        program = Program::new(model, smoother, lambda, &wishes, None);
-        let found = diagnose(&program, &settings.solver)?;
-        programs += 1 + 2 * found.reaches.len();
-        if let Some(factor) = found.widening {
-            // The best compromise: every wish, with tolerances as wide as they must be and some room to solve in.
-            for room in ROOMS {
-                let wider = Wishes { widening: factor.max(1.0) * (1.0 + room), ..wishes.clone() };
-                let compromise = Program::new(model, smoother, lambda, &wider, None);
-                let answer = compromise.solve(model, smoother, lambda, &settings.solver)?;
-                programs += 1;
-                iterations += answer.solution.iterations;
-                if answer.is_optimal() {
-                    (program, solved) = (compromise, answer);
-                    break;
-                }
-            }
-        }
-        if !solved.is_optimal() {
-            // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
-            solved.net.clone_from(&surface.start);
-            solved.solution.x = smoother.reduced.free.iter().map(|&i| surface.start[i]).collect();
-        }
-        diagnosis = Some(found);
-    }
+    // The net of a fit goes through its table; a net of its own follows it as it was smoothed.
+    let reference = if surface.own { &first } else { &surface.start };
+    let basic = Basic { surface, model, smoother, lambda, reference, greatest, solver: &settings.solver };
+    let (answer, diagnosis) = basic.solve(&mut wishes)?;
+    let Answer { mut program, mut solved, mut programs, mut iterations, .. } = answer;
     let (mut patterns, mut price) = (None, 0.0);
     if settings.signs && diagnosis.is_none() && surface.own && solved.is_optimal() {
         let free = solved.objective;
@@ -279,7 +261,7 @@ pub fn fair_prepared(
         }
     }
     let mut guarded = None;
-    if settings.signs && diagnosis.is_none() && solved.is_optimal() {
+    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
         let question = Question {
             surface,
             model,
@@ -333,6 +315,107 @@ pub fn fair_prepared(
         programs,
         iterations,
     })
+}
+
+/// The program without signs.
+struct Basic<'a> {
+    surface: &'a FairSurface,
+    model: &'a Model,
+    smoother: &'a Smoother,
+    lambda: f64,
+    /// The net from which the surface must not move far between the offsets.
+    reference: &'a [f64],
+    /// Greatest half-breadth \[m\].
+    greatest: f64,
+    solver: &'a Settings,
+}
+
+/// What it comes to.
+struct Answer {
+    program: Program,
+    solved: Solved,
+    /// Every wish is met.
+    met: bool,
+    /// The least factor on the tolerances; none when no factor makes a hull.
+    least: Option<f64>,
+    /// The factor that was taken; none when nothing was solved.
+    widening: Option<f64>,
+    programs: usize,
+    iterations: usize,
+}
+
+impl Basic<'_> {
+    /// Solves it, or the best compromise, and again with the limits that the answer breaks far from where they were expected to
+    /// matter, until it breaks none.
+    fn solve(&self, wishes: &mut Wishes) -> Result<(Answer, Option<Diagnosis>), FairError> {
+        let mut tolerances: Vec<f64> = self.model.readings.iter().filter_map(|reading| reading.tolerance).collect();
+        tolerances.sort_by(f64::total_cmp);
+        let tolerance = tolerances.get(tolerances.len() / 2).copied().unwrap_or(f64::INFINITY);
+        let (mut programs, mut iterations, mut rounds) = (0, 0, 0);
+        loop {
+            let (plain, mut answer) = self.attempt(wishes)?;
+            programs += answer.programs;
+            iterations += answer.iterations;
+            rounds += 1;
+            if let (Some(widening), true) = (answer.widening, rounds < LIMIT_ROUNDS) {
+                let (hull, net) = (&self.surface.hull, &answer.solved.net);
+                let slack = LIMIT_SLACK * self.greatest;
+                let limits = broken(hull, net, &self.surface.start, self.greatest, slack);
+                let bands = [tolerance, widening, ROOM_BETWEEN * self.greatest];
+                let bands = between(hull, net, self.reference, bands, slack);
+                if !(limits.is_empty() && bands.is_empty()) {
+                    wishes.breadths.extend(limits);
+                    wishes.between.extend(bands);
+                    continue;
+                }
+            }
+            let diagnosis = match answer.met {
+                true => None,
+                false => Some(Diagnosis { widening: answer.least, reaches: reaches(&plain, self.solver)? }),
+            };
+            programs += diagnosis.as_ref().map_or(0, |found| 2 * found.reaches.len());
+            (answer.programs, answer.iterations) = (programs, iterations);
+            return Ok((answer, diagnosis));
+        }
+    }
+
+    /// One program, and its compromise when it has no answer: every wish, with tolerances as wide as they must be and some room to
+    /// solve in.
+    fn attempt(&self, wishes: &Wishes) -> Result<(Program, Answer), FairError> {
+        let (model, smoother, lambda) = (self.model, self.smoother, self.lambda);
+        let program = Program::new(model, smoother, lambda, wishes, None);
+        let solved = program.solve(model, smoother, lambda, self.solver)?;
+        let iterations = solved.solution.iterations;
+        let met = solved.is_optimal();
+        let one = met.then_some(1.0);
+        let mut answer =
+            Answer { program: program.clone(), solved, met, least: one, widening: one, programs: 1, iterations };
+        if met {
+            return Ok((program, answer));
+        }
+        answer.programs += 1;
+        answer.least = least_widening(&program, self.solver)?;
+        if let Some(least) = answer.least {
+            for room in ROOMS {
+                let widening = least.max(1.0) * (1.0 + room);
+                let wider = Wishes { widening, ..wishes.clone() };
+                let compromise = Program::new(model, smoother, lambda, &wider, None);
+                let solved = compromise.solve(model, smoother, lambda, self.solver)?;
+                answer.programs += 1;
+                answer.iterations += solved.solution.iterations;
+                if solved.is_optimal() {
+                    (answer.program, answer.solved, answer.widening) = (compromise, solved, Some(widening));
+                    break;
+                }
+            }
+        }
+        if answer.widening.is_none() {
+            // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
+            answer.solved.net.clone_from(&self.surface.start);
+            answer.solved.solution.x = smoother.reduced.free.iter().map(|&i| self.surface.start[i]).collect();
+        }
+        Ok((program, answer))
+    }
 }
 
 impl Faired {

@@ -1,7 +1,7 @@
 //! When the wishes cannot all be had: how far each would have to give way, by linear programs over the same rows.
 //!
-//! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s delta_k and
-//!   the rest.
+//! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s delta_k (and s delta_k
+//!   besides the room between the offsets), and the rest.
 //! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave, min and max
 //!   of its row. The distance from its target to that interval is what it would have to give.
 
@@ -38,7 +38,7 @@ impl Diagnosis {
     }
 }
 
-/// The least factor on the tolerances.
+/// The least factor on the tolerances of a program whose tolerances are not widened.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
@@ -47,18 +47,16 @@ pub fn least_widening(program: &Program, settings: &Settings) -> Result<Option<f
     let n = problem.linear.len();
     let mut rows = SparseRows::new(n + 1);
     let (mut lower, mut upper) = (Vec::new(), Vec::new());
-    for (k, name) in program.names.iter().enumerate() {
+    for (k, &tolerance) in program.tolerances.iter().enumerate() {
         let (columns, values) = problem.rows.row(k);
         let row = || columns.iter().copied().zip(values.iter().copied());
         let (low, high) = (problem.lower[k], problem.upper[k]);
-        let half = 0.5 * (high - low);
-        if matches!(name, RowName::Tolerance(_)) && half > 0.0 {
-            let middle = 0.5 * (low + high);
-            rows.push(row().chain([(n, -half)]));
+        if tolerance > 0.0 {
+            rows.push(row().chain([(n, -tolerance)]));
             lower.push(f64::NEG_INFINITY);
-            upper.push(middle);
-            rows.push(row().chain([(n, half)]));
-            lower.push(middle);
+            upper.push(high - tolerance);
+            rows.push(row().chain([(n, tolerance)]));
+            lower.push(low + tolerance);
             upper.push(f64::INFINITY);
         } else {
             rows.push(row());
@@ -99,11 +97,11 @@ fn reach(program: &Program, row: usize, settings: &Settings) -> Result<Option<[f
     Ok(Some(ends))
 }
 
-/// Everything that can be said of a program without a solution.
+/// What each constraint alone could be.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
-pub fn diagnose(program: &Program, settings: &Settings) -> Result<Diagnosis, ProblemError> {
+pub fn reaches(program: &Program, settings: &Settings) -> Result<Vec<Reach>, ProblemError> {
     let mut reaches = Vec::new();
     for (row, name) in program.names.iter().enumerate() {
         let RowName::Constraint(constraint) = *name else { continue };
@@ -112,5 +110,5 @@ pub fn diagnose(program: &Program, settings: &Settings) -> Result<Diagnosis, Pro
         let missing = interval.map(|[low, high]| (lower - high).max(low - upper).max(0.0));
         reaches.push(Reach { constraint, row: interval, missing });
     }
-    Ok(Diagnosis { widening: least_widening(program, settings)?, reaches })
+    Ok(reaches)
 }

@@ -44,6 +44,9 @@ fn terms(order: usize, [a, b, c]: [f64; 3]) -> Vec<(f64, usize, usize)> {
 /// Highest derivative of y in the energy of order n.
 const HIGHEST: usize = 4;
 
+/// Rate of the other parameter below which a line is one of the net.
+const SKEW: f64 = 1e-9;
+
 /// The form of d^(n-2)kappa/ds^(n-2) over the local basis and the weight of its square, at one point.
 struct Form {
     row: Vec<f64>,
@@ -74,8 +77,9 @@ impl Point<'_> {
         let a = -level / steep;
         let b = -along(held, 2, [a, 0.0, 0.0]) / steep;
         let c = -along(held, 3, [a, b, 0.0]) / steep;
-        let turn = [a, b, c];
-        let skew = turn.iter().any(|rate| rate.abs() > 0.0);
+        // On a line of the net they are zero but for rounding.
+        let skew = [a, b, c].iter().any(|rate| rate.abs() > SKEW);
+        let turn = if skew { [a, b, c] } else { [0.0; 3] };
         if order == 4 && skew {
             return None;
         }

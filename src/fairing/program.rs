@@ -23,6 +23,8 @@ pub enum RowName {
     Bend(usize),
     /// A limit of the half-breadth at a point of the surface: its index.
     Breadth(usize),
+    /// A limit of what the surface moves between the offsets: its index.
+    Between(usize),
 }
 
 /// Everything that is wished.
@@ -32,10 +34,25 @@ pub struct Wishes {
     pub constraints: Vec<Limit>,
     /// Limits of half-breadths.
     pub breadths: Vec<Limit>,
+    /// Limits of what the surface moves between the offsets: with the tolerance that widens \[m\] and the room that does not \[m\].
+    pub between: Vec<Between>,
     /// Signs of curvature that single lines keep.
     pub bends: Vec<Limit>,
     /// Multiplies every tolerance.
     pub widening: f64,
+}
+
+/// |a y - d| <= tolerance times widening + room.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Between {
+    /// The row a over the net.
+    pub row: Vec<(usize, f64)>,
+    /// d \[m\].
+    pub value: f64,
+    /// Tolerance \[m\].
+    pub tolerance: f64,
+    /// Room besides \[m\].
+    pub room: f64,
 }
 
 /// A program ready to be solved.
@@ -45,6 +62,8 @@ pub struct Program {
     pub problem: Problem,
     /// What each row stands for.
     pub names: Vec<RowName>,
+    /// Tolerance of each row \[m\]: what either limit gives for a widening by one.
+    pub tolerances: Vec<f64>,
 }
 
 /// A solved program.
@@ -90,9 +109,9 @@ impl Program {
             lower: Vec::new(),
             upper: Vec::new(),
         };
-        let mut names = Vec::new();
+        let (mut names, mut tolerances) = (Vec::new(), Vec::new());
         let reduced = &smoother.reduced;
-        let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64| {
+        let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64, tolerance: f64| {
             let (row, offset) = reduced.row(row);
             if row.iter().all(|(_, value)| value.abs() < 1e-14) {
                 return;
@@ -101,14 +120,15 @@ impl Program {
             problem.lower.push(lower - offset);
             problem.upper.push(upper - offset);
             names.push(name);
+            tolerances.push(tolerance);
         };
         for (k, limit) in wishes.constraints.iter().enumerate() {
-            add(RowName::Constraint(k), &limit.row, limit.lower, limit.upper);
+            add(RowName::Constraint(k), &limit.row, limit.lower, limit.upper, 0.0);
         }
         for (k, reading) in model.readings.iter().enumerate() {
             if let Some(tolerance) = reading.tolerance.filter(|_| reading.weight > 0.0) {
                 let band = tolerance * wishes.widening;
-                add(RowName::Tolerance(k), &reading.row, reading.value - band, reading.value + band);
+                add(RowName::Tolerance(k), &reading.row, reading.value - band, reading.value + band, tolerance);
             }
         }
         if let Some((forms, patterns)) = signs {
@@ -119,17 +139,21 @@ impl Program {
                         1.. => (0.0, f64::INFINITY),
                         _ => (f64::NEG_INFINITY, 0.0),
                     };
-                    add(RowName::Sign(which, k), &forms.rows[k], limits.0, limits.1);
+                    add(RowName::Sign(which, k), &forms.rows[k], limits.0, limits.1, 0.0);
                 }
             }
         }
         for (k, limit) in wishes.bends.iter().enumerate() {
-            add(RowName::Bend(k), &limit.row, limit.lower, limit.upper);
+            add(RowName::Bend(k), &limit.row, limit.lower, limit.upper, 0.0);
         }
         for (k, limit) in wishes.breadths.iter().enumerate() {
-            add(RowName::Breadth(k), &limit.row, limit.lower, limit.upper);
+            add(RowName::Breadth(k), &limit.row, limit.lower, limit.upper, 0.0);
         }
-        Self { problem, names }
+        for (k, limit) in wishes.between.iter().enumerate() {
+            let band = limit.tolerance * wishes.widening + limit.room;
+            add(RowName::Between(k), &limit.row, limit.value - band, limit.value + band, limit.tolerance);
+        }
+        Self { problem, names, tolerances }
     }
 
     /// The same rows with the objective of another energy over the same unknowns.

@@ -33,6 +33,9 @@ const CORNER: f64 = 1e-9;
 /// Part of an area by which a cubic between stations may be wrong where it alone shows a maximum.
 const INTERPOLATION: f64 = 1e-4;
 
+/// Part of an area by which such a maximum rises above the stations beside it.
+const RISE: f64 = 1e-7;
+
 /// Sections below one draught.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Sections {
@@ -218,7 +221,7 @@ impl<'a, const N: usize> Table<'a, N> {
             let cubic = Cubic::new(&a, &b);
             let Some(x) = cubic.maximum() else { continue };
             let value = cubic.value(x);
-            if value > best.area * (1.0 - INTERPOLATION) && value > a.area.max(b.area) + INTERPOLATION * best.area {
+            if value > best.area * (1.0 - INTERPOLATION) && value > a.area.max(b.area) + RISE * best.area {
                 samples.insert(k, self.exact(x, immersion));
                 take(samples[k], &mut best);
             }

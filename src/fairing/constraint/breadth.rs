@@ -4,6 +4,7 @@
 //! Between the points of the grid the surface may pass a limit by h^2/8 times its second derivative, h a quarter of a span.
 
 use super::super::model::{Limit, value};
+use super::super::program::Between;
 use super::super::surface::basis_row;
 use crate::hull::Hull;
 use crate::spline::KnotVector;
@@ -39,8 +40,43 @@ pub fn breadths(hull: &Hull, net: &[f64], greatest: f64, margin: f64) -> Vec<Lim
     limits
 }
 
-/// Limits of the control values themselves: from `-greatest` to `2 greatest` \[m\], which the net of any hull keeps.
+/// Limits that `net` breaks by more than `slack` \[m\]: of the surface, where `start` does not break them as well, and of the control
+/// values, which on any hull lie between `-greatest` and `2 greatest`.
 #[must_use]
-pub fn control_values(free: &[usize], greatest: f64) -> Vec<Limit> {
-    free.iter().map(|&i| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest }).collect()
+pub fn broken(hull: &Hull, net: &[f64], start: &[f64], greatest: f64, slack: f64) -> Vec<Limit> {
+    let mut limits = breadths(hull, net, greatest, -slack);
+    for limit in &mut limits {
+        let own = value(&limit.row, start);
+        (limit.lower, limit.upper) = (limit.lower.min(own), limit.upper.max(own));
+    }
+    limits.retain(|limit| {
+        let y = value(&limit.row, net);
+        y < limit.lower - slack || y > limit.upper + slack
+    });
+    let outside = |y: f64| !(-greatest..=2.0 * greatest).contains(&y);
+    let far = net.iter().enumerate().filter(|(_, y)| outside(**y));
+    limits.extend(far.map(|(i, _)| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest }));
+    limits
+}
+
+/// Limits of what the surface moves between the offsets that `net` breaks by more than `slack` \[m\], at the same points: `tolerance`
+/// times `widening` and `room` \[m\] about `reference`.
+#[must_use]
+pub fn between(
+    hull: &Hull,
+    net: &[f64],
+    reference: &[f64],
+    [tolerance, widening, room]: [f64; 3],
+    slack: f64,
+) -> Vec<Between> {
+    let surface = hull.surface();
+    let (us, vs) = (sites(surface.u()), sites(surface.v()));
+    let points = us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v]));
+    let far = points.filter_map(|at| {
+        let row = basis_row(surface, at, [0, 0]);
+        let middle = value(&row, reference);
+        let moved = (value(&row, net) - middle).abs();
+        (moved > tolerance * widening + room + slack).then_some(Between { row, value: middle, tolerance, room })
+    });
+    far.collect()
 }

@@ -138,7 +138,7 @@ impl Constraint {
     }
 }
 
-pub use breadth::{breadths, control_values};
+pub use breadth::{between, breadths, broken};
 
 /// A dense row without its zeros, times a factor.
 fn compressed(row: &[f64], factor: f64) -> Row {
