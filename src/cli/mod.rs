@@ -3,6 +3,7 @@
 
 mod check;
 mod convert;
+mod export;
 mod fair;
 mod fair_curve;
 mod fit;
@@ -63,6 +64,8 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
+    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB
+    Export(export::Arguments),
     /// Read a table of offsets and write it in its own notation and layout, or in others
     Convert(convert::Arguments),
     /// The curves in which a plane cuts a hull
@@ -107,6 +110,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),
         Command::Section(arguments) => section::run(arguments),
         Command::Inspect(arguments) => inspect::run(arguments),

@@ -1,12 +1,14 @@
 //! Files that other programs, or this one, read and write: one file a format. Text in, values out, and back; the file
 //! system is the business of whoever calls.
 
+mod cad;
 mod curve;
 mod fairing;
 mod hgf;
 mod hull_json;
 mod hydrostatics;
 mod manifest;
+mod mesh;
 mod number;
 mod offsets;
 mod residuals;
@@ -14,12 +16,14 @@ mod section;
 mod summary;
 mod table;
 
+pub use cad::{CadUnit, DxfLine, write_dxf, write_iges, write_step};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use fairing::{RoundingEffect, changes_csv, fairing_json, reached, status_word};
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
 pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
+pub use mesh::{write_glb, write_obj, write_stl, write_stl_ascii};
 pub use offsets::{heights_csv, offsets_csv};
 pub use residuals::residuals_csv;
 pub use section::{section_csv, section_json};

@@ -10,9 +10,11 @@ mod fit;
 mod form;
 mod functional;
 mod immersion;
+mod mesh;
 mod offsets;
 mod particulars;
 mod section;
+mod solid;
 mod table_form;
 
 pub(crate) use area::KnotLines;
@@ -26,7 +28,9 @@ pub use fit::{
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
+pub use mesh::{HullMesh, MeshReport, Region, whole_volume};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
+pub use solid::{Edge, Solid, SolidFace};
 pub use table_form::{Kept, Order, Origin, Program, Rows, SideKind, SideLine, TableForm, TableLayout};

@@ -2,6 +2,7 @@
 
 mod check;
 mod convert;
+mod export;
 mod failure;
 mod fair;
 mod fair_curve;
@@ -20,6 +21,7 @@ mod validate;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use convert::{Converted, convert_table};
+pub use export::{ExportFormat, ExportSettings, Exported, export};
 pub use failure::Failure;
 pub use fair::{FairJob, FairOutputs, fair_outputs, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};

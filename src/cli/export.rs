@@ -1,0 +1,107 @@
+//! `loftsman export HULL`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{length, stream};
+use crate::exchange::CadUnit;
+use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, write_all};
+
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(super) struct Arguments {
+    /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
+    hull: PathBuf,
+    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb
+    #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
+    format: Vec<ExportFormat>,
+    /// Folder for the files [default: out/<name of the input>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
+    #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
+    unit: CadUnit,
+    /// What meshes and polylines leave the surface by at most; without it a thousandth of the breadth
+    #[arg(long, value_parser = positive, value_name = "LENGTH")]
+    deviation: Option<f64>,
+    /// Cells of a mesh across deck, bottom and transom
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
+    across: u16,
+    /// Height above the base line that is z = 0 in the files: a length, or `waterline` for the design draught
+    #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
+    datum: Datum,
+    /// Overwrite files that are there already
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const AFTER: &str = "\
+step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same faces as \
+entities 128. Where the deck at side cuts the surface, the faces below it are interpolated, and the page says how closely.
+dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS.
+stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
+and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
+x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
+
+#[derive(Debug, Clone, Copy)]
+enum Datum {
+    Height(f64),
+    Waterline,
+}
+
+fn format(text: &str) -> Result<ExportFormat, String> {
+    let found = ExportFormat::ALL.into_iter().find(|format| format.name() == text.trim());
+    found.ok_or_else(|| {
+        let names: Vec<&str> = ExportFormat::ALL.iter().map(|format| format.name()).collect();
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+fn unit(text: &str) -> Result<CadUnit, String> {
+    match text {
+        "m" => Ok(CadUnit::Metre),
+        "mm" => Ok(CadUnit::Millimetre),
+        _ => Err("expected m or mm".to_owned()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match length(text)? {
+        value if value > 0.0 => Ok(value),
+        _ => Err("must be more than 0".to_owned()),
+    }
+}
+
+fn datum(text: &str) -> Result<Datum, String> {
+    if text == "waterline" { Ok(Datum::Waterline) } else { length(text).map(Datum::Height) }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let source = read_source(&arguments.hull)?;
+    let stem = arguments.hull.file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
+    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
+    let datum = match arguments.datum {
+        Datum::Height(height) => height,
+        Datum::Waterline => source.hull.particulars().draught,
+    };
+    let settings = ExportSettings {
+        unit: arguments.unit,
+        deviation: arguments.deviation,
+        across: usize::from(arguments.across),
+        datum,
+    };
+    let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
+    write_all(&folder, &exported.files, arguments.force)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    for note in &source.notes {
+        stream::message(note);
+    }
+    let names: Vec<&str> = exported.files.iter().map(|file| file.name.as_str()).collect();
+    stream::data(&format!("{}\nWritten to {}: {}\n", exported.page, folder.display(), names.join(", ")))
+}

@@ -1,0 +1,311 @@
+//! A closed mesh of triangles over the body of a hull, up to its deck.
+//!
+//! Vertices lie on the surface, on a grid of its parameters: each span of the knots is cut into as many parts as the second
+//! derivatives ask for. A triangle over a cell of h by k parameters is off the surface by at most
+//!
+//! ```text
+//! (h^2 |S_uu| + 2 h k |S_uv| + k^2 |S_vv|) / 8,
+//! ```
+//!
+//! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. Halving
+//! the tolerance therefore halves the error of the volume: second order in the length of edges. Knots are lines of the mesh, so
+//! that knuckles are edges. Where the deck cuts the surface, the upper rows are drawn down to the deck.
+//!
+//! The faces that close the body (bottom, transom, flat bow, deck) are strips between the two sides that share their vertices,
+//! cut across into equal parts. What has no breadth has no faces.
+
+use super::form::Hull;
+use super::functional::Functional;
+use std::collections::HashMap;
+
+/// Half-breadths below this part of the greatest are on the centreplane.
+const CENTREPLANE: f64 = 1e-9;
+
+/// Points of a span at which second derivatives are looked at, from its first knot to its last.
+const SITES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// Most parts of a span.
+const MOST_PARTS: usize = 400;
+
+/// Part of the height of the lowest deck below which rows are not moved to the deck.
+const UNMOVED: f64 = 0.75;
+
+/// Which face of the body a triangle belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Region {
+    /// The surface of the hull, both sides.
+    Hull,
+    /// The flat of bottom, or the strip across the keel line.
+    Bottom,
+    /// The transom.
+    Transom,
+    /// A flat bow.
+    Bow,
+    /// The deck.
+    Deck,
+}
+
+impl Region {
+    /// All of them, in the order of files.
+    pub const ALL: [Self; 5] = [Self::Hull, Self::Bottom, Self::Transom, Self::Bow, Self::Deck];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hull => "hull",
+            Self::Bottom => "bottom",
+            Self::Transom => "transom",
+            Self::Bow => "bow",
+            Self::Deck => "deck",
+        }
+    }
+}
+
+/// A closed mesh of triangles, normals outward (right-hand rule).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HullMesh {
+    /// Vertices \[m\], each once.
+    pub vertices: Vec<[f64; 3]>,
+    /// Triangles as indices of vertices, by region in the order of [`Region::ALL`].
+    pub triangles: Vec<(Region, [usize; 3])>,
+}
+
+/// What can be said of a mesh without knowing where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshReport {
+    /// Every edge belongs to two triangles that run through it in opposite directions.
+    pub closed: bool,
+    /// Edges.
+    pub edges: usize,
+    /// Edges that belong to one triangle, or to more than two.
+    pub open_edges: usize,
+    /// Smallest angle of a triangle \[rad\].
+    pub least_angle: f64,
+    /// Volume (1/6) sum of a.(b x c) \[m^3\].
+    pub volume: f64,
+    /// Area of all triangles \[m^2\].
+    pub area: f64,
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn length(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// Parameters of the lines of the grid in u and in v.
+fn lines(hull: &Hull, deviation: f64) -> [Vec<f64>; 2] {
+    let surface = hull.surface();
+    let breaks = [surface.u().breakpoints(), surface.v().breakpoints()];
+    let mut parts = [vec![1_usize; breaks[0].len() - 1], vec![1_usize; breaks[1].len() - 1]];
+    for i in 0..parts[0].len() {
+        for j in 0..parts[1].len() {
+            let (u0, v0) = (breaks[0][i], breaks[1][j]);
+            let [h, k] = [breaks[0][i + 1] - u0, breaks[1][j + 1] - v0];
+            let mut bend = [0.0_f64; 3];
+            for s in SITES {
+                for t in SITES {
+                    // Not quite on the last knot, where the next span begins.
+                    let at = [u0 + h * s.min(1.0 - 1e-9), v0 + k * t.min(1.0 - 1e-9)];
+                    let d = surface.derivatives::<3>(at[0], at[1]);
+                    bend[0] = bend[0].max(length(d[2][0]) * h * h);
+                    bend[1] = bend[1].max(length(d[1][1]) * h * k);
+                    bend[2] = bend[2].max(length(d[0][2]) * k * k);
+                }
+            }
+            // Terms of the head, each a third.
+            let third = deviation / 3.0;
+            let mut m = (bend[0] / (8.0 * third)).sqrt();
+            let mut n = (bend[2] / (8.0 * third)).sqrt();
+            let twist = bend[1] / (4.0 * third) / (m.max(1.0) * n.max(1.0));
+            if twist > 1.0 {
+                m = m.max(1.0) * twist.sqrt();
+                n = n.max(1.0) * twist.sqrt();
+            }
+            let whole = |x: f64| (x.ceil().max(1.0) as usize).min(MOST_PARTS);
+            parts[0][i] = parts[0][i].max(whole(m));
+            parts[1][j] = parts[1][j].max(whole(n));
+        }
+    }
+    let cut = |breaks: &[f64], parts: &[usize]| -> Vec<f64> {
+        let inner = breaks.windows(2).zip(parts).flat_map(|(w, &count)| {
+            let (from, width) = (w[0], w[1] - w[0]);
+            (0..count).map(move |k| from + width * k as f64 / count as f64)
+        });
+        inner.chain(breaks.last().copied()).collect()
+    };
+    [cut(&breaks[0], &parts[0]), cut(&breaks[1], &parts[1])]
+}
+
+/// The parameter v at which the line `u` passes the deck at side, its upper end where it stays below.
+pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
+    let surface = hull.surface();
+    let (mut low, mut high) = surface.v().domain();
+    let above = |v: f64| {
+        let point = surface.eval(u, v);
+        point[2] - hull.deck_height(point[0])
+    };
+    let slack = 1e-9 * (hull.top() - hull.bottom());
+    if above(high) <= slack {
+        return high;
+    }
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if above(middle) > 0.0 { high = middle } else { low = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Builds a mesh, each vertex once.
+#[derive(Default)]
+struct Builder {
+    mesh: HullMesh,
+    known: HashMap<[u64; 3], usize>,
+}
+
+impl Builder {
+    fn vertex(&mut self, point: [f64; 3]) -> usize {
+        // -0 is 0.
+        let point = point.map(|c| c + 0.0);
+        let next = self.mesh.vertices.len();
+        let place = *self.known.entry(point.map(f64::to_bits)).or_insert(next);
+        if place == next {
+            self.mesh.vertices.push(point);
+        }
+        place
+    }
+
+    fn triangle(&mut self, region: Region, corners: [[f64; 3]; 3]) {
+        if corners.iter().all(|corner| corner[1].abs() <= 0.0) && region == Region::Hull {
+            return;
+        }
+        let [a, b, c] = corners.map(|corner| self.vertex(corner));
+        if a != b && b != c && c != a {
+            self.mesh.triangles.push((region, [a, b, c]));
+        }
+    }
+
+    /// A cell with corners in turn, cut along its shorter diagonal.
+    fn cell(&mut self, region: Region, [a, b, c, d]: [[f64; 3]; 4]) {
+        if length(minus(a, c)) <= length(minus(b, d)) {
+            self.triangle(region, [a, b, c]);
+            self.triangle(region, [a, c, d]);
+        } else {
+            self.triangle(region, [b, c, d]);
+            self.triangle(region, [b, d, a]);
+        }
+    }
+
+    /// Cells between the two sides along an edge of the body, `across` of them, `edge` run so that the normals point out.
+    fn strip(&mut self, region: Region, edge: &[[f64; 3]], across: usize) {
+        let point = |p: [f64; 3], k: usize| {
+            // Both sides exactly.
+            let share = (2.0 * k as f64 - across as f64) / across as f64;
+            [p[0], p[1] * share, p[2]]
+        };
+        for pair in edge.windows(2) {
+            for k in 0..across {
+                let corners = [point(pair[0], k), point(pair[1], k), point(pair[1], k + 1), point(pair[0], k + 1)];
+                self.cell(region, corners);
+            }
+        }
+    }
+}
+
+impl HullMesh {
+    /// A mesh that leaves the surface by at most `deviation` \[m\], about (see the head); `across` cells across the faces that close
+    /// it, at least one.
+    ///
+    /// Mirrored exactly: for each vertex (x, y, z) there is (x, -y, z).
+    #[must_use]
+    pub fn new(hull: &Hull, deviation: f64, across: usize) -> Self {
+        let surface = hull.surface();
+        let [us, vs] = lines(hull, deviation);
+        let tops: Vec<f64> = us.iter().map(|&u| deck_parameter(hull, u)).collect();
+        let (from, to) = surface.v().domain();
+        let lowest = tops.iter().copied().fold(to, f64::min);
+        // Rows above this knot are moved to the deck.
+        let moved = vs.iter().copied().filter(|&v| v <= from + UNMOVED * (lowest - from)).fold(from, f64::max);
+        let breadth = surface.points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+        let grid: Vec<Vec<[f64; 3]>> = us
+            .iter()
+            .zip(&tops)
+            .map(|(&u, &top)| {
+                let along = vs.iter().map(|&v| {
+                    let v = if v > moved && top < to { moved + (v - moved) * (top - moved) / (to - moved) } else { v };
+                    let [x, y, z] = surface.eval(u, v);
+                    [x, if y <= CENTREPLANE * breadth { 0.0 } else { y }, z]
+                });
+                along.collect()
+            })
+            .collect();
+        let (m, n, across) = (us.len(), vs.len(), across.max(1));
+        let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
+        let mut builder = Builder::default();
+        for i in 0..m - 1 {
+            for j in 0..n - 1 {
+                let cell = [grid[i][j], grid[i][j + 1], grid[i + 1][j + 1], grid[i + 1][j]];
+                builder.cell(Region::Hull, cell);
+                let [a, b, c, d] = cell.map(mirror);
+                builder.cell(Region::Hull, [a, d, c, b]);
+            }
+        }
+        let column = |i: usize| grid[i].clone();
+        let row = |j: usize| grid.iter().map(|column| column[j]).collect::<Vec<_>>();
+        let reversed = |mut edge: Vec<[f64; 3]>| {
+            edge.reverse();
+            edge
+        };
+        builder.strip(Region::Bottom, &reversed(row(0)), across);
+        builder.strip(Region::Transom, &column(0), across);
+        builder.strip(Region::Bow, &reversed(column(m - 1)), across);
+        builder.strip(Region::Deck, &row(n - 1), across);
+        builder.mesh
+    }
+
+    /// Checks closure and measures.
+    #[must_use]
+    pub fn report(&self) -> MeshReport {
+        let mut edges: HashMap<(usize, usize), [usize; 2]> = HashMap::new();
+        let (mut volume, mut area, mut least_angle) = (0.0, 0.0, std::f64::consts::PI);
+        for (_, corners) in &self.triangles {
+            let [a, b, c] = corners.map(|k| self.vertices[k]);
+            volume += dot(a, cross(b, c)) / 6.0;
+            area += 0.5 * length(cross(minus(b, a), minus(c, a)));
+            for (p, q, r) in [(a, b, c), (b, c, a), (c, a, b)] {
+                let (s, t) = (minus(q, p), minus(r, p));
+                least_angle = least_angle.min(length(cross(s, t)).atan2(dot(s, t)));
+            }
+            for k in 0..3 {
+                let (p, q) = (corners[k], corners[(k + 1) % 3]);
+                edges.entry((p.min(q), p.max(q))).or_default()[usize::from(p > q)] += 1;
+            }
+        }
+        let open_edges = edges.values().filter(|uses| **uses != [1, 1]).count();
+        let closed = edges.values().all(|uses| uses[0] == uses[1]) && !self.triangles.is_empty();
+        MeshReport { closed, edges: edges.len(), open_edges, least_angle, volume, area }
+    }
+}
+
+/// The volume \[m^3\] of the body up to its deck, from the rows over the net.
+#[must_use]
+pub fn whole_volume(hull: &Hull) -> f64 {
+    Functional::Volume.value(hull, hull.top() + (hull.top() - hull.bottom()))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+//! A hull for other programs: the files, and what can be said of them.
+
+use std::f64::consts::PI;
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use crate::exchange::{
+    CadUnit, DxfLine, write_dxf, write_glb, write_iges, write_obj, write_step, write_stl, write_stl_ascii,
+};
+use crate::hull::{
+    Cut, Hull, HullMesh, MeshReport, Region, Solid, default_buttocks, default_stations, default_waterlines,
+    whole_volume,
+};
+
+/// What is exported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExportFormat {
+    /// STEP AP214, a closed solid.
+    Step,
+    /// IGES 5.3, B-spline surfaces.
+    Iges,
+    /// DXF R12: the curves of the lines plan in space.
+    Dxf,
+    /// Binary STL.
+    Stl,
+    /// ASCII STL with a named solid for each region.
+    StlAscii,
+    /// Wavefront OBJ with groups.
+    Obj,
+    /// Binary glTF 2.0.
+    Glb,
+}
+
+impl ExportFormat {
+    /// All of them.
+    pub const ALL: [Self; 7] = [Self::Step, Self::Iges, Self::Dxf, Self::Stl, Self::StlAscii, Self::Obj, Self::Glb];
+
+    /// The name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Step => "step",
+            Self::Iges => "iges",
+            Self::Dxf => "dxf",
+            Self::Stl => "stl",
+            Self::StlAscii => "stl-ascii",
+            Self::Obj => "obj",
+            Self::Glb => "glb",
+        }
+    }
+
+    /// What is appended to the name of the hull.
+    const fn ending(self) -> &'static str {
+        match self {
+            Self::Step => ".step",
+            Self::Iges => ".igs",
+            Self::Dxf => ".dxf",
+            Self::Stl => ".stl",
+            Self::StlAscii => "-ascii.stl",
+            Self::Obj => ".obj",
+            Self::Glb => ".glb",
+        }
+    }
+
+    const fn is_mesh(self) -> bool {
+        matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
+    }
+}
+
+/// How it is exported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExportSettings {
+    /// Unit of CAD files.
+    pub unit: CadUnit,
+    /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
+    pub deviation: Option<f64>,
+    /// Cells of a mesh across deck, bottom and transom.
+    pub across: usize,
+    /// Height that is z = 0 in the files, above the base line \[m\].
+    pub datum: f64,
+}
+
+impl Default for ExportSettings {
+    fn default() -> Self {
+        Self { unit: CadUnit::Metre, deviation: None, across: 8, datum: 0.0 }
+    }
+}
+
+/// The files with what is printed about them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// The files.
+    pub files: Vec<OutputFile>,
+    /// Lines for the user.
+    pub page: String,
+}
+
+/// Deviation of meshes and polylines over the breadth.
+const DEVIATION: f64 = 1e-3;
+
+fn lowered(points: &mut [[f64; 3]], datum: f64) {
+    points.iter_mut().for_each(|point| point[2] -= datum);
+}
+
+/// The curves of the lines plan in space, by layers.
+fn lines_plan(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
+    let mut lines = Vec::new();
+    let mut add = |layer: &str, cut: Cut| {
+        for branch in &hull.section(cut, 1e-9).branches {
+            let mut points = branch.polyline(deviation);
+            lowered(&mut points, datum);
+            let off = |points: &[[f64; 3]]| points.iter().any(|point| point[1].abs() > 1e-9);
+            let other: Vec<[f64; 3]> = points.iter().map(|&[x, y, z]| [x, 0.0 - y, z]).collect();
+            let mirrored = off(&points) && !matches!(cut, Cut::Plane { .. });
+            lines.push(DxfLine { layer: layer.to_owned(), points });
+            if mirrored {
+                lines.push(DxfLine { layer: layer.to_owned(), points: other });
+            }
+        }
+    };
+    for station in default_stations(hull) {
+        add("STATIONS", Cut::Station { x: station.x });
+    }
+    for z in default_waterlines(hull) {
+        add("WATERLINES", Cut::Waterline { z });
+    }
+    for y in default_buttocks(hull) {
+        add("BUTTOCKS", Cut::Buttock { y });
+    }
+    lines
+}
+
+/// A mesh and its line on the page.
+fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
+    format!(
+        "mesh: {} vertices, {} triangles, {} edges, {}; least angle {:.2} degrees; volume {:.6e} m3, {:+.2e} of the hull's {:.6e} m3",
+        mesh.vertices.len(),
+        mesh.triangles.len(),
+        report.edges,
+        if report.closed { "closed".to_owned() } else { format!("NOT closed ({} open edges)", report.open_edges) },
+        report.least_angle * 180.0 / PI,
+        report.volume,
+        report.volume / volume - 1.0,
+        volume,
+    )
+}
+
+/// Writes a hull in the formats; `name` begins the names of the files.
+///
+/// # Errors
+/// [`Failure::Internal`] when the solid is not closed.
+pub fn export(
+    hull: &Hull,
+    name: &str,
+    formats: &[ExportFormat],
+    settings: &ExportSettings,
+) -> Result<Exported, Failure> {
+    let deviation = settings.deviation.unwrap_or(DEVIATION * hull.particulars().breadth);
+    let volume = whole_volume(hull);
+    let (mut files, mut page) = (Vec::new(), Vec::new());
+    let title = if hull.name().is_empty() { name } else { hull.name() };
+    let mesh = formats.iter().any(|format| format.is_mesh()).then(|| {
+        let mut mesh = HullMesh::new(hull, deviation, settings.across);
+        let report = mesh.report();
+        page.push(mesh_line(&mesh, &report, volume));
+        lowered(&mut mesh.vertices, settings.datum);
+        mesh
+    });
+    let solid = if formats.iter().any(|format| matches!(format, ExportFormat::Step | ExportFormat::Iges)) {
+        let solid = Solid::new(hull).map_err(|error| Failure::Internal(format!("solid of the hull: {error}")))?;
+        if !solid.is_closed() {
+            return Err(Failure::Internal("the faces of the solid do not share their edges".to_owned()));
+        }
+        let faces: Vec<&str> = solid.faces.iter().map(|face| face.name.as_str()).collect();
+        page.push(format!("solid: {} edges, faces {}", solid.edges.len(), faces.join(", ")));
+        if solid.deviation > 0.0 {
+            page.push(format!(
+                "the deck cuts the surface: below it the faces are interpolated, within {:.2e} m of the hull",
+                solid.deviation
+            ));
+        }
+        Some(solid.lowered(settings.datum).map_err(|error| Failure::Internal(error.to_string()))?)
+    } else {
+        None
+    };
+    for &format in formats {
+        let contents = match (format, &mesh, &solid) {
+            (ExportFormat::Stl, Some(mesh), _) => write_stl(mesh, title),
+            (ExportFormat::StlAscii, Some(mesh), _) => write_stl_ascii(mesh).into_bytes(),
+            (ExportFormat::Obj, Some(mesh), _) => write_obj(mesh, title).into_bytes(),
+            (ExportFormat::Glb, Some(mesh), _) => write_glb(mesh, title),
+            (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
+            (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
+            (ExportFormat::Dxf, ..) => {
+                write_dxf(&lines_plan(hull, deviation, settings.datum), settings.unit).into_bytes()
+            }
+            _ => continue,
+        };
+        files.push(OutputFile { name: format!("{name}{}", format.ending()), contents });
+    }
+    if let Some(mesh) = &mesh {
+        let named: Vec<&str> = Region::ALL
+            .into_iter()
+            .filter(|region| mesh.triangles.iter().any(|(other, _)| other == region))
+            .map(Region::name)
+            .collect();
+        page.push(format!("regions: {}", named.join(", ")));
+    }
+    Ok(Exported { files, page: page.join("\n") })
+}

@@ -1,0 +1,54 @@
+//! `loftsman export`: every configuration in every format.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
+}
+
+fn config(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(name)
+}
+
+#[test]
+fn every_config_is_written_in_every_format_and_its_mesh_is_closed() {
+    for name in ["box", "bulk-carrier", "fishing-vessel", "seed002-frigate", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let settings =
+            ExportSettings { deviation: Some(5e-3 * hull.particulars().breadth), ..ExportSettings::default() };
+        let exported = export(&hull, name, &ExportFormat::ALL, &settings).unwrap();
+        assert_eq!(exported.files.len(), ExportFormat::ALL.len());
+        assert!(exported.page.contains(", closed; "), "{name}: {}", exported.page);
+        assert!(exported.files.iter().all(|file| !file.contents.is_empty()));
+        // The same bytes again.
+        assert_eq!(export(&hull, name, &ExportFormat::ALL, &settings).unwrap(), exported, "{name}");
+    }
+}
+
+#[test]
+fn files_are_not_overwritten_unasked() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("export");
+    let _ = fs::remove_dir_all(&folder);
+    let (hull, out) = (config("box.toml").display().to_string(), folder.display().to_string());
+    let arguments = ["export", hull.as_str(), "-f", "step,obj", "-o", out.as_str(), "--datum", "waterline"];
+    assert_eq!(program(&arguments).status.code(), Some(0));
+    let text = fs::read_to_string(folder.join("box.obj")).unwrap();
+    let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok());
+    let (least, most) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
+    let particulars = *read_source(&config("box.toml")).unwrap().hull.particulars();
+    assert!((least + particulars.draught).abs() < 1e-12, "{least}");
+    assert!((most + particulars.draught - particulars.depth).abs() < 1e-12, "{most}");
+    let again = program(&arguments);
+    assert_eq!(again.status.code(), Some(6));
+    assert_eq!(fs::read_to_string(folder.join("box.obj")).unwrap(), text);
+    let mut forced = arguments.to_vec();
+    forced.push("--force");
+    assert_eq!(program(&forced).status.code(), Some(0));
+    let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("step, iges, dxf, stl, stl-ascii, obj, glb"));
+}
