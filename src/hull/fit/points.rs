@@ -179,7 +179,7 @@ fn least_moves(surface: &BsplineSurface<3>, rows: &[(Vec<(usize, f64)>, f64)], f
     let [along, across] = surface.shape();
     let count = along * across;
     let on_flat = |k: usize| flat.is_some_and(|half| (surface.points()[k][1] - half).abs() <= SAME * half);
-    let held = |k: usize| k < across || k >= count - across || k % across == 0 || on_flat(k);
+    let held = |k: usize| k < across || k >= count - across || k.is_multiple_of(across) || on_flat(k);
     let mut matrix = energy(surface.u(), surface.v(), 2, 1.0);
     let weight = PENALTY * matrix.trace() / count as f64;
     let free: Vec<Vec<(usize, f64)>> =
