@@ -3,6 +3,7 @@
 use loftsman::hull::{
     Cell, Chart, FeatureLine, FitMethod, Fitted, Functional, Hull, LineKind, OffsetTable, StationOffsets, TransomPlane,
 };
+use proptest::prelude::*;
 
 /// A table of y(x, z), blank where it is none.
 fn table(stations: &[f64], waterlines: &[f64], y: impl Fn(f64, f64) -> Option<f64>) -> OffsetTable {
@@ -307,6 +308,58 @@ fn a_rockered_keel_keeps_its_flat_of_side() {
         for k in 0..=50 {
             let y = fitted.hull.half_breadth(station.station.x, 2.9 + 0.1 * f64::from(k)).unwrap();
             assert!((y - 6.0).abs() < 1e-9, "{} {y}", station.station.x);
+        }
+    }
+}
+
+/// The flat has the breadth of most of its offsets, not that of the one that is wrong.
+#[test]
+fn one_wrong_offset_does_not_move_the_flat() {
+    let mut table = table(&steps(30.0, 90.0, 6), &steps(0.0, 8.0, 8), |x, z| Some(sided(x, z)));
+    table.stations.iter_mut().for_each(|s| s.flat_of_side = Some(3.0));
+    table.stations[5].half_breadths[6] = Cell::from(Some(6.3));
+    let fitted = fit(&table);
+    says(&fitted, "offsets of stations 80 above its lower edge are not 6.000 m");
+    let y = fitted.hull.half_breadth(44.0, 6.4).unwrap();
+    assert!((y - 6.0).abs() < 1e-9, "{y}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    /// Whatever else a table says: a hull that meets its offsets, or an error, never a panic.
+    #[test]
+    fn random_features(
+        y in prop::collection::vec(prop::option::weighted(0.9, prop_oneof![Just(4.0), 0.0f64..5.0]), 56),
+        flats in prop::collection::vec(prop::option::weighted(0.6, -1.0f64..7.0), 8),
+        heights in prop::collection::vec(prop::option::weighted(0.3, -1.0f64..7.0), 24),
+        transom in prop::option::of((-10.0f64..20.0, -2.0f64..2.0)),
+        line in prop::option::of((0usize..7, prop::bool::ANY, -5.0f64..40.0, 0.0f64..60.0)),
+        marks in prop::collection::vec(0u8..12, 56),
+    ) {
+        let mut table = table(&steps(0.0, 49.0, 7), &steps(0.0, 6.0, 6), |_, _| None);
+        table.buttocks = vec![0.0, 1.5, 3.0];
+        for (i, station) in table.stations.iter_mut().enumerate() {
+            for (j, cell) in station.half_breadths.iter_mut().enumerate() {
+                *cell = Cell::from(y[7 * i + j]);
+                cell.marks.tangent = marks[7 * i + j] == 1;
+                cell.marks.doubtful = marks[7 * i + j] == 2;
+            }
+            station.flat_of_side = flats[i];
+            station.heights = (0..3).map(|j| Cell::from(heights[3 * i + j])).collect();
+        }
+        table.transom = transom.map(|(x_base, slope)| TransomPlane { x_base, slope });
+        if let Some((j, knuckle, from, length)) = line {
+            let kind = if knuckle { LineKind::Knuckle } else { LineKind::Tangent };
+            let points = vec![[from, 4.0, j as f64], [from + length, 4.0, j as f64]];
+            table.lines.push(FeatureLine { name: "line".to_owned(), kind, points });
+        }
+        if let Ok(fitted) = Hull::fit(&table, &FitMethod::Graded) {
+            let upright = fitted.chart == Chart::Upright;
+            for cell in &fitted.cells {
+                prop_assert!(cell.half_breadth.is_finite());
+                let doubtful = table.stations[cell.station].half_breadths[cell.waterline].marks.doubtful;
+                prop_assert!(upright || doubtful || cell.residual.is_none_or(|r| r.abs() < 1e-8), "{cell:?}");
+            }
         }
     }
 }

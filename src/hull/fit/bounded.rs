@@ -190,10 +190,14 @@ impl Line {
     }
 }
 
-/// The knots with at least `times`-fold ones at `places`.
+/// Knots nearer than this to each other are one, over domains of length 1.
+pub(super) const ONE_KNOT: f64 = 1e-7;
+
+/// The knots with at least `times`-fold ones at `places`, or at knots that are there already.
 pub(super) fn with_multiple(knots: &KnotVector, places: &[f64], times: usize) -> Result<KnotVector, FitError> {
     let mut all = knots.knots().to_vec();
-    for &t in places {
+    for &place in places {
+        let t = all.iter().copied().find(|k| (k - place).abs() <= ONE_KNOT).unwrap_or(place);
         let lacking = times.saturating_sub(all.iter().filter(|k| (*k - t).abs() <= 0.0).count());
         all.extend(std::iter::repeat_n(t, lacking));
     }

@@ -33,11 +33,19 @@ impl FlatOfSide {
         let above = |k: usize, from: f64| {
             order[k].half_breadths.iter().zip(&table.waterlines).filter(move |(_, z)| **z >= from - SAME)
         };
-        let widest = |k: usize| above(k, starts[k]?).filter_map(|(c, _)| c.value()).max_by(f64::total_cmp);
-        let half = (0..order.len())
-            .filter_map(widest)
-            .max_by(f64::total_cmp)
-            .or_else(|| table.stated.breadth.map(|b| 0.5 * b).filter(|_| starts.iter().any(Option::is_some)))?;
+        let mut wide: Vec<f64> = (0..order.len())
+            .filter_map(|k| Some((k, starts[k]?)))
+            .flat_map(|(k, z)| above(k, z).filter_map(|(c, _)| c.value()))
+            .collect();
+        wide.sort_by(f64::total_cmp);
+        // Half of B where offsets are that, else what most offsets on the flat are.
+        let count = |y: f64| wide.iter().filter(|w| (*w - y).abs() <= SAME).count();
+        let stated = table.stated.breadth.map(|b| 0.5 * b);
+        let most = wide.iter().copied().max_by_key(|&y| count(y));
+        let half = stated.filter(|&y| wide.is_empty() || count(y) > 0).or(most)?;
+        if starts.iter().all(Option::is_none) {
+            return None;
+        }
         let mut contradicted = Vec::new();
         let mut runs: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
         for (k, start) in starts.iter().enumerate() {

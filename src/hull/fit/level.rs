@@ -76,7 +76,7 @@ fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Ve
 fn narrowed(row: &Row, below: &[Row]) -> Row {
     let last = &below[below.len() - 1];
     let before = below.len().checked_sub(2).map(|k| &below[k]);
-    let mut copy = row.clone();
+    let mut copy = Row { transom: false, ..row.clone() };
     // A hair below, so that the height of the waterline belongs to the hull alone.
     copy.z -= HAIR * (row.z - below[0].z);
     for side in 0..2 {

@@ -80,7 +80,9 @@ pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -
     };
     let points = fine.points().iter().zip(&moves).map(|(&[x, y, z], d)| [x, y + d, z]).collect();
     let moved = BsplineSurface::new(fine.u().clone(), fine.v().clone(), points).map_err(HullError::from)?;
-    let missed = readings.iter().map(|r| (r.value - moved.eval(r.at[0], r.at[1])[1]).abs()).fold(0.0, f64::max);
+    // Cells and readings alike.
+    let lacking = |(row, value): &(Vec<(usize, f64)>, f64)| row.iter().map(|&(k, a)| a * moves[k]).sum::<f64>() - value;
+    let missed = rows.iter().map(|row| lacking(row).abs()).fold(0.0, f64::max);
     let (before, after) = (range(surface), range(&moved));
     let allowed = SWING * before[1];
     if missed > 10.0 * MET || after[0] < before[0] - allowed || after[1] > before[1] + allowed {
@@ -98,13 +100,14 @@ pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -
     Ok(Hull::new(hull.name(), *hull.particulars(), moved, hull.deck().clone())?)
 }
 
-/// The readings at which the hull reaches, how many it does not reach, and how many say nothing new.
+/// The readings at which the hull reaches, without doubtful ones, how many it does not reach, and how many say nothing new.
 fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, usize, usize) {
     let (mut list, mut beyond, mut known): (Vec<Reading>, usize, usize) = (Vec::new(), 0, 0);
     let height = hull.top() - hull.bottom();
     for (station, column) in table.stations.iter().enumerate() {
         for (cell, &value) in column.heights.iter().zip(&table.buttocks) {
-            let Some(z) = cell.value().filter(|z| z.is_finite() && value > 0.0) else { continue };
+            let doubtful = cell.marks.doubtful && !cell.marks.locked;
+            let Some(z) = cell.value().filter(|z| z.is_finite() && value > 0.0 && !doubtful) else { continue };
             let on_line = column
                 .half_breadths
                 .iter()

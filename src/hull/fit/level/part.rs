@@ -5,7 +5,7 @@
 //! has a crease there, and y(u, v) takes the slope in v that keeps the tangent plane: with g the jump of the slope of the profile,
 //! the jump of y_v is (y_u / x_u) (dx / dx_stern) g.
 
-use super::super::bounded::{Line, carried, with_multiple};
+use super::super::bounded::{Line, ONE_KNOT, carried, with_multiple};
 use super::super::chart::{Heights, Span, heights, lengths};
 use super::super::features::FlatOfSide;
 use super::super::floor;
@@ -129,9 +129,9 @@ impl Part {
             Line::flat_kept(self.up.sites.clone(), ends, 1e-5 * length)
         };
         let lines = [line(0), line(1)];
-        // The waterlines that end on the transom go up to the highest.
+        // The waterlines that end on the transom go up to the highest; one alone makes no plane.
         let foot = self.rows.iter().rposition(|r| !r.transom).map_or(0, |j| j + 1);
-        let transom = transom.filter(|_| foot < self.rows.len());
+        let transom = transom.filter(|_| foot + 1 < self.rows.len());
         let own = |part: &Self, side: usize| -> Result<KnotVector, FitError> {
             let corner = (side == 0 && transom.is_some() && foot > 0).then(|| part.up.sites[foot]);
             with_multiple(&part.up.knots, corner.as_slice(), 3)
@@ -226,7 +226,13 @@ impl Part {
         flat: Option<&FlatOfSide>,
     ) -> Result<Columns, FitError> {
         let starts = self.starts(u, rows, flat);
-        let crease = self.crease(u, rows)?;
+        let wide = |i: usize| flat.map(|f| f.half).filter(|half| (rows[rows.len() - 1][i] - half).abs() <= SAME * half);
+        let flats: Vec<Option<f64>> = starts.iter().enumerate().map(|(i, s)| s.and_then(|_| wide(i))).collect();
+        let mut crease = self.crease(u, rows)?;
+        if let Some((_, slopes)) = &mut crease {
+            // Nothing bends on the flat.
+            slopes.iter_mut().zip(&flats).filter(|(_, flat)| flat.is_some()).for_each(|(slope, _)| *slope = 0.0);
+        }
         let places: Vec<f64> = starts.iter().flatten().map(|s| s.at).filter(|&v| v > 0.0 && v < 1.0).collect();
         let doubled = with_multiple(&self.up.knots, &places, 2)?;
         self.up = self.up.on(doubled)?;
@@ -257,12 +263,10 @@ impl Part {
         let energy = Energy::new(&self.up.knots, 2);
         let mut solved: Vec<Vec<f64>> =
             lines.iter().zip(free(&self.up)?).map(|(line, free)| line.solve(&energy, free)).collect();
-        for (i, (line, start)) in solved.iter_mut().zip(&starts).enumerate() {
+        for ((line, start), flat) in solved.iter_mut().zip(&starts).zip(&flats) {
             let Some(start) = start else { continue };
-            if let Some(half) =
-                flat.map(|f| f.half).filter(|half| (rows[rows.len() - 1][i] - half).abs() <= SAME * half)
-            {
-                flatten(&self.up.knots, line, [start.at, 1.0], half);
+            if let Some(half) = flat {
+                flatten(&self.up.knots, line, [start.at, 1.0], *half);
             }
             line.iter_mut().zip(&self.up.z).for_each(|(y, z)| *y += start.lean * z);
         }
@@ -326,7 +330,7 @@ impl Part {
 pub(super) fn flatten(knots: &KnotVector, control: &mut [f64], [from, to]: [f64; 2], value: f64) {
     let reach = knots.degree() + 1;
     for (k, c) in control.iter_mut().enumerate() {
-        if knots.knots()[k + reach] > from && knots.knots()[k] < to {
+        if knots.knots()[k + reach] > from + ONE_KNOT && knots.knots()[k] < to - ONE_KNOT {
             *c = value;
         }
     }
@@ -339,7 +343,12 @@ fn row_line(row: &Row, span: Span, greatest: f64, flat: Option<&FlatOfSide>) -> 
     points.extend(row.sites.iter().map(|s| (span.u(s.x, ends), s.y, s.slack)));
     points.push((1.0, row.ends[1].y, 0.0));
     let mut level = Vec::new();
-    if let Some((half, edges)) = flat.and_then(|f| Some((f.half, f.ends(row.z)?))) {
+    // A station between whose edge is higher keeps its own offset.
+    let all_wide = |half: f64, [aft, fore]: [f64; 2]| {
+        row.sites.iter().filter(|s| s.x > aft && s.x < fore).all(|s| (s.y - half).abs() <= SAME * half)
+    };
+    let flat = flat.and_then(|f| Some((f.half, f.ends(row.z)?))).filter(|(half, edges)| all_wide(*half, *edges));
+    if let Some((half, edges)) = flat {
         for edge in edges {
             let u = span.u(edge.clamp(ends[0], ends[1]), ends);
             match points.iter().position(|p| (p.0 - u).abs() <= SAME) {
