@@ -134,7 +134,7 @@ mod tests {
         }
         table.form.decimals = Some(3);
         table.stations[4].outlines[0][9].y += 0.3;
-        let result = point_suspects(&table).expect("sections as points");
+        let result = point_suspects(&table);
         assert_eq!(result.suspects.len(), 1);
         let canvas = compose(&table, &result).unwrap();
         let texts = canvas.texts();
