@@ -204,3 +204,34 @@ fn a_table_is_converted_and_the_rounding_reported() {
     assert_eq!(convert(&[&path, "--layout", "round"]).status.code(), Some(2));
     fs::remove_dir_all(&folder).unwrap();
 }
+
+/// What a workbook says comes back from the workbook that is written of it: offsets, marks, texts, headers, comments.
+#[test]
+fn workbooks_are_written_back() {
+    let matrix = "Offsets of a boat,,,\n# T = 0.8 m\nx [m],0.5,1,1.5\n0,,0.5,(1)\n10,1,2,2.5K\n20,,3-4-5,?\n";
+    let first = read_table("t.xlsx", &workbook(&sheet(matrix), 0)).unwrap().table;
+    assert_eq!(first.stated.draught, Some(0.8));
+    assert_eq!(first.form.sheet.as_deref(), Some("Offsets"));
+    let written = write_table(&first, TableWriting::default());
+    let bytes = loftsman::exchange::workbook(&written.text, &first.form).unwrap();
+    let again = read_table("u.xlsx", &bytes).unwrap().table;
+    assert_eq!(again, first);
+    assert_eq!(loftsman::exchange::workbook(&written.text, &again.form).unwrap(), bytes);
+    // Every real table of the repository, and a sheet that stands for none.
+    for name in ["wigley", "series60_cb060", "s175"] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name).join("offsets.csv");
+        let Ok(text) = std::fs::read(&path) else { panic!("no {}", path.display()) };
+        let csv = read_table("offsets.csv", &text).unwrap().table;
+        let written = write_table(&csv, TableWriting::default());
+        let bytes = loftsman::exchange::workbook(&written.text, &csv.form).unwrap();
+        let back = read_table("offsets.xlsx", &bytes).unwrap().table;
+        assert_eq!((&back.waterlines, &back.buttocks), (&csv.waterlines, &csv.buttocks), "{name}");
+        for (a, b) in back.stations.iter().zip(&csv.stations) {
+            let cells = |cells: &[Cell]| cells.iter().map(|c| (c.entry, c.marks)).collect::<Vec<_>>();
+            assert_eq!((a.station.x, cells(&a.half_breadths)), (b.station.x, cells(&b.half_breadths)), "{name}");
+        }
+    }
+    let mut form = first.form.clone();
+    form.sheet = Some("a/b".to_owned());
+    assert!(loftsman::exchange::workbook(&written.text, &form).unwrap_err().contains("a/b"));
+}

@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             stream::data(&stream::json(&check_json(&check))?)?;
         }
         accepted.changes.iter().for_each(|change| stream::message(change));
-        stream::data_or_file(accepted.text, arguments.output.as_deref(), arguments.force)?;
+        stream::table_or_file(accepted.text, &accepted.form, arguments.output.as_deref(), arguments.force)?;
         return check.verdict(&arguments.accept);
     }
     if let Some(folder) = &arguments.output {

@@ -15,7 +15,7 @@ use crate::units::Notation;
 pub(super) struct Arguments {
     /// Table of offsets, in any of the formats below
     table: PathBuf,
-    /// File to write instead of stdout
+    /// File to write instead of stdout; a workbook when it ends in .xlsx
     output: Option<PathBuf>,
     /// How lengths are written: m, mm, feet-inches-eighths, cm, ft or in; as in the table where none is given
     #[arg(long, value_parser = super::offsets::notation)]
@@ -45,5 +45,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }
-    stream::data_or_file(converted.written.text, arguments.output.as_deref(), arguments.force)
+    stream::table_or_file(converted.written.text, &converted.form, arguments.output.as_deref(), arguments.force)
 }

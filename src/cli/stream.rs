@@ -3,6 +3,7 @@
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
+use crate::hull::TableForm;
 use crate::report::{Failure, OutputFile, write_all};
 
 /// Writes data to stdout.
@@ -24,12 +25,22 @@ pub(super) fn message(text: &str) {
 /// Writes data to a file, or to stdout when there is none.
 pub(super) fn data_or_file(text: String, file: Option<&Path>, force: bool) -> Result<(), Failure> {
     let Some(path) = file else { return data(&text) };
+    into(path, force, |name| Ok(OutputFile::text(name, text)))
+}
+
+/// The same of a table; a file whose name ends in `.xlsx` becomes a workbook.
+pub(super) fn table_or_file(text: String, form: &TableForm, file: Option<&Path>, force: bool) -> Result<(), Failure> {
+    let Some(path) = file else { return data(&text) };
+    into(path, force, |name| OutputFile::table(name, text, form))
+}
+
+fn into(path: &Path, force: bool, contents: impl FnOnce(&str) -> Result<OutputFile, Failure>) -> Result<(), Failure> {
     let Some(name) = path.file_name() else {
         let error = std::io::Error::new(ErrorKind::InvalidInput, "not the name of a file");
         return Err(Failure::FileSystem { act: "write", path: path.to_owned(), error });
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    write_all(folder, &[OutputFile::text(&name.to_string_lossy(), text)], force)
+    write_all(folder, &[contents(&name.to_string_lossy())?], force)
 }
 
 /// A JSON value as text with a line end.

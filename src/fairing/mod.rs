@@ -23,6 +23,6 @@ mod suspects;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use suspects::{
-    CellVerdict, Hypothesis, PointNumber, PointSuspect, PointSuspects, Reading, Suspect, Suspects, height_suspects,
-    point_suspects, suspects,
+    CellVerdict, Hypothesis, PointNumber, PointSuspect, PointSuspects, Reading, Suspect, Suspects, height_grid,
+    height_suspects, point_suspects, suspects,
 };

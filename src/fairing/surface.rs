@@ -12,10 +12,10 @@
 //!
 //! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them.
 
-use super::model::{Model, Reading, Row};
+use super::model::{Model, Reading};
 use crate::hull::{Entry, Hull, HullError, OffsetTable};
-use crate::numeric::SymmetricBand;
-use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE};
+pub use crate::spline::{basis_row, energy, mixed_energy};
 
 /// Half-breadths below this part of B are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
@@ -92,79 +92,6 @@ pub struct FairSurface {
     pub own: bool,
     /// Whether the chart is the rectangle itself: x linear in u and z linear in v.
     pub plain: bool,
-}
-
-/// Basis values of the derivative of order (a, b) at (u, v) over the net.
-#[must_use]
-pub fn basis_row(surface: &BsplineSurface<3>, [u, v]: [f64; 2], [a, b]: [usize; 2]) -> Row {
-    let (span_u, span_v) = (surface.u().find_span(u), surface.v().find_span(v));
-    let (p, q) = (surface.u().degree(), surface.v().degree());
-    let rows = surface.u().basis_derivatives::<5>(span_u, u)[a];
-    let columns = surface.v().basis_derivatives::<5>(span_v, v)[b];
-    let count = surface.v().basis_count();
-    let mut row = Row::with_capacity((p + 1) * (q + 1));
-    for (i, along) in rows[..=p].iter().enumerate() {
-        for (j, across) in columns[..=q].iter().enumerate() {
-            row.push(((span_u - p + i) * count + span_v - q + j, along * across));
-        }
-    }
-    row
-}
-
-/// Binomial coefficient C(n, k).
-fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
-}
-
-/// The energy of a net over the unit square, whatever the domains of its knots.
-#[must_use]
-pub fn energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> SymmetricBand {
-    partial_energy(u, v, order, anisotropy, 0..=order)
-}
-
-/// The mixed terms of it alone: derivatives in both directions.
-#[must_use]
-pub fn mixed_energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> SymmetricBand {
-    partial_energy(u, v, order, anisotropy, 1..=order - 1)
-}
-
-fn partial_energy(
-    u: &KnotVector,
-    v: &KnotVector,
-    order: usize,
-    anisotropy: f64,
-    terms: std::ops::RangeInclusive<usize>,
-) -> SymmetricBand {
-    let (rows, columns) = (u.basis_count(), v.basis_count());
-    let (p, q) = (u.degree().min(rows - 1), v.degree().min(columns - 1));
-    let mut energy = SymmetricBand::zeros(rows * columns, p * columns + q);
-    // d^k/dt^k over [0, 1] is length^k times that over the domain, and dt = length * d(unit).
-    let scaled = |knots: &KnotVector, k: usize| {
-        let (from, to) = knots.domain();
-        (Gram::new(knots, knots, [k, k]), (to - from).powi(2 * k as i32 - 1))
-    };
-    for a in terms {
-        let ((along, by_u), (across, by_v)) = (scaled(u, order - a), scaled(v, a));
-        let weight = binomial(order, a) * anisotropy.powi((order - a) as i32 - a as i32) * by_u * by_v;
-        for i in 0..rows {
-            for k in i.saturating_sub(p)..=i {
-                let g = weight * along.get(i, k);
-                if g == 0.0 {
-                    continue;
-                }
-                for j in 0..columns {
-                    let last = if k == i { j } else { (j + q).min(columns - 1) };
-                    for l in j.saturating_sub(q)..=last {
-                        let h = across.get(j, l);
-                        if h != 0.0 {
-                            energy.add(i * columns + j, k * columns + l, g * h);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    energy
 }
 
 /// Whether the chart is a rectangle: level, plumb ends, z and x linear in the parameters.

@@ -138,6 +138,8 @@ pub struct TableForm {
     pub layout: TableLayout,
     /// The program of the layout [`TableLayout::Other`], where its format can be written.
     pub program: Option<Program>,
+    /// Name of the sheet when the file is a workbook.
+    pub sheet: Option<String>,
     /// What the rows of a matrix are.
     pub rows: Rows,
     /// Order of the stations in the file.
@@ -192,6 +194,7 @@ impl Default for TableForm {
             decimals: None,
             layout: TableLayout::Matrix,
             program: None,
+            sheet: None,
             rows: Rows::Stations,
             station_order: Order::Rising,
             waterline_order: Order::Rising,

@@ -8,7 +8,8 @@
 //! The volume aft of midship is that aft of a line u_0 near midship and, where x depends on v, 2 int int y J (u_m(v) - u_0)
 //! ds dv on the lines u = u_0 + s (u_m(v) - u_0), x(u_m(v), v) being L_PP / 2; its relative error is about 1e-8 there.
 //!
-//! A draught costs O(nodes in u (columns + nodes in v)).
+//! Cells of the knots that lie below the waterline as a whole are integrated once for all draughts; a draught costs the cells that its
+//! waterline passes through: O(cells) in all and O(spans_u + spans_v) a draught.
 
 use super::volume::{Body, Node, count_along, count_up, node_at, nodes};
 use super::waterplane::{Waterplane, largest};
@@ -31,8 +32,20 @@ struct Pass<'a, const N: usize> {
     midship: f64,
     /// The line u_0.
     parting: f64,
+    /// The spans in u, parted at u_0.
+    strips: Vec<Strip>,
     /// u_m(v) at the nodes of the whole spans; empty on upright hulls.
     passage: Vec<f64>,
+}
+
+/// Volume, its moments, profile and its moments, side: what adds up over the parameter plane.
+type Sums = [f64; 7];
+
+/// A span in u, or a part of it, with the sums over its cells up to each knot line in v; as many cells as any draught may immerse.
+struct Strip {
+    from: f64,
+    to: f64,
+    below: Vec<Sums>,
 }
 
 /// A point of the surface with its derivatives, each (x, y, z).
@@ -59,14 +72,20 @@ impl Point {
 /// The columns of the net on a line u = constant: S and S_u.
 type Columns = Vec<[f64; 6]>;
 
-fn collapse(hull: &Hull, span: usize, u: f64, columns: &mut Columns) {
+/// The columns of the net at `u`: the first and those of `range`.
+fn collapse(hull: &Hull, span: usize, u: f64, range: std::ops::Range<usize>, columns: &mut Columns) {
     let knots = hull.surface().u();
     let [value, slope] = knots.basis_derivatives::<2>(span, u);
     let count = columns.len();
-    columns.fill([0.0; 6]);
+    let first = range.start.max(1);
+    let last = range.end.max(first);
+    columns[0] = [0.0; 6];
+    columns[first..last].fill([0.0; 6]);
     for (i, row) in (span - knots.degree()..=span).enumerate() {
         let (a, b) = (value[i], slope[i]);
-        for (column, point) in columns.iter_mut().zip(&hull.surface().points()[row * count..]) {
+        let points = &hull.surface().points()[row * count..(row + 1) * count];
+        let wanted = columns.iter_mut().zip(points);
+        for (_, (column, point)) in wanted.enumerate().filter(|(c, _)| *c == 0 || (first..last).contains(c)) {
             for axis in 0..3 {
                 column[axis] += a * point[axis];
                 column[axis + 3] += b * point[axis];
@@ -89,18 +108,27 @@ fn point<const N: usize>(node: &Node<N>, columns: &Columns) -> Point {
     Point { at: [x, y, z], along: [xu, yu, zu], up }
 }
 
+/// Adds what a point with the weight `weight` adds.
+fn take(sums: &mut Sums, p: &Point, weight: f64) {
+    let (profile, [x, y, z]) = (weight * p.jacobian(), p.at);
+    let volume = 2.0 * profile * y;
+    let added = [volume, volume * x, volume * z, profile, profile * x, profile * z, 2.0 * weight * p.skin()];
+    sums.iter_mut().zip(added).for_each(|(sum, a)| *sum += a);
+}
+
 /// Integrals and waterplane below each immersion, volumes being parted at x = `midship`; zero where nothing is immersed.
 pub(super) fn bodies<const N: usize>(
     hull: &Hull,
     immersions: &[Option<Immersion>],
     midship: f64,
 ) -> Vec<(Body, Waterplane)> {
-    let pass = Pass::<N>::new(hull, midship);
+    let highest = immersions.iter().flatten().map(Immersion::draught).fold(f64::NEG_INFINITY, f64::max);
+    let pass = Pass::<N>::new(hull, midship, highest);
     immersions.iter().map(|i| i.as_ref().map_or_else(Default::default, |i| pass.below(i))).collect()
 }
 
 impl<'a, const N: usize> Pass<'a, N> {
-    fn new(hull: &'a Hull, midship: f64) -> Self {
+    fn new(hull: &'a Hull, midship: f64, highest: f64) -> Self {
         let surface = hull.surface();
         let (spans, count) = (surface.v().spans(), count_up(hull));
         let mut whole = Vec::with_capacity(spans.len() * count);
@@ -116,60 +144,118 @@ impl<'a, const N: usize> Pass<'a, N> {
             let places = spans.iter().flat_map(|&s| gauss_legendre(count).on(knots[s], knots[s + 1]));
             places.map(|(v, _)| hull.nearest_length_parameter(midship, v)).collect()
         };
-        Self { hull, whole, spans, count, midship, parting, passage }
+        let mut pass = Self { hull, whole, spans, count, midship, parting, strips: Vec::new(), passage };
+        let knots = surface.u().knots();
+        for span in surface.u().spans() {
+            let (from, to) = (knots[span], knots[span + 1]);
+            let ends =
+                if from < parting && parting < to { vec![[from, parting], [parting, to]] } else { vec![[from, to]] };
+            for [from, to] in ends {
+                let strip = pass.strip(span, [from, to], highest);
+                pass.strips.push(strip);
+            }
+        }
+        pass
     }
 
-    /// Calls `visit` with the nodes in v below `end`.
-    fn each_below(&self, end: f64, mut visit: impl FnMut(&Node<N>)) {
+    /// Nodes in u that are exact on a strip.
+    fn exact(&self) -> usize {
+        count_along(self.hull).max(2 * self.hull.surface().u().degree())
+    }
+
+    /// The sums over the cells of a strip, as far up as it is below `highest` somewhere.
+    fn strip(&self, span: usize, [from, to]: [f64; 2], highest: f64) -> Strip {
+        let surface = self.hull.surface();
+        let knots = surface.v().knots();
+        let low = |v: f64| [from, 0.5 * (from + to), to].iter().any(|&u| surface.eval(u, v)[2] < highest);
+        let cells = self.spans.iter().take_while(|&&s| low(knots[s])).count();
+        let mut sums = vec![[0.0; 7]; cells];
+        let mut columns = vec![[0.0; 6]; surface.shape()[1]];
+        let last = self.whole[..cells * self.count].last().map_or(0, |node| node.first + N);
+        for (u, weight) in gauss_legendre(self.exact()).on(from, to) {
+            collapse(self.hull, span, u, 0..last, &mut columns);
+            for (sum, nodes) in sums.iter_mut().zip(self.whole.chunks(self.count)) {
+                nodes.iter().for_each(|node| take(sum, &point(node, &columns), weight * node.weight));
+            }
+        }
+        let mut below = vec![[0.0; 7]];
+        for cell in sums {
+            let before = below[below.len() - 1];
+            below.push(std::array::from_fn(|k| before[k] + cell[k]));
+        }
+        Strip { from, to, below }
+    }
+
+    /// Number of spans in v below `end` as a whole.
+    fn whole_below(&self, end: f64) -> usize {
         let knots = self.hull.surface().v().knots();
-        for (k, &span) in self.spans.iter().enumerate() {
-            let (from, to) = (knots[span], knots[span + 1]);
-            if end >= to {
-                self.whole[k * self.count..(k + 1) * self.count].iter().for_each(&mut visit);
-                continue;
+        self.spans.partition_point(|&span| knots[span + 1] <= end)
+    }
+
+    /// Calls `visit` with the nodes in v below `end`, from the span number `first`.
+    fn each_below(&self, first: usize, end: f64, mut visit: impl FnMut(&Node<N>)) {
+        let knots = self.hull.surface().v().knots();
+        let whole = self.whole_below(end).max(first);
+        self.whole[first * self.count..whole * self.count].iter().for_each(&mut visit);
+        if let Some(&span) = self.spans.get(whole).filter(|&&span| end > knots[span]) {
+            for (v, weight) in gauss_legendre(self.count).on(knots[span], end) {
+                visit(&node_at::<N>(self.hull, span, v, weight));
             }
-            if end > from {
-                for (v, weight) in gauss_legendre(self.count).on(from, end) {
-                    visit(&node_at::<N>(self.hull, span, v, weight));
-                }
-            }
-            break;
         }
     }
 
     fn below(&self, immersion: &Immersion) -> (Body, Waterplane) {
         let hull = self.hull;
-        let exact = count_along(hull).max(2 * hull.surface().u().degree());
+        let exact = self.exact();
         let mut body = Body::default();
         let mut aft = 0.0;
         let mut sums = [0.0; 4];
         let mut plane = Plane::default();
         let mut columns = vec![[0.0; 6]; hull.surface().shape()[1]];
-        for piece in self.parted(&immersion.pieces()) {
-            let before = body.volume;
-            let mut widest = 0.0f64;
-            let afloat = piece.upper == UpperEnd::Waterline && !immersion.above();
-            for (u, weight) in piece.nodes(exact) {
-                collapse(hull, piece.span, u, &mut columns);
-                let end = immersion.end(u);
-                self.line(&columns, end, weight, &mut body);
-                let [_, keel, _, x, _, z] = columns[0];
-                body.bottom += 2.0 * weight * keel * x.hypot(z);
-                if afloat {
-                    let node = node_at::<N>(hull, hull.surface().v().find_span(end), end, 0.0);
-                    let p = point(&node, &columns);
-                    let area = weight * p.at[1] * advance(hull, [p.along[0], p.along[2]], [p.up[0], p.up[2]]);
-                    for (sum, arm) in sums.iter_mut().zip([1.0, p.at[0], p.at[0].powi(2), p.at[1].powi(2)]) {
-                        *sum += area * arm;
+        let pieces = self.parted(&immersion.pieces());
+        for strip in &self.strips {
+            let own: Vec<&Piece> = pieces.iter().filter(|p| p.from >= strip.from && p.to <= strip.to).collect();
+            // The waterline stays within one span in v on each piece; where it leaves the strip nothing is immersed as a whole.
+            let middle = |p: &Piece| immersion.end(0.5 * (p.from + p.to));
+            let covered = own.iter().map(|p| p.to - p.from).sum::<f64>() >= (1.0 - 1e-12) * (strip.to - strip.from);
+            let least = own.iter().map(|p| self.whole_below(middle(p))).min().filter(|_| covered).unwrap_or(0);
+            let least = least.min(strip.below.len() - 1);
+            let mut all = strip.below[least];
+            for piece in own {
+                let mut widest = 0.0f64;
+                let afloat = piece.upper == UpperEnd::Waterline && !immersion.above();
+                let highest = self.spans.len().min(self.whole_below(middle(piece)) + 2);
+                let range = self.spans[least.min(self.spans.len() - 1)] + 1 - N..self.spans[highest - 1] + 1;
+                for (u, weight) in piece.nodes(exact) {
+                    let end = immersion.end(u);
+                    collapse(hull, piece.span, u, range.clone(), &mut columns);
+                    self.each_below(least, end, |node| take(&mut all, &point(node, &columns), weight * node.weight));
+                    let [_, keel, _, x, _, z] = columns[0];
+                    body.bottom += 2.0 * weight * keel * x.hypot(z);
+                    if afloat {
+                        let node = node_at::<N>(hull, hull.surface().v().find_span(end), end, 0.0);
+                        let p = point(&node, &columns);
+                        let area = weight * p.at[1] * advance(hull, [p.along[0], p.along[2]], [p.up[0], p.up[2]]);
+                        for (sum, arm) in sums.iter_mut().zip([1.0, p.at[0], p.at[0].powi(2), p.at[1].powi(2)]) {
+                            *sum += area * arm;
+                        }
+                        widest = widest.max(p.at[1]);
                     }
-                    widest = widest.max(p.at[1]);
+                }
+                if afloat && widest > 0.0 {
+                    plane.take(piece, widest);
                 }
             }
-            if piece.to <= self.parting {
-                aft += body.volume - before;
-            }
-            if afloat && widest > 0.0 {
-                plane.take(&piece, widest);
+            let [volume, moment_x, moment_z, lateral, lateral_x, lateral_z, side] = all;
+            body.volume += volume;
+            body.moment_x += moment_x;
+            body.moment_z += moment_z;
+            body.lateral += lateral;
+            body.lateral_x += lateral_x;
+            body.lateral_z += lateral_z;
+            body.side += side;
+            if strip.to <= self.parting {
+                aft += volume;
             }
         }
         if !immersion.deck_immersed() {
@@ -192,22 +278,6 @@ impl<'a, const N: usize> Pass<'a, N> {
             if p.from < at && at < p.to { vec![low, high] } else { vec![*p] }
         };
         pieces.iter().flat_map(part).collect()
-    }
-
-    /// What a line u = constant adds.
-    fn line(&self, columns: &Columns, end: f64, weight: f64, body: &mut Body) {
-        self.each_below(end, |node| {
-            let p = point(node, columns);
-            let weight = weight * node.weight;
-            let (profile, [x, y, z]) = (weight * p.jacobian(), p.at);
-            body.volume += 2.0 * profile * y;
-            body.moment_x += 2.0 * profile * y * x;
-            body.moment_z += 2.0 * profile * y * z;
-            body.lateral += profile;
-            body.lateral_x += profile * x;
-            body.lateral_z += profile * z;
-            body.side += 2.0 * weight * p.skin();
-        });
     }
 
     /// The volume between the line u_0 and midship, negative where midship is aft of the line.
@@ -256,7 +326,7 @@ impl<'a, const N: usize> Pass<'a, N> {
         let surface = self.hull.surface();
         let (first, last) = surface.u().domain();
         for (u, stern) in [(first, true), (last, false)] {
-            self.each_below(immersion.end(u), |node| {
+            self.each_below(0, immersion.end(u), |node| {
                 let columns = surface.shape()[1];
                 let row = if stern { 0 } else { surface.shape()[0] - 1 };
                 let points = &surface.points()[row * columns + node.first..row * columns + node.first + N];

@@ -1,14 +1,19 @@
 //! Suspect cells of a table of offsets: a map of the scores by station and waterline, and the section and the waterline
-//! through each suspect.
+//! through each suspect. Heights at buttocks are drawn the same way, with the buttock in place of the waterline; points of
+//! sections each in its section ([`points`]).
 //!
 //! Marks of the map are told apart by their shape as well as by their colour: an upright cross is a value above its
 //! prediction, a bar one below; their size is the score.
 
+mod points;
+
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step};
 use super::{PlotError, Svg, caption};
-use crate::fairing::{Suspect, Suspects};
+use crate::fairing::{Suspect, Suspects, height_grid};
 use crate::hull::OffsetTable;
+
+pub use points::suspect_points_figure;
 
 /// Width of the sheet \[mm\].
 const WIDTH: f64 = 297.0;
@@ -32,15 +37,56 @@ const ABOVE: &str = "#b35806";
 const BELOW: &str = "#2166ac";
 const GREY: &str = "#808080";
 
-/// Draws the figure.
+/// What the numbers of a grid are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Words {
+    title: &'static str,
+    plural: &'static str,
+    /// The lines across the stations.
+    across: &'static str,
+    /// Axes of their positions and of the numbers.
+    place: &'static str,
+    value: &'static str,
+    /// Whether the numbers run along the sheet in a section, as half-breadths do.
+    outward: bool,
+}
+
+pub(super) const OFFSETS: Words = Words {
+    title: "SUSPECT OFFSETS",
+    plural: "offsets",
+    across: "waterline",
+    place: "z [m]",
+    value: "half-breadth [m]",
+    outward: true,
+};
+
+const HEIGHTS: Words = Words {
+    title: "SUSPECT HEIGHTS",
+    plural: "heights",
+    across: "buttock",
+    place: "half-breadth [m]",
+    value: "z [m]",
+    outward: false,
+};
+
+/// Draws the suspects among half-breadths.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without cells.
 pub fn suspects_figure(table: &OffsetTable, result: &Suspects) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(table, result)?.finish("suspects") })
+    Ok(Svg { text: compose(table, result, &OFFSETS)?.finish("suspects") })
 }
 
-pub(super) fn compose(table: &OffsetTable, result: &Suspects) -> Result<Canvas, PlotError> {
+/// Draws the suspects among heights at buttocks.
+///
+/// # Errors
+/// [`PlotError::Chart`] for a table without such heights.
+pub fn suspect_heights_figure(table: &OffsetTable, result: &Suspects) -> Result<Svg, PlotError> {
+    let grid = height_grid(table).ok_or_else(|| PlotError::Chart("the table has no heights".to_owned()))?;
+    Ok(Svg { text: compose(&grid, result, &HEIGHTS)?.finish("suspect heights") })
+}
+
+pub(super) fn compose(table: &OffsetTable, result: &Suspects, words: &Words) -> Result<Canvas, PlotError> {
     let (rows, columns) = (table.waterlines.len(), table.stations.len());
     if rows == 0 || columns == 0 {
         return Err(PlotError::Chart("the table has no cells".to_owned()));
@@ -52,17 +98,17 @@ pub(super) fn compose(table: &OffsetTable, result: &Suspects) -> Result<Canvas, 
     let height = plots_top + ROW * shown.div_ceil(2) as f64 + 8.0;
     let mut canvas = Canvas::new(WIDTH, height);
     let title = match table.name.as_str() {
-        "" => "SUSPECT OFFSETS".to_owned(),
-        name => format!("SUSPECT OFFSETS – {}", caption::plain(name)),
+        "" => words.title.to_owned(),
+        name => format!("{} – {}", words.title, caption::plain(name)),
     };
     canvas.text([0.5 * WIDTH, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
-    canvas.text([0.5 * WIDTH, 15.0], &headline(result), &TextStyle::new(2.8, Anchor::Middle));
-    draw_map(&mut canvas, table, result, &map, cell);
+    canvas.text([0.5 * WIDTH, 15.0], &headline(result, words), &TextStyle::new(2.8, Anchor::Middle));
+    draw_map(&mut canvas, table, result, words, &map, cell);
     draw_key(&mut canvas, map.bottom + 15.5);
     for (k, suspect) in result.suspects.iter().take(shown).enumerate() {
         let left = if k % 2 == 0 { MARGIN } else { 0.5 * WIDTH + 3.0 };
         let top = plots_top + ROW * (k / 2) as f64;
-        draw_suspect(&mut canvas, table, suspect, [left, top]);
+        draw_suspect(&mut canvas, table, suspect, words, [left, top]);
     }
     if result.suspects.len() > shown {
         let more = format!("{} further suspects are in the list", result.suspects.len() - shown);
@@ -72,7 +118,7 @@ pub(super) fn compose(table: &OffsetTable, result: &Suspects) -> Result<Canvas, 
     Ok(canvas)
 }
 
-fn headline(result: &Suspects) -> String {
+fn headline(result: &Suspects, words: &Words) -> String {
     let judged = result.verdicts.iter().flatten().flatten().count();
     let count = match result.suspects.len() {
         0 => "no suspects".to_owned(),
@@ -80,7 +126,8 @@ fn headline(result: &Suspects) -> String {
         n => format!("{n} suspects"),
     };
     format!(
-        "{count} among {judged} offsets that their neighbours can judge    noise of the table {}",
+        "{count} among {judged} {} that their neighbours can judge    noise of the table {}",
+        words.plural,
         length(result.noise)
     )
 }
@@ -98,7 +145,7 @@ fn length(value: f64) -> String {
     format!("{millimetres:.digits$} mm")
 }
 
-fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, map: &Rectangle, cell: f64) {
+fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, words: &Words, map: &Rectangle, cell: f64) {
     let centre = |i: usize, j: usize| [map.left + cell * (i as f64 + 0.5), map.bottom - cell * (j as f64 + 0.5)];
     for (i, station) in result.verdicts.iter().enumerate() {
         for (j, verdict) in station.iter().enumerate() {
@@ -137,7 +184,7 @@ fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, map: &R
         canvas.text([centre(i, 0)[0], map.bottom + 1.2], &name, &upward);
     }
     let label = TextStyle::new(2.4, Anchor::Start);
-    canvas.text([map.left, map.top - 3.0], "waterline [m] over station", &label);
+    canvas.text([map.left, map.top - 3.0], &format!("{} [m] over station", words.across), &label);
     draw_rings(canvas, result, map, cell, &centre);
 }
 
@@ -230,21 +277,22 @@ fn draw_key(canvas: &mut Canvas, y: f64) {
 }
 
 /// The words about a suspect, its section and its waterline.
-fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &Suspect, at: [f64; 2]) {
+fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &Suspect, words: &Words, at: [f64; 2]) {
     let [left, top] = at;
     let width = 0.5 * WIDTH - MARGIN - 3.0;
     let station = &table.stations[suspect.station];
-    let words = format!(
-        "{}   station {}, waterline {} m: {}, {:+.1} local noise; expected {} ± {:.1} mm",
+    let first = format!(
+        "{}   station {}, {} {} m: {}, {:+.1} local noise; expected {} ± {:.1} mm",
         suspect.id,
         caption::plain(&station.station.name),
+        words.across,
         rounded(table.waterlines[suspect.waterline]),
         suspect.written,
         suspect.verdict.score,
         rounded(suspect.verdict.expected),
         1000.0 * suspect.verdict.uncertainty
     );
-    canvas.text([left, top], &words, &TextStyle::new(2.6, Anchor::Start));
+    canvas.text([left, top], &first, &TextStyle::new(2.6, Anchor::Start));
     let second = format!(
         "{}: {}   (probability that it is wrong {:.3})",
         suspect.hypothesis().as_str(),
@@ -260,15 +308,18 @@ fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &Suspect, at:
     let (i, j) = (suspect.station, suspect.waterline);
     let section: Vec<[f64; 2]> = (j.saturating_sub(REACH)..(j + REACH + 1).min(table.waterlines.len()))
         .filter(|&k| k != j)
-        .filter_map(|k| given(i, k).map(|y| [y, table.waterlines[k]]))
+        .filter_map(|k| {
+            given(i, k).map(|y| if words.outward { [y, table.waterlines[k]] } else { [table.waterlines[k], y] })
+        })
         .collect();
     let z = table.waterlines[j];
-    small_plot(canvas, &frame(0.0), ["half-breadth [m]", "z [m]"], &section, suspect, z, true);
+    let axes = if words.outward { [words.value, words.place] } else { [words.place, words.value] };
+    small_plot(canvas, &frame(0.0), axes, &section, suspect, z, words.outward);
     let waterline: Vec<[f64; 2]> = (i.saturating_sub(REACH)..(i + REACH + 1).min(table.stations.len()))
         .filter(|&k| k != i)
         .filter_map(|k| given(k, j).map(|y| [table.stations[k].station.x, y]))
         .collect();
-    small_plot(canvas, &frame(1.0), ["x [m]", "half-breadth [m]"], &waterline, suspect, station.station.x, false);
+    small_plot(canvas, &frame(1.0), ["x [m]", words.value], &waterline, suspect, station.station.x, false);
 }
 
 /// One line through the suspect: the other offsets, the suspect hollow, the prediction with twice its uncertainty.
@@ -367,12 +418,18 @@ mod tests {
             let table = table(wrong);
             let result = suspects(&table);
             assert_eq!(result.suspects.len(), wrong.len());
-            let canvas = compose(&table, &result).unwrap();
-            let texts = canvas.texts();
-            for (k, text) in texts.iter().enumerate() {
-                assert!(canvas.sheet().contains(&text.place), "{text:?} leaves the sheet");
-                for other in &texts[..k] {
-                    assert!(!text.place.overlaps(&other.place), "{text:?} on {other:?}");
+            // The same numbers as heights at buttocks.
+            let mut turned = OffsetTable { buttocks: table.waterlines.clone(), ..table.clone() };
+            turned.stations.iter_mut().for_each(|s| s.heights = s.half_breadths.clone());
+            assert!(suspect_heights_figure(&turned, &result).unwrap().as_str().contains("SUSPECT HEIGHTS"));
+            let heights = height_grid(&turned).unwrap();
+            for canvas in [compose(&table, &result, &OFFSETS).unwrap(), compose(&heights, &result, &HEIGHTS).unwrap()] {
+                let texts = canvas.texts();
+                for (k, text) in texts.iter().enumerate() {
+                    assert!(canvas.sheet().contains(&text.place), "{text:?} leaves the sheet");
+                    for other in &texts[..k] {
+                        assert!(!text.place.overlaps(&other.place), "{text:?} on {other:?}");
+                    }
                 }
             }
         }
@@ -382,5 +439,6 @@ mod tests {
     fn a_table_without_cells_has_no_figure() {
         let table = OffsetTable::default();
         assert!(suspects_figure(&table, &suspects(&table)).is_err());
+        assert!(suspect_heights_figure(&table, &suspects(&table)).is_err());
     }
 }

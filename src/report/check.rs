@@ -13,8 +13,8 @@ use crate::fairing::{
     Hypothesis, PointNumber, PointSuspect, PointSuspects, ProposedLine, Reading, Suspect, Suspects, height_suspects,
     point_suspects, proposed_lines, suspects,
 };
-use crate::hull::{Cell, Entry, OffsetTable, Written};
-use crate::plot::suspects_figure;
+use crate::hull::{Cell, Entry, OffsetTable, TableForm, Written};
+use crate::plot::{suspect_heights_figure, suspect_points_figure, suspects_figure};
 
 /// Resolution of the picture \[dots per inch\].
 const DOTS_PER_INCH: f64 = 160.0;
@@ -449,28 +449,36 @@ fn cell_json(table: &OffsetTable, grid: Grid, suspect: &Suspect) -> Value {
     })
 }
 
-/// The files of a check: the list as JSON, the figure as SVG and PNG.
+/// The files of a check: the list as JSON; what is judged of offsets, heights and points as figures, SVG and PNG.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the figure cannot be drawn.
+/// [`Failure::Internal`] when a figure cannot be drawn.
 pub fn check_files(check: &Check, figures: bool) -> Result<Vec<OutputFile>, Failure> {
     let internal = |error: String| Failure::Internal(error);
     let text = serde_json::to_string_pretty(&check_json(check)).map_err(|error| internal(error.to_string()))?;
     let mut files = vec![OutputFile::text("check.json", text + "\n")];
-    if let (Some(table), Some(result), true) = (&check.table, &check.suspects, figures) {
-        let figure = suspects_figure(table, result).map_err(|error| internal(error.to_string()))?;
+    let Some(table) = check.table.as_ref().filter(|_| figures) else { return Ok(files) };
+    let drawn = [
+        ("suspects", check.suspects.as_ref().map(|found| suspects_figure(table, found))),
+        ("suspect-heights", check.heights.as_ref().map(|found| suspect_heights_figure(table, found))),
+        ("suspect-points", check.points.as_ref().map(|found| suspect_points_figure(table, found))),
+    ];
+    for (name, figure) in drawn.into_iter().filter_map(|(name, figure)| Some((name, figure?))) {
+        let figure = figure.map_err(|error| internal(error.to_string()))?;
         let contents = figure.to_png(DOTS_PER_INCH).map_err(|error| internal(error.to_string()))?;
-        files.push(OutputFile { name: "suspects.png".to_owned(), contents });
-        files.push(OutputFile::text("suspects.svg", figure.as_str().to_owned()));
+        files.push(OutputFile { name: format!("{name}.png"), contents });
+        files.push(OutputFile::text(&format!("{name}.svg"), figure.as_str().to_owned()));
     }
     Ok(files)
 }
 
 /// The table with accepted proposals.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Accepted {
     /// The file.
     pub text: String,
+    /// How the table was written.
+    pub form: TableForm,
     /// What was changed, a line a cell.
     pub changes: Vec<String>,
 }
@@ -530,5 +538,6 @@ pub fn accept(check: &Check, ids: &[String]) -> Result<Accepted, Failure> {
             PointNumber::Height => point.z = suspect.proposed,
         }
     }
-    Ok(Accepted { text: write_table(&table, TableWriting::default()).text, changes })
+    let text = write_table(&table, TableWriting::default()).text;
+    Ok(Accepted { text, form: table.form, changes })
 }

@@ -5,13 +5,15 @@ use std::path::Path;
 use super::failure::Failure;
 use super::source::read_table_file;
 use crate::exchange::{Severity, TableWriting, WrittenTable, only_sections, write_table};
-use crate::hull::TableLayout;
+use crate::hull::{TableForm, TableLayout};
 
 /// A converted table, and what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Converted {
     /// The file with what rounding did.
     pub written: WrittenTable,
+    /// How the table was written.
+    pub form: TableForm,
     /// Messages for the user: warnings and notes of the reading, effect of rounding.
     pub messages: Vec<String>,
 }
@@ -55,5 +57,5 @@ pub fn convert_table(path: &Path, writing: TableWriting) -> Result<Converted, Fa
     } else if points > 0 && !tidy && !own {
         messages.push("sections given as points are not written; a tidy table holds them (--layout tidy)".to_owned());
     }
-    Ok(Converted { written, messages })
+    Ok(Converted { written, form: table.form, messages })
 }

@@ -175,6 +175,7 @@ fn offsets_name(job: &FairJob) -> String {
     let extension = job.table_file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match (job.table.form.layout, job.table.form.program, extension) {
         (TableLayout::Other, Some(_), Some(extension)) => format!("offsets.{extension}"),
+        _ if job.table.form.sheet.is_some() => "offsets.xlsx".to_owned(),
         _ => "offsets.csv".to_owned(),
     }
 }
@@ -242,7 +243,7 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
     let hull = write_hull(&outcome.after, &job.conventions);
     let mut files = vec![
         OutputFile::text("hull.json", hull.map_err(|e| Failure::Internal(format!("hull.json: {e}")))?),
-        OutputFile::text(&name, written.text),
+        OutputFile::table(&name, written.text, &job.table.form)?,
         OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
         json_file("fairing.json", &certificate)?,
         json_file("summary.json", &summary)?,

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use crate::exchange::{read_manifest_outputs, sha256};
+use crate::exchange::{read_manifest_outputs, sha256, workbook};
+use crate::hull::TableForm;
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,6 +22,23 @@ impl OutputFile {
     pub fn text(name: &str, contents: String) -> Self {
         Self { name: name.to_owned(), contents: contents.into_bytes() }
     }
+
+    /// The text of a table in the form `form`; a workbook where the name ends in `.xlsx`.
+    ///
+    /// # Errors
+    /// [`Failure::Internal`] when a workbook cannot hold it.
+    pub fn table(name: &str, text: String, form: &TableForm) -> Result<Self, Failure> {
+        if !is_workbook(Path::new(name)) {
+            return Ok(Self::text(name, text));
+        }
+        let contents = workbook(&text, form).map_err(|error| Failure::Internal(format!("{name}: {error}")))?;
+        Ok(Self { name: name.to_owned(), contents })
+    }
+}
+
+/// Whether a file is a workbook by its name.
+pub(super) fn is_workbook(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xlsx"))
 }
 
 /// Writes the files of one run with [`write_all`]. With `force`, files that the manifest of an earlier run in the folder

@@ -43,7 +43,7 @@ pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
 pub use ratio::read_with as read_fractions;
 pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table};
-pub use xlsx::MOST_UNPACKED;
+pub use xlsx::{MOST_UNPACKED, workbook};
 
 use self::grid::Grid;
 use self::problem::{Field, Place, Problems};
@@ -113,10 +113,14 @@ pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -
 
 /// The table of a file of fields: CSV, TSV or XLSX.
 fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Option<OffsetTable> {
+    let mut sheet = None;
     let (grid, text) = if xlsx::is_xlsx(bytes) {
-        let (grid, sheet) = xlsx::grid(bytes, problems)?;
-        problems.note(format!("sheet '{sheet}' of the workbook"));
-        (grid, String::new())
+        let (grid, name) = xlsx::grid(bytes, problems)?;
+        problems.note(format!("sheet '{name}' of the workbook"));
+        sheet = Some(name);
+        settings.comments(&grid.comments, problems);
+        let text = xlsx::lines(&grid);
+        (grid, text)
     } else {
         let text = grid::decode(bytes, problems)?;
         // The separator may be said in a comment, which is found with any separator.
@@ -151,6 +155,7 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         decimal_comma,
         carriage_returns: grid.carriage_returns,
         open_end: grid.open_end,
+        sheet,
         ..TableForm::default()
     };
     let mut table = match layout {

@@ -1,4 +1,7 @@
-//! The first sheet with fields of an XLSX workbook, as the rows of a CSV file.
+//! The first sheet with fields of an XLSX workbook, as the rows of a CSV file, and the text of a table as a workbook.
+//!
+//! A row that begins with `#` is a comment, as in CSV. In a workbook that is written, plain decimal numbers are numbers, shown with
+//! their digits, and all else is text; the same table gives the same bytes.
 //!
 //! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to hold
 //! more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
@@ -6,9 +9,11 @@
 use std::io::Cursor;
 
 use calamine::{DataRef, Reader as _, Xlsx};
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 
 use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
 use super::problem::{Field, Place, Problems};
+use crate::hull::TableForm;
 
 /// The most bytes of all parts of a workbook.
 pub const MOST_UNPACKED: u64 = 256 << 20;
@@ -101,6 +106,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             place(&mut grid, field, &mut cells, problems)?;
         }
         if !grid.rows.iter().all(Vec::is_empty) {
+            comments(&mut grid);
             even(&mut grid);
             return Some((grid, sheet));
         }
@@ -109,6 +115,90 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
         problems.error("E300", Place::FILE, "no sheet of the workbook has cells".to_owned(), "");
     }
     None
+}
+
+/// Takes the rows that begin with `#` out, as comments.
+fn comments(grid: &mut Grid) {
+    for row in &mut grid.rows {
+        if let Some(comment) = row.first().and_then(|field| field.text.trim_start().strip_prefix('#')) {
+            grid.comments.push((row[0].row, comment.trim().to_owned()));
+            row.clear();
+        }
+    }
+}
+
+/// The rows as lines of CSV, comments among them.
+pub(super) fn lines(grid: &Grid) -> String {
+    let mut text = String::new();
+    for (index, row) in grid.rows.iter().enumerate() {
+        if let Some((_, comment)) = grid.comments.iter().find(|(line, _)| *line == index + 1) {
+            text += &format!("# {comment}");
+        }
+        for (place, field) in row.iter().enumerate() {
+            if place > 0 {
+                text.push(',');
+            }
+            if field.text.contains([',', '"', '\n', '\r']) {
+                text += &format!("\"{}\"", field.text.replace('"', "\"\"").replace(['\n', '\r'], " "));
+            } else {
+                text += &field.text;
+            }
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The text of a table, as `write_table` makes it for `form`, as a workbook with one sheet.
+///
+/// # Errors
+/// What the text or the name of the sheet has that a workbook cannot hold, in words.
+pub fn workbook(text: &str, form: &TableForm) -> Result<Vec<u8>, String> {
+    let mut problems = Problems::new("");
+    let Some(grid) = super::grid::split(text, Some(form.separator), &mut problems) else {
+        return Err("the table is larger than a sheet".to_owned());
+    };
+    let failed = |error: XlsxError| error.to_string();
+    let mut book = Workbook::new();
+    // The same table, the same bytes.
+    let made = ExcelDateTime::from_ymd(2000, 1, 1).map_err(failed)?;
+    book.set_properties(&DocProperties::new().set_creation_datetime(&made));
+    let sheet = book.add_worksheet();
+    sheet.set_name(form.sheet.as_deref().unwrap_or("offsets")).map_err(failed)?;
+    let place = |field: &Field| -> Result<(u32, u16), String> {
+        let column = u16::try_from(field.column - 1).map_err(|_| "more columns than a sheet has".to_owned())?;
+        Ok((u32::try_from(field.row - 1).map_err(|_| "more rows than a sheet has".to_owned())?, column))
+    };
+    for (line, comment) in &grid.comments {
+        let row = u32::try_from(line - 1).map_err(|_| "more rows than a sheet has".to_owned())?;
+        sheet.write_string(row, 0, format!("# {comment}")).map_err(failed)?;
+    }
+    for field in grid.rows.iter().flatten().filter(|field| !field.text.is_empty()) {
+        let (row, column) = place(field)?;
+        match number(&field.text, form.decimal_comma) {
+            Some((value, digits)) => {
+                let shown = if digits == 0 { "0".to_owned() } else { format!("0.{}", "0".repeat(digits)) };
+                sheet.write_number_with_format(row, column, value, &Format::new().set_num_format(shown))
+            }
+            None => sheet.write_string(row, column, &field.text),
+        }
+        .map_err(failed)?;
+    }
+    book.save_to_buffer().map_err(failed)
+}
+
+/// The value and the digits after the decimal sign of a plain decimal number.
+fn number(text: &str, decimal_comma: bool) -> Option<(f64, usize)> {
+    let text = if decimal_comma { text.replace(',', ".") } else { text.to_owned() };
+    let digits = text.strip_prefix('-').unwrap_or(&text);
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let plain = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
+    // A leading zero, as of a frame 007, belongs to a name.
+    let named = whole.len() > 1 && whole.starts_with('0');
+    if whole.is_empty() || named || !plain(whole) || !plain(part) || digits.len() > 15 {
+        return None;
+    }
+    text.parse().ok().map(|value| (value, part.len()))
 }
 
 /// Puts a field into its row; blank fields fill the row before it, and count as cells.

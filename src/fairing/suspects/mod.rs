@@ -10,7 +10,7 @@ mod search;
 mod stencil;
 
 pub(super) use grid::{Along, Grid};
-pub use heights::height_suspects;
+pub use heights::{height_grid, height_suspects};
 pub use outline::{PointNumber, PointSuspect, PointSuspects, point_suspects};
 pub use posterior::Reading;
 pub use reading::Hypothesis;

@@ -28,6 +28,8 @@ pub(super) struct Line {
     pub(super) limits: Vec<[f64; 2]>,
     /// How far beyond the limits is left alone.
     pub(super) tolerance: f64,
+    /// Indices of the sites at which the slope is 0: edges of flats.
+    pub(super) level: Vec<usize>,
 }
 
 impl Line {
@@ -58,7 +60,7 @@ impl Line {
                 [(a - margin).max(low), (b + margin).min(high)]
             })
             .collect();
-        Self { sites, values, slacks, limits, tolerance }
+        Self { sites, values, slacks, limits, tolerance, level: Vec::new() }
     }
 
     /// Limits only where two neighbouring data agree to `tolerance`.
@@ -73,16 +75,34 @@ impl Line {
                 }
             })
             .collect();
-        Self { slacks: vec![0.0; sites.len()], sites, values, limits, tolerance }
+        Self { slacks: vec![0.0; sites.len()], sites, values, limits, tolerance, level: Vec::new() }
     }
 
-    fn conditions(&self) -> Vec<Condition> {
-        self.sites.iter().map(|&site| Condition { site, order: 0 }).collect()
+    /// Values at the sites and slopes of 0.
+    fn conditions(&self) -> (Vec<Condition>, Vec<f64>, Vec<f64>) {
+        let values = self.sites.iter().map(|&site| Condition { site, order: 0 });
+        let slopes = self.level.iter().map(|&k| Condition { site: self.sites[k], order: 1 });
+        let mut slacks = self.slacks.clone();
+        slacks.resize(self.sites.len() + self.level.len(), 0.0);
+        (values.chain(slopes).collect(), self.data(), slacks)
+    }
+
+    /// What the conditions of the problem without limits ask for.
+    pub(super) fn data(&self) -> Vec<f64> {
+        let mut data = self.values.clone();
+        data.resize(self.sites.len() + self.level.len(), 0.0);
+        data
     }
 
     /// The factored problem without limits.
     pub(super) fn problem(&self, energy: &Energy) -> Result<MinimumEnergy, FitError> {
-        Ok(energy.smoothing(&self.conditions(), &self.slacks).map_err(HullError::from)?)
+        let (conditions, _, slacks) = self.conditions();
+        Ok(energy.smoothing(&conditions, &slacks).map_err(HullError::from)?)
+    }
+
+    /// Its solution.
+    pub(super) fn free(&self, energy: &Energy) -> Result<Vec<f64>, FitError> {
+        Ok(self.problem(energy)?.solve(&self.data()))
     }
 
     /// Gaps in which the spline leaves its limits, and by how much.
@@ -138,8 +158,7 @@ impl Line {
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut control = free;
         let attempt = |held: &[(usize, f64)]| -> Option<Vec<f64>> {
-            let mut conditions = self.conditions();
-            let (mut data, mut slacks) = (self.values.clone(), self.slacks.clone());
+            let (mut conditions, mut data, mut slacks) = self.conditions();
             for &(k, site) in held {
                 conditions.push(Condition { site, order: 0 });
                 data.push(monotone_cubic(&points, site).clamp(self.limits[k][0], self.limits[k][1]));
@@ -169,6 +188,38 @@ impl Line {
         }
         control
     }
+}
+
+/// Knots nearer than this to each other are one, over domains of length 1.
+pub(super) const ONE_KNOT: f64 = 1e-7;
+
+/// The knots with at least `times`-fold ones at `places`, or at knots that are there already.
+pub(super) fn with_multiple(knots: &KnotVector, places: &[f64], times: usize) -> Result<KnotVector, FitError> {
+    let mut all = knots.knots().to_vec();
+    for &place in places {
+        let t = all.iter().copied().find(|k| (k - place).abs() <= ONE_KNOT).unwrap_or(place);
+        let lacking = times.saturating_sub(all.iter().filter(|k| (*k - t).abs() <= 0.0).count());
+        all.extend(std::iter::repeat_n(t, lacking));
+    }
+    all.sort_by(f64::total_cmp);
+    Ok(KnotVector::new(knots.degree(), all).map_err(HullError::from)?)
+}
+
+/// The control values over `to`, which holds all of the knots `from`, exactly.
+pub(super) fn carried(from: &KnotVector, control: &[f64], to: &KnotVector) -> Result<Vec<f64>, FitError> {
+    let (lower, upper) = from.domain();
+    let added: Vec<f64> = to
+        .breakpoints()
+        .into_iter()
+        .filter(|&t| t > lower && t < upper)
+        .flat_map(|t| std::iter::repeat_n(t, to.multiplicity(t).saturating_sub(from.multiplicity(t))))
+        .collect();
+    if added.is_empty() {
+        return Ok(control.to_vec());
+    }
+    let points = control.iter().map(|&c| [c]).collect();
+    let fine = BsplineCurve::new(from.clone(), points).and_then(|c| c.insert_knots(&added)).map_err(HullError::from)?;
+    Ok(fine.points().iter().map(|p| p[0]).collect())
 }
 
 /// Adds simple knots at `middles` that are not near a knot already.

@@ -10,8 +10,8 @@
 
 use super::super::HullError;
 use super::FitError;
-use super::bounded::with_knots;
-use crate::spline::{BsplineCurve, Collocation, Condition, Energy, KnotVector, SplineError};
+use super::bounded::{carried, with_knots};
+use crate::spline::{Collocation, Condition, Energy, KnotVector, SplineError};
 
 /// Shoulders of the cubes.
 pub(super) const SHOULDERS: [f64; 2] = [0.4, 0.6];
@@ -57,6 +57,14 @@ impl Span {
         }
     }
 
+    /// dx / d(stern) at `u`: how far a waterline moves there when its stern end moves.
+    pub(super) fn share_of_stern(&self, u: f64) -> f64 {
+        match self {
+            Self::Cubes(_) => cubes(u)[0].0,
+            Self::Blend => 1.0 - u,
+        }
+    }
+
     /// u at `x` on a waterline between `ends`, to rounding.
     pub(super) fn u(&self, x: f64, ends: [f64; 2]) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
@@ -93,28 +101,37 @@ pub(super) struct Heights {
 impl Heights {
     /// The same z(v) with more knots at `middles`, exactly.
     pub(super) fn refined(&self, middles: Vec<f64>) -> Result<Self, FitError> {
-        let knots = with_knots(&self.knots, middles)?;
-        if knots == self.knots {
-            return Ok(self.clone());
+        self.on(with_knots(&self.knots, middles)?)
+    }
+
+    /// The same z(v) over `knots`, which hold all of its own, exactly.
+    pub(super) fn on(&self, knots: KnotVector) -> Result<Self, FitError> {
+        Ok(Self { z: carried(&self.knots, &self.z, &knots)?, knots, sites: self.sites.clone() })
+    }
+
+    /// v at the height `z` \[m\], to rounding; the nearer end beyond the heights.
+    pub(super) fn parameter(&self, z: f64) -> f64 {
+        let (mut low, mut high) = self.knots.domain();
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let span = self.knots.find_span(middle);
+            let [basis] = self.knots.basis_derivatives::<1>(span, middle);
+            let first = span - self.knots.degree();
+            let at: f64 = basis.iter().zip(&self.z[first..=span]).map(|(b, z)| b * z).sum();
+            if at < z { low = middle } else { high = middle }
         }
-        let curve =
-            BsplineCurve::new(self.knots.clone(), self.z.iter().map(|&z| [z]).collect()).map_err(HullError::from)?;
-        let added: Vec<f64> =
-            knots.breakpoints().into_iter().filter(|&t| knots.multiplicity(t) > self.knots.multiplicity(t)).collect();
-        let fine = curve.insert_knots(&added).map_err(HullError::from)?;
-        Ok(Self { knots, sites: self.sites.clone(), z: fine.points().iter().map(|p| p[0]).collect() })
+        0.5 * (low + high)
     }
 }
 
-/// Knots through `sites` (0 to 1, rising) for cubics: the sites, `corners` (indices of sites) threefold.
-fn knots_at(sites: &[f64], corners: &[usize]) -> Result<KnotVector, SplineError> {
-    let times: Vec<usize> = (1..sites.len() - 1).map(|k| if corners.contains(&k) { 3 } else { 1 }).collect();
-    KnotVector::from_breakpoints(3, sites, &times)
+/// Knots through `sites` (0 to 1, rising) for cubics: the sites, each as often as `times` says.
+fn knots_at(sites: &[f64], times: &[usize]) -> Result<KnotVector, SplineError> {
+    KnotVector::from_breakpoints(3, sites, &times[1..sites.len() - 1])
 }
 
-/// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them; `blunt` where the bottom is flat. Ever
-/// less of the chord lengths and more of the heights until z rises with v.
-pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool) -> Result<Heights, FitError> {
+/// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them and `times`-fold knots on them; `blunt` where
+/// the bottom is flat. Ever less of the chord lengths and more of the heights until z rises with v.
+pub(super) fn heights(z: &[f64], girths: &[f64], times: &[usize], blunt: bool) -> Result<Heights, FitError> {
     const STEPS: u32 = 8;
     let total: f64 = girths.iter().sum();
     let rise = z[z.len() - 1] - z[0];
@@ -130,7 +147,7 @@ pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool)
         if let Some(last) = sites.last_mut() {
             *last = 1.0;
         }
-        let knots = knots_at(&sites, corners).map_err(HullError::from)?;
+        let knots = knots_at(&sites, times).map_err(HullError::from)?;
         let mut conditions: Vec<Condition> = sites.iter().map(|&site| Condition { site, order: 0 }).collect();
         let mut data = z.to_vec();
         if blunt && step < STEPS {
@@ -153,7 +170,7 @@ pub(super) fn heights(z: &[f64], girths: &[f64], corners: &[usize], blunt: bool)
     if let Some(last) = sites.last_mut() {
         *last = 1.0;
     }
-    let knots = knots_at(&sites, corners).map_err(HullError::from)?;
+    let knots = knots_at(&sites, times).map_err(HullError::from)?;
     let control = knots.greville().iter().map(|v| z[0] + rise * v).collect();
     Ok(Heights { knots, sites, z: control })
 }

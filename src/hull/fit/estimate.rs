@@ -6,7 +6,9 @@
 //! all lines share: ends of waterlines and bottoms that the table does not give. Cost: two more fits.
 
 use super::super::{Functional, Hull, OffsetTable};
+use super::features::runs_along;
 use super::method::FitMethod;
+use crate::hull::cell::LineKind;
 
 /// Fewest lines of which every second one can be left out.
 const LEAST: usize = 5;
@@ -103,13 +105,19 @@ fn every_second_station(table: &OffsetTable) -> Option<OffsetTable> {
     (count >= LEAST).then(|| OffsetTable { stations: kept(&table.stations, |k| stays(k, count)), ..table.clone() })
 }
 
-/// Every second waterline, and every second point of a section.
+/// Every second waterline and those that are knuckles and tangent lines, and every second point of a section.
 fn every_second_waterline(table: &OffsetTable, draught: f64) -> Option<OffsetTable> {
     let count = table.waterlines.len();
     let slack = 1e-9 * draught.abs();
+    let line = |j: usize| [LineKind::Knuckle, LineKind::Tangent].into_iter().any(|kind| runs_along(table, j, kind));
+    let lines: Vec<bool> = (0..count).map(line).collect();
     // A short list would lose what it says.
     let keep = |j: usize| {
-        count < LEAST || stays(j, count) || table.waterlines.get(j).is_some_and(|z| (z - draught).abs() <= slack)
+        count < LEAST
+            || stays(j, count)
+            || table.waterlines.get(j).is_some_and(|z| (z - draught).abs() <= slack)
+            // A line of the hull is no sample of it.
+            || lines.get(j) == Some(&true)
     };
     let mut thin = table.clone();
     let mut fewer = false;

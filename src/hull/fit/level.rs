@@ -11,24 +11,17 @@
 //!
 //! Cost: linear in the number of cells.
 
+mod part;
+
 use super::super::{Hull, HullError, OffsetTable};
 use super::FitError;
-use super::bounded::{Line, with_knots};
-use super::chart::{Heights, Span, heights, length_knots, lengths};
-use super::floor;
+use super::bounded::{with_knots, with_multiple};
+use super::chart::{Heights, length_knots};
+use super::features::{self, FlatOfSide};
 use super::particulars;
 use super::rows::{Row, Rows};
 use crate::spline::{BsplineCurve, BsplineSurface, Energy, KnotVector};
-
-/// A bottom counts as flat when its half-breadth is more than this part of that of the waterline above.
-const FLAT_BOTTOM: f64 = 0.05;
-
-/// Swings beyond centreplane and greatest half-breadth that are left alone, over the latter.
-const SWING: f64 = 1e-4;
-
-/// Half-breadths below 0 by less than this part of the greatest one are left alone: a tenth of a millimetre on a ship. Ringing dies down by
-/// a factor of four a waterline, so that a smaller part would ask for knots on nearly all of them.
-const FLOOR: f64 = 1e-5;
+use part::{Columns, Part, Shape};
 
 /// Control values of a waterline this far beyond centreplane and greatest half-breadth, over the latter, ask for more knots.
 const WILD: f64 = 0.05;
@@ -44,131 +37,6 @@ const STRIP: f64 = 0.02;
 
 /// Height of a strip over that of the body below it.
 const HAIR: f64 = 1e-9;
-
-/// Mean over the stations of the chord lengths of sections between waterlines.
-fn girths(rows: &[Row], stations: usize) -> Vec<f64> {
-    let known: Vec<Vec<Option<f64>>> = rows
-        .iter()
-        .map(|row| {
-            let mut line = vec![None; stations];
-            row.sites.iter().for_each(|s| line[s.station] = Some(s.y));
-            line
-        })
-        .collect();
-    rows.windows(2)
-        .zip(known.windows(2))
-        .map(|(pair, lines)| {
-            let dz = pair[1].z - pair[0].z;
-            let (mut sum, mut count) = (0.0, 0usize);
-            for (a, b) in lines[0].iter().zip(&lines[1]) {
-                if let (Some(a), Some(b)) = (a, b) {
-                    sum += dz.hypot(b - a);
-                    count += 1;
-                }
-            }
-            if count == 0 { dz } else { sum / count as f64 }
-        })
-        .collect()
-}
-
-/// Waterlines between which lines across are smooth.
-struct Part {
-    rows: Vec<Row>,
-    up: Heights,
-    span: Span,
-    /// Control values of the profiles in v.
-    profiles: [Vec<f64>; 2],
-    /// For each row its data in u.
-    lines: Vec<Line>,
-}
-
-impl Part {
-    fn new(rows: Vec<Row>, stations: usize, greatest: f64) -> Result<Self, FitError> {
-        let z: Vec<f64> = rows.iter().map(|r| r.z).collect();
-        let widest = |row: &Row| row.sites.iter().map(|s| s.y).fold(0.0, f64::max);
-        let corners: Vec<usize> = (1..rows.len() - 1).filter(|&j| rows[j].knuckle).collect();
-        let blunt = widest(&rows[0]) > FLAT_BOTTOM * widest(&rows[1]);
-        let up = heights(&z, &girths(&rows, stations), &corners, blunt)?;
-        let mut part = Self { rows, up, span: Span::Blend, profiles: [Vec::new(), Vec::new()], lines: Vec::new() };
-        part.set_profiles()?;
-        for row in &part.rows {
-            let ends = row.ends.map(|e| e.x);
-            let mut sites = vec![0.0];
-            sites.extend(row.sites.iter().map(|s| part.span.u(s.x, ends)));
-            sites.push(1.0);
-            let y = |side: usize| std::iter::once(row.ends[side].y);
-            let values = y(0).chain(row.sites.iter().map(|s| s.y)).chain(y(1)).collect();
-            let none = || std::iter::once(0.0);
-            let slacks = none().chain(row.sites.iter().map(|s| s.slack)).chain(none()).collect();
-            part.lines.push(Line::within(sites, values, slacks, [0.0, greatest], SWING * greatest));
-        }
-        Ok(part)
-    }
-
-    /// Profiles on the present knots in v, without swings at plumb ends.
-    fn set_profiles(&mut self) -> Result<(), FitError> {
-        let length = self.rows.iter().map(|r| r.ends[1].x - r.ends[0].x).fold(0.0, f64::max);
-        let line = |side: usize| {
-            let ends = self.rows.iter().map(|r| r.ends[side].x).collect();
-            Line::flat_kept(self.up.sites.clone(), ends, 1e-5 * length)
-        };
-        let lines = [line(0), line(1)];
-        let energy = Energy::new(&self.up.knots, 2);
-        let free = |line: &Line| -> Result<Vec<f64>, FitError> { Ok(line.problem(&energy)?.solve(&line.values)) };
-        let frees = [free(&lines[0])?, free(&lines[1])?];
-        let middles: Vec<f64> =
-            lines.iter().zip(&frees).flat_map(|(line, free)| line.swings(&self.up.knots, free)).collect();
-        if !middles.is_empty() {
-            self.up = self.up.refined(middles)?;
-        }
-        let energy = Energy::new(&self.up.knots, 2);
-        let solve = |line: &Line| -> Result<Vec<f64>, FitError> {
-            Ok(line.solve(&energy, line.problem(&energy)?.solve(&line.values)))
-        };
-        self.profiles = [solve(&lines[0])?, solve(&lines[1])?];
-        self.span = Span::new(&self.profiles[0], &self.profiles[1]);
-        Ok(())
-    }
-
-    /// Adds knots in v without changing the profiles and z(v).
-    fn refine(&mut self, middles: Vec<f64>) -> Result<(), FitError> {
-        let old = self.up.knots.clone();
-        let carry = |control: &Vec<f64>, up: &Heights| Heights { z: control.clone(), ..up.clone() };
-        let profiles = [carry(&self.profiles[0], &self.up), carry(&self.profiles[1], &self.up)];
-        self.up = self.up.refined(middles.clone())?;
-        if self.up.knots != old {
-            let [stern, stem] = profiles;
-            self.profiles = [stern.refined(middles.clone())?.z, stem.refined(middles)?.z];
-        }
-        Ok(())
-    }
-
-    /// The net of y, one list a column in v, for rows with control values `rows` in u.
-    fn across(&mut self, u: &KnotVector, rows: &[Vec<f64>], greatest: f64) -> Result<Vec<Vec<f64>>, FitError> {
-        let count = rows[0].len();
-        let line = |i: usize, sites: &[f64]| {
-            let values: Vec<f64> = rows.iter().map(|r| r[i]).collect();
-            Line::within(sites.to_vec(), values, vec![0.0; rows.len()], [0.0, greatest], SWING * greatest)
-        };
-        let lines: Vec<Line> = (0..count).map(|i| line(i, &self.up.sites)).collect();
-        let problem = lines[0].problem(&Energy::new(&self.up.knots, 2))?;
-        let middles: Vec<f64> =
-            lines.iter().flat_map(|line| line.swings(&self.up.knots, &problem.solve(&line.values))).collect();
-        self.refine(middles)?;
-        let energy = Energy::new(&self.up.knots, 2);
-        let problem = lines[0].problem(&energy)?;
-        let mut solved: Vec<Vec<f64>> =
-            lines.iter().map(|line| line.solve(&energy, problem.solve(&line.values))).collect();
-        let added = floor::lift(u, &self.up.knots, &mut solved, FLOOR * greatest)?;
-        if !added.is_empty() {
-            for profile in &mut self.profiles {
-                *profile = floor::inserted(&self.up.knots, profile, &added)?.1;
-            }
-            (self.up.knots, self.up.z) = floor::inserted(&self.up.knots, &self.up.z, &added)?;
-        }
-        Ok((0..self.up.z.len()).map(|j| solved.iter().map(|line| line[j]).collect()).collect())
-    }
-}
 
 /// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the ends of
 /// the body below.
@@ -208,7 +76,7 @@ fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Ve
 fn narrowed(row: &Row, below: &[Row]) -> Row {
     let last = &below[below.len() - 1];
     let before = below.len().checked_sub(2).map(|k| &below[k]);
-    let mut copy = row.clone();
+    let mut copy = Row { transom: false, ..row.clone() };
     // A hair below, so that the height of the waterline belongs to the hull alone.
     copy.z -= HAIR * (row.z - below[0].z);
     for side in 0..2 {
@@ -232,19 +100,24 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     let greatest = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
     let particulars = particulars::particulars(table, &rows, &mut notes);
     let deck = particulars::deck(table, &rows, &mut notes)?;
+    let flat = FlatOfSide::new(table, &mut notes);
+    let shape = Shape { flat: flat.as_ref(), transom: table.transom };
+    features::unused(table, flat.as_ref(), &mut notes);
     let mut parts = Vec::new();
     for rows in split(table, rows, &mut notes) {
-        parts.push(Part::new(rows, table.stations.len(), greatest)?);
+        parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
     }
     // Knots in u that serve every row, and more of them where a row swings.
     let lines = || parts.iter().flat_map(|p| &p.lines);
     let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
-    let mut first = length_knots(&sites)?;
+    let edges: Vec<f64> =
+        lines().flat_map(|line| line.level.iter().map(|&k| line.sites[k])).filter(|&u| u > 0.0 && u < 1.0).collect();
+    let mut first = with_multiple(&length_knots(&sites)?, &edges, 2)?;
     let free = |knots: &KnotVector| -> Result<(Vec<f64>, bool), FitError> {
         let energy = Energy::new(knots, 2);
         let (mut middles, mut wild) = (Vec::new(), false);
         for line in lines() {
-            let control = line.problem(&energy)?.solve(&line.values);
+            let control = line.free(&energy)?;
             wild |= line.excess(&control) > WILD * greatest;
             middles.extend(line.swings(knots, &control));
         }
@@ -263,10 +136,13 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     for part in &mut parts {
         let mut rows = Vec::with_capacity(part.lines.len());
         for line in &part.lines {
-            rows.push(line.solve(&energy, line.problem(&energy)?.solve(&line.values)));
+            let mut control = line.solve(&energy, line.free(&energy)?);
+            if let [aft, fore] = line.level[..] {
+                part::flatten(&u, &mut control, [line.sites[aft], line.sites[fore]], line.values[aft]);
+            }
+            rows.push(control);
         }
-        let y = part.across(&u, &rows, greatest)?;
-        let x = lengths(&u, part.span, &part.profiles[0], &part.profiles[1])?;
+        let Columns { x, y } = part.across(&u, &rows, greatest, flat.as_ref())?;
         net.push(x, y, &part.up);
     }
     let surface = net.surface(u)?;

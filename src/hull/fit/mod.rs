@@ -6,6 +6,7 @@
 mod bounded;
 mod chart;
 mod estimate;
+mod features;
 mod floor;
 mod level;
 mod method;
@@ -14,8 +15,10 @@ mod misfit;
 mod monotone;
 mod outlines;
 mod particulars;
+mod points;
 mod rows;
 mod skin;
+mod transom;
 mod upright;
 
 use super::cell::Entry;
@@ -111,15 +114,18 @@ impl Hull {
 
 /// The default method.
 fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
-    if outlines::only_outlines(table) {
-        return sections(table);
-    }
-    if upright::suits(table) {
-        return upright::fit(table);
-    }
-    let (hull, notes) = level::loft(table, rows::prepare(table)?)?;
-    let cells = residuals(table, &hull);
-    Ok(Fitted { hull, chart: Chart::Level, cells, notes })
+    let mut fitted = if outlines::only_outlines(table) {
+        sections(table)?
+    } else if upright::suits(table) {
+        upright::fit(table)?
+    } else {
+        let (hull, mut notes) = level::loft(table, rows::prepare(table)?)?;
+        let hull = points::follow(table, hull, &mut notes)?;
+        let cells = residuals(table, &hull);
+        Fitted { hull, chart: Chart::Level, cells, notes }
+    };
+    fitted.notes.extend(features::not_held(table, fitted.chart));
+    Ok(fitted)
 }
 
 /// Tables of section outlines: with their knuckles as lines of the net where there are any, else, and where these make no hull,

@@ -69,6 +69,12 @@ pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<Str
     PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth }
 }
 
+/// Whether the plane of the transom cuts the station at `x` between its highest offset and the next waterline.
+fn before_transom(table: &OffsetTable, x: f64, highest: f64) -> bool {
+    let next = table.waterlines.iter().copied().filter(|&z| z > highest).min_by(f64::total_cmp);
+    table.transom.zip(next).is_some_and(|(plane, z)| highest.is_finite() && plane.x_base + plane.slope * z > x)
+}
+
 /// Knots and control points (x, z) of the deck at side: the heights of the stations where the table gives them, or of their
 /// highest offsets, joined straight, inside the surface; level at the top where every station reaches it.
 #[allow(clippy::type_complexity, reason = "the two parts of one curve, taken apart at once")]
@@ -90,6 +96,8 @@ pub(super) fn deck(
         let highest = highest.map(|(_, z)| *z).fold(f64::NEG_INFINITY, f64::max);
         let z = match station.deck_height {
             Some(z) if z.is_finite() => z,
+            // The station meets the transom there, not the deck.
+            _ if before_transom(table, station.station.x, highest) => continue,
             _ if highest.is_finite() => {
                 assumed += usize::from(highest < top);
                 highest

@@ -5,9 +5,9 @@
 //! hull begins; the last cell itself where the table ends with breadth (transom or cut); where the waterline, continued
 //! straight, closes before the next station. Each assumption is told once, with the waterlines it concerns.
 
-use super::super::{Entry, OffsetTable, StationOffsets};
-use super::FitError;
+use super::super::{Entry, LineKind, OffsetTable, StationOffsets};
 use super::monotone::monotone_cubic;
+use super::{FitError, features, transom};
 
 /// Slack of a doubtful cell against one that must be met, as a part of the energy scale of the fit.
 const DOUBTFUL: f64 = 1.0;
@@ -51,8 +51,12 @@ pub(super) struct Row {
     pub(super) sites: Vec<Site>,
     /// Stern and stem.
     pub(super) ends: [End; 2],
-    /// A marked knuckle runs along it.
+    /// A knuckle runs along it.
     pub(super) knuckle: bool,
+    /// A tangent line runs along it.
+    pub(super) tangent: bool,
+    /// It ends on the plane of the transom.
+    pub(super) transom: bool,
 }
 
 /// The waterlines, lowest first, and what was assumed.
@@ -66,6 +70,7 @@ pub(super) struct Rows {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Origin {
     Given,
+    Transom,
     Profile,
     Zero,
     Cut,
@@ -160,7 +165,9 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         ));
         rows.insert(0, bottom);
     }
+    notes.extend(transom::notes(table, &rows));
     for (origin, words) in [
+        (Origin::Transom, "ends on the plane of the transom, its breadth there carried on from its last offsets"),
         (Origin::Profile, "ends on the profile"),
         (Origin::Zero, "ends at the last zero before the hull begins"),
         (Origin::Cut, "is cut off at the last station, where it still has breadth (transom)"),
@@ -229,9 +236,15 @@ fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mu
     let (first, last) = (aft_deck.last().copied().unwrap_or(first), fore_deck.last().copied().unwrap_or(last));
     let value = |k: usize| line.value(k).or_else(|| if line.above_deck(k) { line.deck_half_breadth(k) } else { None });
     let mut ends = [End { x: 0.0, y: 0.0 }; 2];
+    let mut transom = false;
     for (side, place) in ends.iter_mut().enumerate() {
         let (k, step) = if side == 0 { (first, -1isize) } else { (last, 1) };
-        let (end, origin) = end(line, side, k, step, &value)?;
+        let on_transom = if side == 0 { on_transom(line, first, last, &value) } else { None };
+        transom |= on_transom.is_some();
+        let (end, origin) = match on_transom {
+            Some(end) => (end, Origin::Transom),
+            None => end(line, side, k, step, &value)?,
+        };
         *place = end;
         if origin != Origin::Given {
             assumed.push((origin, side, line.z()));
@@ -267,14 +280,37 @@ fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mu
             line.z()
         ));
     }
-    let marked =
-        given.iter().filter(|&&k| line.station(k).half_breadths.get(line.j).is_some_and(|c| c.marks.knuckle)).count();
-    Some(Row { z: line.z(), waterline: Some(line.j), sites, ends, knuckle: 2 * marked > given.len() })
+    let along = |kind: LineKind| features::runs_along(line.table, line.j, kind);
+    let (knuckle, tangent) = (along(LineKind::Knuckle), along(LineKind::Tangent));
+    Some(Row { z: line.z(), waterline: Some(line.j), sites, ends, knuckle, tangent, transom })
 }
 
 /// Whether a blank cell lies outside the profile: below the keel, or between a bulb and the stem above it.
 fn outside(line: &Waterline<'_>, k: usize) -> bool {
     !line.above_deck(k)
+}
+
+/// The end of a waterline on the plane of the transom; none where it closes before it, and where an offset lies aft of the plane.
+///
+/// It closes before it when the table gives an end or a station without hull before the plane, or when it has no breadth left there.
+fn on_transom(line: &Waterline<'_>, first: usize, last: usize, value: &dyn Fn(usize) -> Option<f64>) -> Option<End> {
+    let plane = line.table.transom?;
+    let at = plane.x_base + plane.slope * line.z();
+    let slack = 1e-9 * (1.0 + at.abs());
+    if (0..line.order.len()).any(|k| line.x(k) < at - slack && line.value(k).is_some_and(|y| y > 0.0)) {
+        return None;
+    }
+    if line.table.endings.get(line.j).and_then(|e| e[0]).is_some_and(|x| x > at + slack) {
+        return None;
+    }
+    let start = (first..=last).find(|&k| line.x(k) >= at - slack)?;
+    // A station before the plane at which there is no hull.
+    if start.checked_sub(1).is_some_and(|k| line.x(k) >= at - slack) {
+        return None;
+    }
+    let cells: Vec<(f64, f64)> = (start..=last).filter_map(|k| Some((line.x(k), value(k)?))).take(3).collect();
+    let y = transom::breadth(at, &cells)?;
+    Some(End { x: at, y })
 }
 
 fn end(
@@ -392,5 +428,13 @@ fn bottom_row(table: &OffsetTable, order: &[usize], lowest: Option<&Row>) -> Opt
         .filter(|&&i| x(i) > ends[0].x && x(i) < ends[1].x)
         .map(|&i| Site { station: i, x: x(i), y: breadth(i), slack: 0.0 })
         .collect();
-    (ends[1].x > ends[0].x).then_some(Row { z: keel, waterline: None, sites, ends, knuckle: false })
+    (ends[1].x > ends[0].x).then_some(Row {
+        z: keel,
+        waterline: None,
+        sites,
+        ends,
+        knuckle: false,
+        tangent: false,
+        transom: false,
+    })
 }

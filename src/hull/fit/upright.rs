@@ -32,9 +32,10 @@ mod published;
 #[cfg(test)]
 mod tests;
 
+use super::features::{self, FlatOfSide};
 use super::particulars::{draught_guess, lowest_edge};
 use super::{CellResidual, Chart, FitError, Fitted};
-use crate::hull::cell::{Entry, LineKind};
+use crate::hull::cell::{Entry, FeatureLine, LineKind};
 use crate::hull::form::Hull;
 use crate::hull::offsets::OffsetTable;
 use crate::hull::particulars::PrincipalParticulars;
@@ -58,10 +59,10 @@ const OVERSHOOT: f64 = 0.05;
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
 
-/// Whether the upright chart is the one for a table: where it has knuckles, and where the keel line of the middle three fifths of the
+/// Whether the upright chart is the one for a table: where it has knuckles that do not run along waterlines, and where the keel line of the middle three fifths of the
 /// length varies by more than a twentieth of the depth (rocker, rake).
 pub(super) fn suits(table: &OffsetTable) -> bool {
-    has_knuckles(table) || has_rocker(table)
+    (has_knuckles(table) && !features::knuckles_are_level(table)) || has_rocker(table)
 }
 
 /// Whether a table has knuckles off the centreplane.
@@ -98,6 +99,21 @@ pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     Ok(Fitted { hull, chart: Chart::Upright, cells: net.cells(table), notes: net.notes })
 }
 
+/// The lines of a table, the lower edge of its flat of side among them.
+fn with_flat_of_side(table: &OffsetTable, notes: &mut Vec<String>) -> Vec<FeatureLine> {
+    let mut lines = table.lines.clone();
+    if table.stations.iter().any(|s| s.flat_of_side.is_some())
+        && let Some(flat) = FlatOfSide::new(table, notes)
+    {
+        let points = flat.edge.iter().map(|&[x, z]| [x, flat.half, z]).collect();
+        lines.push(FeatureLine { name: "flat of side".to_owned(), kind: LineKind::Tangent, points });
+        notes.push(
+            "flat of side: exact at the stations; between them the surface keeps it as interpolation does".to_owned(),
+        );
+    }
+    lines
+}
+
 /// The surface with what it was made of.
 struct Net {
     surface: BsplineSurface<3>,
@@ -127,7 +143,7 @@ impl Net {
             return Err(too_few(&profiles));
         }
         let slack = SLACK * size.depth;
-        let lines = lines::lines(table, &profiles, size, &mut notes);
+        let lines = lines::lines(&with_flat_of_side(table, &mut notes), &profiles, size, &mut notes);
         let x: Vec<f64> = profiles.iter().map(|p| p.x).collect();
         let length = Length::new(&x, ends::blunt(&profiles));
         let levels = Levels::new(&profiles, &lines, &length, size, &mut notes).map_err(spline)?;

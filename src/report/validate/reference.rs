@@ -16,7 +16,8 @@
 //! volume_percent = 0.5                    # of the published figure
 //! ```
 //!
-//! `[check]` holds figures of other integrations of the same table; it is used where nothing is published. `[sign_trap]` says
+//! `[check]` holds figures of other integrations of the same table; it is used where nothing is published. `volume_m3` of `[mesh_check]`,
+//! `[obj_check]`, `[stl_check]` (meshes of the same ship) and `[table_check]` (trapezoids over the table) is shown and not judged. `[sign_trap]` says
 //! that centres in columns named `..._printed` count positive towards the aft end. A file `*hydrostatics.csv` beside it is
 //! a published table: its columns have the same names, its draughts are `T_m`. `lcb_x_m` counts from the origin of x in the
 //! table; `x_min` of `[particulars]` is the x of the aftmost station there, for readers that put AP elsewhere.
@@ -99,7 +100,7 @@ pub(super) struct Figure {
     /// In the frame of our tables where the sign was reversed.
     pub(super) value: f64,
     pub(super) tolerance: Option<Tolerance>,
-    /// `published`, `exact`, `check`.
+    /// `published`, `exact`, `check`, or which other body.
     pub(super) section: &'static str,
 }
 
@@ -256,7 +257,18 @@ pub(super) fn read(text: &str, published_table: Option<&str>) -> Result<Referenc
     if let Some(table) = check.filter(|_| reader.reference.figures.is_empty()) {
         reader.section("check", table);
     }
+    // Volumes of other bodies that stand for the same ship; what is published may lie between them.
+    let others =
+        [("mesh_check", "mesh"), ("obj_check", "mesh OBJ"), ("stl_check", "mesh STL"), ("table_check", "trapezoids")];
+    for (name, section) in others {
+        let Some(table) = root.get(name).and_then(Value::as_table) else { continue };
+        if let Some(value) = table.get("volume_m3").and_then(number) {
+            let draught = reader.reference.draught;
+            reader.add(section, "volume_m3", draught, value);
+        }
+    }
     let mut reference = reader.reference;
+    reference.figures.iter_mut().filter(|f| others.iter().any(|o| o.1 == f.section)).for_each(|f| f.tolerance = None);
     reference.figures.sort_by(|a, b| a.draught.total_cmp(&b.draught));
     Ok(reference)
 }

@@ -213,6 +213,14 @@ pub(super) fn station_curve(
         }
         start = end;
     }
+    // Above the lower edge of a flat of side nothing changes.
+    for j in 1..last {
+        let tangent = lines[j - 1].kind == LineKind::Tangent && lines[j - 1].y[station].is_some();
+        let mut above = profile.points.iter().filter(|p| p.z > levels[j] + slack).filter_map(|p| p.y).peekable();
+        if tangent && above.peek().is_some() && on[j].y.is_some_and(|y| above.all(|p| (p - y).abs() <= slack)) {
+            on[j].slope = Some(0.0);
+        }
+    }
     bands
         .iter()
         .enumerate()

@@ -6,7 +6,6 @@
 //! share of the height of the section, and the surface is smooth across it there.
 
 use super::profile::{Profile, SectionPoint};
-use crate::hull::OffsetTable;
 use crate::hull::cell::{FeatureLine, LineKind};
 use crate::spline::{BsplineCurve, KnotVector};
 
@@ -40,9 +39,9 @@ pub(in crate::hull::fit) struct Size {
 }
 
 /// All lines between keel and upper edge, from below; heights do not fall from line to line at any station.
-pub(super) fn lines(table: &OffsetTable, profiles: &[Profile], size: Size, notes: &mut Vec<String>) -> Vec<Line> {
+pub(super) fn lines(given: &[FeatureLine], profiles: &[Profile], size: Size, notes: &mut Vec<String>) -> Vec<Line> {
     let mut result: Vec<Line> = Vec::new();
-    for line in &table.lines {
+    for line in given {
         // A line on the centreplane is a profile, not a knuckle.
         if line.points.iter().all(|p| p[1] <= 1e-6 * size.breadth) {
             continue;
