@@ -216,11 +216,12 @@ impl Job {
         let mut notes = fitted.notes;
         let before = fitted.hull;
         let quantum = table.form.quantum().unwrap_or(0.0);
-        let mut surface = FairSurface::new(&clean, &before, self.energy, true)?;
-        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         let noise = found.noise.max(quantum / 12f64.sqrt());
+        let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
+        let mut surface = FairSurface::new(&clean, &before, self.energy, Some(least))?;
+        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
-            surface = FairSurface::new(&clean, &before, self.energy, false)?;
+            surface = FairSurface::new(&clean, &before, self.energy, None)?;
             search = None;
         }
         let locked = |place: &super::surface::Place| match place.origin {

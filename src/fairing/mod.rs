@@ -2,6 +2,7 @@
 //! curves.
 
 pub mod bends;
+pub mod breaks;
 pub mod constraint;
 pub mod curve;
 pub mod fair;

@@ -71,8 +71,10 @@ fn differences(surface: &FairSurface, along_u: bool) -> SignForms {
     let mut lines: Vec<[f64; 3]> = Vec::new();
     for i in 0..count.saturating_sub(2) {
         // c'_i = p (c_i+1 - c_i) / (t_i+p+1 - t_i+1); once more with degree p - 1 over the inner knots.
-        let first = |k: usize| p as f64 / (t[k + p + 1] - t[k + 1]);
-        let second = (p as f64 - 1.0) / (t[i + p + 1] - t[i + 2]);
+        // Nothing where the support is a point: across a knuckle there is no slope, across a tangent line no second derivative.
+        let over = |factor: usize, support: f64| if support > 0.0 { factor as f64 / support } else { 0.0 };
+        let first = |k: usize| over(p, t[k + p + 1] - t[k + 1]);
+        let second = over(p - 1, t[i + p + 1] - t[i + 2]);
         let (a, b) = (first(i), first(i + 1));
         lines.push([second * a, -second * (a + b), second * b]);
     }

@@ -142,8 +142,15 @@ impl Smoother {
                 right[i] += weight * value;
             }
         }
-        let trace = reduced.energy.trace();
-        let unit = if trace > 0.0 { normal.trace() / trace } else { 1.0 };
+        let (trace, size) = (reduced.energy.trace(), normal.trace());
+        if let Some(straight) = &reduced.straight {
+            for i in 0..n {
+                for j in i.saturating_sub(straight.width())..=i {
+                    normal.add(i, j, size * straight.get(i, j));
+                }
+            }
+        }
+        let unit = if trace > 0.0 { size / trace } else { 1.0 };
         let mut energy = SymmetricBand::zeros(n, width);
         for i in 0..n {
             for j in i.saturating_sub(reduced.energy.width())..=i {
