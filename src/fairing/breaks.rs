@@ -43,7 +43,7 @@ const DEGREE: usize = 5;
 const SAME: f64 = 1e-9;
 
 /// Weight of straightness over that of the offsets.
-pub(super) const STIFF: f64 = 1e6;
+pub(super) const STIFF: f64 = 1e4;
 
 /// A line across which a derivative breaks.
 #[derive(Debug, Clone, Copy, PartialEq)]

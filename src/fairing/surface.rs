@@ -12,6 +12,7 @@
 //!
 //! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them.
 
+use super::adapt::CellEnergies;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::model::{Model, Reading, Row};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
@@ -115,7 +116,7 @@ pub fn basis_row(surface: &BsplineSurface<3>, [u, v]: [f64; 2], [a, b]: [usize; 
 }
 
 /// Binomial coefficient C(n, k).
-fn binomial(n: usize, k: usize) -> f64 {
+pub(super) fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
@@ -220,6 +221,12 @@ fn is_rectangular(hull: &Hull) -> bool {
     hull.is_level() && plumb(0) && plumb(rows - 1)
 }
 
+/// Whether no knot of a fit is multiple beyond those of as many declared lines: it has no other features of its own.
+fn is_simple(knots: &KnotVector, lines: usize) -> bool {
+    let breaks = knots.breakpoints();
+    breaks[1..breaks.len() - 1].iter().filter(|&&t| knots.multiplicity(t) > 1).count() <= lines
+}
+
 /// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with the
 /// breaks that the table declares; none where the hull does not stand over a rectangle or a declared line is neither
 /// level nor plumb.
@@ -271,6 +278,10 @@ impl OverRectangle {
                 return None;
             }
         }
+        let net = [fitted.surface().u(), fitted.surface().v()];
+        if !(0..2).all(|k| is_simple(net[k], given[k].len())) {
+            return None;
+        }
         let forward = (0..up.len()).map(|w| (0..along.len()).map(|s| value(s, w)).collect()).collect();
         let upward = (0..along.len()).map(|s| (0..up.len()).map(|w| value(s, w)).collect()).collect();
         let lines = [
@@ -318,7 +329,6 @@ impl FairSurface {
         let mut courses = [Course::default(), Course::default()];
         let mut hull = if let Some((OverRectangle { lines, given }, noise)) = &over {
             courses = [0, 1].map(|k| lines[k].course(&given[k], *noise));
-            if std::env::var_os("DBG").is_some() { eprintln!("{noise} {courses:?}"); }
             let knots = |k: usize| courses[k].knots(&lines[k].sites, lines[k].spans);
             rectangle(fitted, [knots(0)?, knots(1)?])?
         } else {
@@ -341,7 +351,12 @@ impl FairSurface {
                 reading.weight = 0.0;
             }
         }
-        let energy = energy(surface.u(), surface.v(), order, settings.anisotropy);
+        let (u, v) = (surface.u(), surface.v());
+        let energy = if smooth {
+            energy(u, v, order, settings.anisotropy)
+        } else {
+            CellEnergies::new(u, v, order, settings.anisotropy).adapted(&start)
+        };
         let plain = is_plain(&hull);
         let straight = straightness(hull.surface(), &courses);
         Ok(Self {

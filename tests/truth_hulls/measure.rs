@@ -6,7 +6,7 @@ use loftsman::fairing::constraint::Constraint;
 use loftsman::fairing::job::Outcome;
 use loftsman::hull::{FitMethod, Hull, OffsetTable};
 
-use super::{Case, Truth, found_lines};
+use super::{Case, Truth};
 
 /// Second differences below this part of the largest of the truth's line are none.
 pub const DEAD: f64 = 0.01;
@@ -61,10 +61,7 @@ impl Truth {
 
     /// Fairs one table and measures.
     pub fn measured(&self, case: &Case, seed: u64) -> Measured {
-        let mut table = self.table(case.errors, seed);
-        if case.lines {
-            table.lines = found_lines(&table);
-        }
+        let table = self.table(case.errors, seed);
         let raw = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
         let started = cpu_seconds();
         let outcome = self.job().run(&table).unwrap_or_else(|error| panic!("{} {seed}: {error}", case.title()));
