@@ -109,12 +109,17 @@ impl Course {
     }
 }
 
+/// Whether no value is missing.
+fn is_whole(values: &[f64]) -> bool {
+    values.iter().all(|value| value.is_finite())
+}
+
 /// Offsets on parallel lines, the same sites on all.
 #[derive(Debug, Clone)]
 pub struct Lines {
     /// Sites, rising from 0 to 1.
     pub sites: Vec<f64>,
-    /// Values of each line \[m\].
+    /// Values of each line \[m\]; not a number where there is none.
     pub values: Vec<Vec<f64>>,
     /// Spans of the knots without breaks.
     pub spans: usize,
@@ -123,6 +128,7 @@ pub struct Lines {
 impl Lines {
     /// The least value of the criterion over the weight; none where no weight determines the splines.
     fn criterion(&self, course: &Course) -> Option<f64> {
+        let lines: Vec<&Vec<f64>> = self.values.iter().filter(|values| is_whole(values)).collect();
         let knots = course.knots(&self.sites, self.spans).ok()?;
         let (n, p) = (knots.basis_count(), knots.degree());
         let order = 4.min(p);
@@ -149,12 +155,11 @@ impl Lines {
                 }
             }
         }
-        let right: Vec<Vec<f64>> = self
-            .values
+        let right: Vec<Vec<f64>> = lines
             .iter()
             .map(|values| {
                 let mut right = vec![0.0; n];
-                for ((first, basis), value) in rows.iter().zip(values) {
+                for ((first, basis), value) in rows.iter().zip(*values) {
                     (0..=p).for_each(|a| right[first + a] += basis[a] * value);
                 }
                 right
@@ -172,7 +177,7 @@ impl Lines {
             }
             normal = normal.plus(STIFF * normal.trace() / stiff.trace().max(f64::MIN_POSITIVE), &stiff);
         }
-        let count = (self.sites.len() * self.values.len()) as f64;
+        let count = (self.sites.len() * lines.len()) as f64;
         let mut least: Option<f64> = None;
         for power in (POWERS[0]..=POWERS[1]).rev() {
             let Ok(factor) = normal.plus(unit * 10f64.powi(power), &energy).factor() else { continue };
@@ -184,15 +189,15 @@ impl Lines {
                     pairs.map(|(a, b)| basis[a] * basis[b] * inverse.get(first + a, first + b)).sum::<f64>()
                 })
                 .sum();
-            let freedom = count - GAMMA * edf * self.values.len() as f64;
+            let freedom = count - GAMMA * edf * lines.len() as f64;
             if freedom <= 0.0 {
                 break;
             }
             let mut rss = 0.0;
-            for (right, values) in right.iter().zip(&self.values) {
+            for (right, values) in right.iter().zip(&lines) {
                 let mut c = right.clone();
                 factor.solve(&mut c);
-                for ((first, basis), value) in rows.iter().zip(values) {
+                for ((first, basis), value) in rows.iter().zip(*values) {
                     rss += ((0..=p).map(|a| basis[a] * c[first + a]).sum::<f64>() - value).powi(2);
                 }
             }
@@ -213,18 +218,17 @@ impl Lines {
             let count = sites.len() as f64;
             let mean = sites.iter().sum::<f64>() / count;
             let spread: f64 = sites.iter().map(|t| (t - mean).powi(2)).sum();
-            let left: f64 = self
-                .values
-                .iter()
+            let whole = self.values.iter().map(|values| &values[from..=to]).filter(|values| is_whole(values));
+            let lines = whole.clone().count();
+            let left: f64 = whole
                 .map(|values| {
-                    let values = &values[from..=to];
                     let middle = values.iter().sum::<f64>() / count;
                     let slope = sites.iter().zip(values).map(|(t, y)| (t - mean) * (y - middle)).sum::<f64>() / spread;
                     sites.iter().zip(values).map(|(t, y)| (y - middle - slope * (t - mean)).powi(2)).sum::<f64>()
                 })
                 .sum();
-            let freedom = (count - 2.0) * self.values.len() as f64;
-            left <= noise * noise * (freedom + DEVIATIONS * (2.0 * freedom).sqrt())
+            let freedom = (count - 2.0) * lines as f64;
+            2 * lines > self.values.len() && left <= noise * noise * (freedom + DEVIATIONS * (2.0 * freedom).sqrt())
         };
         let mut runs: Vec<(usize, usize)> = Vec::new();
         for from in 0..n.saturating_sub(LEAST - 1) {

@@ -200,16 +200,13 @@ impl Job {
         } else {
             Vec::new()
         };
-        // The chart needs the highest offset of every station: it is its deck at side. There the expected value stands in.
+        // The start needs a value in every cell that was left out: the expected one stands in.
         let mut charted = table.clone();
         for suspect in &found.suspects {
             let (station, waterline) = (suspect.station, suspect.waterline);
             if excluded.contains(&(station, waterline)) {
                 clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
-                let higher = &table.stations[station].half_breadths[waterline + 1..];
-                let highest = higher.iter().all(|cell| cell.value().is_none());
-                charted.stations[station].half_breadths[waterline].entry =
-                    if highest { Entry::Given(suspect.verdict.expected) } else { Entry::Unknown };
+                charted.stations[station].half_breadths[waterline].entry = Entry::Given(suspect.verdict.expected.max(0.0));
             }
         }
         let fitted = Hull::fit(&charted, &FitMethod::Graded)?;

@@ -248,12 +248,8 @@ impl OverRectangle {
         if [&along, &up].iter().any(|sites| sites.len() < 4 || sites.windows(2).any(|w| w[1] <= w[0])) {
             return None;
         }
-        // A cell that is not given has the value of the fit.
-        let value = |station: usize, waterline: usize| {
-            let (x, z) = (table.stations[station].station.x, table.waterlines[waterline]);
-            let cell = table.stations[station].half_breadths[waterline].value();
-            cell.or_else(|| fitted.half_breadth(x, z)).unwrap_or(0.0)
-        };
+        let value =
+            |station: usize, waterline: usize| table.stations[station].half_breadths[waterline].value().unwrap_or(f64::NAN);
         let spans = |sites: &[f64], density: f64| {
             let count = ((sites.len() as f64 * density).ceil() as usize).clamp(6.min(sites.len()), sites.len());
             count - 5.min(count - 1)
