@@ -319,3 +319,77 @@ impl Lines {
         gcv.is_finite().then(|| (gcv, shape(ends)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of up to one on an even grid, the same for ever.
+    fn jitter(i: usize, j: usize) -> f64 {
+        ((i * 7919 + j * 104_729) % 1009) as f64 / 504.0 - 1.0
+    }
+
+    fn lines(sites: Vec<f64>, count: usize, noise: f64, y: impl Fn(f64, f64) -> f64) -> Lines {
+        let values = (0..count).map(|j| {
+            let scale = (j + 1) as f64 / count as f64;
+            sites.iter().enumerate().map(|(i, &t)| y(t, scale) + noise * jitter(i, j)).collect()
+        });
+        Lines { values: values.collect(), spans: sites.len() / 2, sites }
+    }
+
+    fn even(n: usize) -> Vec<f64> {
+        (0..n).map(|k| k as f64 / (n - 1) as f64).collect()
+    }
+
+    /// A parallel body from 0.36 to 0.64 between cubic ends; none where the waterlines are parabolas or most lines have gaps.
+    #[test]
+    fn a_parallel_body_and_none() {
+        let body = |t: f64, b: f64| 8.0 * b * (1.0 - (((t - 0.5).abs() - 0.14).max(0.0) / 0.36).powi(3));
+        let mut table = lines(even(21), 12, 0.002, body);
+        let found = table.course(&[], 0.0015);
+        let [[from, to]] = found.straight[..] else { panic!("{found:?}") };
+        assert!((from - 0.36).abs() < 0.02 && (to - 0.64).abs() < 0.02, "{found:?}");
+        assert!(found.breaks.len() == 2 && found.breaks.iter().all(|b| b.smooth == 2), "{found:?}");
+        table.values[3][10] = f64::NAN;
+        assert_eq!(table.course(&[], 0.0015).straight.len(), 1);
+        table.values[..7].iter_mut().for_each(|values| values.fill(f64::NAN));
+        assert_eq!(table.course(&[], 0.0015), Course::default());
+        let curved = lines(even(21), 12, 0.002, |t, b| 20.0 * b * t * (1.0 - t));
+        assert_eq!(curved.course(&[], 0.0015), Course::default());
+    }
+
+    /// Floor, arc of radius 5 m and vertical side of a section: both tangent lines, from the offsets alone.
+    #[test]
+    fn the_tangent_lines_of_a_bilge() {
+        let (low, high) = (2.7133 / 9.0, 7.0434 / 9.0);
+        let section = |t: f64, b: f64| {
+            let z = 9.0 * t;
+            let y = match z {
+                z if t <= low => 0.8 + z / 30f64.to_radians().tan(),
+                z if t < high => 3.0 + (25.0 - (7.0434 - z).powi(2)).max(0.0).sqrt(),
+                _ => 8.0,
+            };
+            y * b
+        };
+        let sites = [0.0, 0.9, 1.8, 9.0 * low, 3.3, 4.0, 4.8, 5.6, 6.4, 9.0 * high, 8.0, 9.0].map(|z| z / 9.0);
+        let found = lines(sites.to_vec(), 21, 0.002, section).course(&[], 0.0015);
+        let [[bottom, a], [b, top]] = found.straight[..] else { panic!("{found:?}") };
+        assert!(bottom == 0.0 && (top - 1.0).abs() < 1e-12, "{found:?}");
+        assert!((a - low).abs() < 0.04 && (b - high).abs() < 0.06, "{found:?}");
+    }
+
+    /// Between the breaks the spans go by the offsets, and each break has the knots that its smoothness asks for.
+    #[test]
+    fn knots_of_a_course() {
+        let breaks = vec![Break { at: 0.3, smooth: 1 }, Break { at: 0.7, smooth: 2 }];
+        let course = Course { breaks, straight: vec![[0.3, 0.7]] };
+        let knots = course.knots(&even(21), 10).unwrap();
+        assert_eq!([0.3, 0.7].map(|t| knots.multiplicity(t)), [4, 3]);
+        assert_eq!(knots.breakpoints().len() - 1, 3 + 1 + 3);
+        let stiff = course.stiffness(&knots).unwrap();
+        let line: Vec<f64> = knots.greville().iter().map(|t| 2.0 * t - 1.0).collect();
+        let bent: Vec<f64> = line.iter().map(|t| t * t).collect();
+        let size = |c: &[f64]| stiff[0].apply(c).iter().zip(c).map(|(a, b)| a * b).sum::<f64>();
+        assert!(size(&line).abs() < 1e-9 && size(&bent) > 1.0, "{} {}", size(&line), size(&bent));
+    }
+}

@@ -183,7 +183,7 @@ impl Prepared {
             let own = settings.tolerances.get(k).copied().flatten();
             reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
         }
-        let guarded = settings.signs;
+        let guarded = settings.signs && !surface.own;
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
         Ok(Self { smoother, lambda, smoothed, sigma, trials, lines })
     }
@@ -283,7 +283,7 @@ pub fn fair_prepared(
     }
     // On a net of its own the pattern is all: asking its lines for their least inflections on top of it made S-shaped hulls with
     // 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained nothing elsewhere.
-    let mut guarded = surface.own.then(|| Guarded::told(&prepared.lines));
+    let mut guarded = None;
     if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
         let question = Question {
             surface,

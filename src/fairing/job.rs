@@ -7,7 +7,8 @@ use super::bends::Line;
 use super::constraint::Constraint;
 use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
 use super::infeasible::Reach;
-use super::inspect::{CurveReport, Inspection, Planes, kind};
+use super::inspect::{Planes, inflections, kind};
+use super::least::TableLine;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::{Suspect, suspects};
@@ -288,8 +289,12 @@ impl Job {
                 Cut::Waterline { z } => Line::Waterline(z),
                 _ => continue,
             };
-            let least = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
-            turns.minimum = least.map(|(_, count, proved)| (*count, *proved));
+            let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            turns.minimum = match known {
+                Some((_, count, proved)) => Some((*count, *proved)),
+                None if self.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => TableLine::minimum(&surface, line, &faired.net),
+                None => None,
+            };
         }
         let held = held(&surface, &settings, &faired, &before, &after);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
@@ -438,17 +443,7 @@ fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Ve
     let mut planes = Planes::with_defaults(before);
     planes.stations = table.stations.iter().map(|station| station.station.x).collect();
     planes.waterlines.clone_from(&table.waterlines);
-    let count = |hull: &Hull| -> Vec<(Cut, usize)> {
-        let curves: Vec<CurveReport> = Inspection::new(hull, &planes, tolerance).curves;
-        let mut list: Vec<(Cut, usize)> = Vec::new();
-        for curve in curves {
-            match list.last_mut() {
-                Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
-                _ => list.push((curve.cut, curve.inflections.len())),
-            }
-        }
-        list
-    };
+    let count = |hull: &Hull| inflections(hull, &planes, tolerance);
     let (old, new) = (count(before), count(after));
     let cuts = old.iter().filter_map(|(cut, before)| {
         let after = new.iter().find(|(other, _)| other == cut)?.1;

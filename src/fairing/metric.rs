@@ -75,7 +75,7 @@ impl Point<'_> {
         let b = -along(held, 2, [a, 0.0, 0.0]) / steep;
         let c = -along(held, 3, [a, b, 0.0]) / steep;
         let turn = [a, b, c];
-        let skew = turn.iter().any(|rate| rate.abs() > 0.0);
+        let skew = turn.iter().any(|rate| rate.abs() > 1e-9);
         if order == 4 && skew {
             return None;
         }

@@ -17,7 +17,7 @@
 
 mod measure;
 
-pub use measure::Summary;
+pub use measure::{Summary, page};
 
 use std::path::Path;
 
