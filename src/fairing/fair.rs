@@ -1,7 +1,8 @@
 //! The whole job of fairing a surface: smooth, find what is noise in the signs, solve one convex program with the wishes, and take
 //! no pattern without its price.
 //!
-//! 1. The weight by generalised cross-validation, not below what the rounding of the table alone asks for; sigma from it.
+//! 1. The weight: on a net of its own by generalised cross-validation, not below what the rounding of the table alone asks for, and
+//!    sigma from it; on the net of a fit by Mallows' criterion for the noise of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
 //! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) / sigma^2. Above [`PRICE`] the lobe with the
 //!    greatest sum of multiplier times raw violation gets its own sign back, and the program is solved again. On the net of a fit,

@@ -298,6 +298,7 @@ impl Job {
         }
         let held = held(&surface, &settings, &faired, &before, &after);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
+        notes.extend(surface.straight_parts());
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

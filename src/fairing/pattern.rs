@@ -9,10 +9,9 @@
 //! sigma^2 N^-1, a lobe whose statistic s'(D C D')^-1 s (Wald 1943) is below the 99.9 % point of chi-square with as many degrees of
 //! freedom as it has forms is noise: it takes the sign around it. At each change that remains one form is left free.
 //!
-//! Open: the ends of a parallel middle body. A quintic net of uniform knots rings in the flat between shoulders that it does not
-//! know, by a tenth of the largest second difference; forbidding that costs more than the price guard gives. Tried without success: a price
-//! eight times as high (24 to 36 changes of sign instead of 42, but 1.6 times the RMS on S-shaped hulls), a net as dense as the
-//! offsets (36), taking lobes below a hundredth of the largest value of their line for flat (no change there, and a lost pattern elsewhere).
+//! A flat has signs of noise only: straight parts are found beforehand and kept straight ([`super::breaks`]). Tried without success on
+//! a parallel middle body that was not: a price eight times as high (24 to 36 changes of sign instead of 42, but 1.6 times the
+//! RMS on S-shaped hulls), a net as dense as the offsets (36), lobes below a hundredth of their line's largest value taken for flat.
 
 use super::model::Row;
 use super::smoothing::{Smoothed, Smoother};

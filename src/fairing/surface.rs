@@ -1,8 +1,9 @@
 //! The hull as a model to be faired: which net, which readings, which energy.
 //!
 //! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with plumb ends
-//! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship; all others keep the
-//! cubic net of their fit, in which profiles, knuckles and flats are lines of the net already.
+//! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship, with lines of the net where
+//! straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in which profiles, knuckles and flats are
+//! lines of the net already, and an energy that spares what bends sharply ([`super::adapt`]).
 //!
 //! Energy of order n over the unit square of the parameters,
 //!
@@ -366,6 +367,22 @@ impl FairSurface {
             own: smooth,
             hull,
         })
+    }
+
+    /// Straight parts that were found and are kept straight, in words.
+    #[must_use]
+    pub fn straight_parts(&self) -> Vec<String> {
+        let surface = self.hull.surface();
+        let [rows, columns] = surface.shape();
+        let (aft, fore) = (surface.point(0, 0)[0], surface.point(rows - 1, columns - 1)[0]);
+        let spans = [(aft, fore, "waterlines", "x"), (self.hull.bottom(), self.hull.top(), "stations", "z")];
+        let parts = self.courses.iter().zip(spans).flat_map(|(course, (from, to, lines, axis))| {
+            course.straight.iter().map(move |part| {
+                let [a, b] = part.map(|t| from + (to - from) * t);
+                format!("all {lines} are straight from {axis} = {a:.2} to {b:.2} m within the noise and stay so")
+            })
+        });
+        parts.collect()
     }
 
     /// The hull with other half-breadths of the net.
