@@ -93,7 +93,8 @@ impl Course {
             let count = if self.is_straight(pair[0], pair[1]) { 1 } else { share.round().max(1.0) as usize };
             for k in 1..=count {
                 points.push(if k == count { pair[1] } else { pair[0] + (pair[1] - pair[0]) * k as f64 / count as f64 });
-                let inner = if k < count { 1 } else { breaks.get(piece).map_or(1, |b| degree - b.smooth.min(degree - 1)) };
+                let inner =
+                    if k < count { 1 } else { breaks.get(piece).map_or(1, |b| degree - b.smooth.min(degree - 1)) };
                 multiplicities.push(inner);
             }
         }
@@ -305,7 +306,11 @@ impl Lines {
                 let (mut p, mut q) = (b - golden * (b - a), a + golden * (b - a));
                 for _ in 0..STEPS {
                     let pair = [at(p), at(q)];
-                    if pair[0].0 <= pair[1].0 { b = q } else { a = p }
+                    if pair[0].0 <= pair[1].0 {
+                        b = q
+                    } else {
+                        a = p
+                    }
                     (p, q) = (b - golden * (b - a), a + golden * (b - a));
                     found.extend(pair);
                 }

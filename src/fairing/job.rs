@@ -207,7 +207,8 @@ impl Job {
             let (station, waterline) = (suspect.station, suspect.waterline);
             if excluded.contains(&(station, waterline)) {
                 clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
-                charted.stations[station].half_breadths[waterline].entry = Entry::Given(suspect.verdict.expected.max(0.0));
+                charted.stations[station].half_breadths[waterline].entry =
+                    Entry::Given(suspect.verdict.expected.max(0.0));
             }
         }
         let fitted = Hull::fit(&charted, &FitMethod::Graded)?;
@@ -292,7 +293,9 @@ impl Job {
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),
-                None if self.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => TableLine::minimum(&surface, line, &faired.net),
+                None if self.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => {
+                    TableLine::minimum(&surface, line, &faired.net)
+                }
                 None => None,
             };
         }

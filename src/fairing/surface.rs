@@ -29,6 +29,10 @@ const DENSITY: [f64; 2] = [0.8, 0.9];
 /// Weight of a doubtful offset.
 const DOUBTFUL: f64 = 0.01;
 
+/// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges they are
+/// the edges.
+const BESIDE: f64 = 1e-3;
+
 /// Which energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnergySettings {
@@ -249,8 +253,9 @@ impl OverRectangle {
         if [&along, &up].iter().any(|sites| sites.len() < 4 || sites.windows(2).any(|w| w[1] <= w[0])) {
             return None;
         }
-        let value =
-            |station: usize, waterline: usize| table.stations[station].half_breadths[waterline].value().unwrap_or(f64::NAN);
+        let value = |station: usize, waterline: usize| {
+            table.stations[station].half_breadths[waterline].value().unwrap_or(f64::NAN)
+        };
         let spans = |sites: &[f64], density: f64| {
             let count = ((sites.len() as f64 * density).ceil() as usize).clamp(6.min(sites.len()), sites.len());
             count - 5.min(count - 1)
@@ -263,7 +268,8 @@ impl OverRectangle {
             };
             let spread = |axis: usize| {
                 let values = line.points.iter().map(|p| p[axis]);
-                let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+                let (low, high) =
+                    (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
                 (high - low, 0.5 * (low + high))
             };
             let (long, high) = (spread(0), spread(2));
@@ -272,6 +278,13 @@ impl OverRectangle {
             } else if long.0 <= 1e-6 * (fore - aft) {
                 given[0].push(Break { at: part(long.1, aft, fore), smooth });
             } else {
+                return None;
+            }
+        }
+        for list in &mut given {
+            list.retain(|b| (BESIDE..=1.0 - BESIDE).contains(&b.at));
+            list.sort_by(|a, b| a.at.total_cmp(&b.at));
+            if list.windows(2).any(|w| w[1].at - w[0].at < BESIDE) {
                 return None;
             }
         }
@@ -320,7 +333,12 @@ impl FairSurface {
     ///
     /// # Errors
     /// [`HullError`] when the net makes no hull.
-    pub fn new(table: &OffsetTable, fitted: &Hull, settings: EnergySettings, own: Option<f64>) -> Result<Self, HullError> {
+    pub fn new(
+        table: &OffsetTable,
+        fitted: &Hull,
+        settings: EnergySettings,
+        own: Option<f64>,
+    ) -> Result<Self, HullError> {
         let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
         let smooth = over.is_some();
         let mut courses = [Course::default(), Course::default()];
