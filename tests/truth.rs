@@ -1,6 +1,6 @@
 //! Fairing recovers hulls that are known: some cases of the benchmark `benches/truth.rs` with few seeds, and its limits.
 //!
-//! With LOFTSMAN_REPORT set, every case is run and reports/truth/report.md is written.
+//! With LOFTSMAN_REPORT set to a number of seeds, every case is run with as many and reports/truth/report.md is written.
 
 mod truth_hulls;
 
@@ -50,20 +50,42 @@ fn the_s_shaped_hull_keeps_its_own_changes_of_sign() {
     }
 }
 
-/// Sections of a parallel middle body gain no change of sign. Its waterlines keep ripples within the flat where the truth has none
-/// (see reports/truth): fewer than before, but more than the truth.
+/// The parallel part is found and is straight: no ripples on it, and no more changes of sign than the truth has and two.
 #[test]
 fn a_parallel_middle_body_loses_its_noise() {
-    let summary = summary("middle body", Errors::Normal(0.01));
-    assert!(summary.rms[1][1] <= 0.6 * summary.rms[0][0], "{summary}");
-    assert!(summary.worse[1] == 0, "{summary}");
-    assert!(changes(&summary)[1][1] <= changes(&summary)[1][0] + 2.0, "{summary}");
-    assert!(summary.changes[0][2][1] < summary.changes[0][1][0], "{summary}");
+    for (errors, limit) in [(0.002, 0.0012), (0.01, 0.0046), (0.04, 0.015)] {
+        let summary = summary("middle body", Errors::Normal(errors));
+        assert!(summary.rms[1][1] <= limit, "{summary}");
+        assert!(summary.worse[1] == 0, "{summary}");
+        assert!(changes(&summary)[..2].iter().all(|[truth, after]| *after <= truth + 2.0), "{summary}");
+    }
+}
+
+/// The tangent lines of a bilge are found by the program itself.
+#[test]
+fn a_bilge_keeps_its_tangent_lines() {
+    for (errors, limit) in [(0.002, 0.0025), (0.01, 0.0055), (0.04, 0.019)] {
+        let summary = summary("bilge", Errors::Normal(errors));
+        assert!(summary.rms[1][1] <= limit, "{summary}");
+        assert!(changes(&summary)[..2].iter().all(|[truth, after]| after <= truth), "{summary}");
+    }
+}
+
+/// Hulls with rakes and features that their offsets do not resolve: never worse than interpolation by more than the roughness of
+/// the published tables, and at noise beyond that better by a fifth.
+#[test]
+fn nets_of_fits_lose_noise_and_keep_features() {
+    for (name, errors, part) in [("bulk carrier", 0.002, 0.95), ("Series 60", 0.0406, 0.8), ("S-175", 0.0635, 0.8)] {
+        let summary = summary(name, Errors::Normal(errors));
+        assert!(summary.rms[1][0] <= part * summary.rms[0][0], "{summary}");
+    }
+    let summary = summary("Series 60", Errors::Normal(0.01));
+    assert!(summary.rms[1][0] <= summary.rms[0][0], "{summary}");
 }
 
 #[test]
 fn errors_of_typing_do_not_reach_the_hull() {
-    for (name, limit) in [("Wigley", 0.00076), ("S-shaped", 0.0013)] {
+    for (name, limit) in [("Wigley", 0.00076), ("S-shaped", 0.0013), ("middle body", 0.0013), ("bilge", 0.0025)] {
         for errors in [Errors::Typing, Errors::Outliers] {
             let summary = summary(name, errors);
             assert!(summary.rms[1][1] <= limit, "{summary}");
@@ -73,20 +95,10 @@ fn errors_of_typing_do_not_reach_the_hull() {
 
 #[test]
 fn the_page_of_all_cases() {
-    if std::env::var_os("LOFTSMAN_REPORT").is_none() {
-        return println!("skipped: LOFTSMAN_REPORT is not set");
-    }
-    let mut text = String::from(
-        "# Fairing against known truths\n\nMade by `LOFTSMAN_REPORT=1 cargo test --test truth`, 5 seeds a case; `cargo bench --bench truth` \
-         takes 30. What the hulls and errors are: head of `tests/truth_hulls/mod.rs`. a/b: median and worst case; changes of sign: truth, \
-         before, after; lengths in millimetres; displacement and LCB of the truth are given to the job.\n\n",
-    );
-    text.push_str(Summary::head());
-    text.push('\n');
-    for case in cases() {
-        text.push_str(&format!("{}\n", Summary::new(&case, 5)));
-    }
+    let Some(seeds) = std::env::var("LOFTSMAN_REPORT").ok().and_then(|text| text.parse().ok()) else {
+        return println!("skipped: LOFTSMAN_REPORT is no number of seeds");
+    };
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/truth");
     std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("report.md"), text).unwrap();
+    std::fs::write(folder.join("report.md"), truth_hulls::page(seeds)).unwrap();
 }

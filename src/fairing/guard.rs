@@ -3,7 +3,7 @@
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
 //! 2. Lines that cost more than [`PRICE`] are let go; when nothing satisfies all, those that the proof of it charges most.
-//! 3. On the net of a fit, a line that bends more often than at the start keeps the signs of the start, which the start itself
+//! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies.
 //!
 //! Each round is one convex program; what is accepted last is optimal for the signs it has.
@@ -12,7 +12,6 @@ use super::bends::{Line, kept as keep_signs};
 use super::fair::PRICE;
 use super::least::TableLine;
 use super::model::{Limit, Model};
-use super::pattern::{Pattern, SignForms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
@@ -43,6 +42,22 @@ pub struct Guarded {
     pub iterations: usize,
 }
 
+impl Guarded {
+    /// The least inflections of lines of which nothing is asked.
+    pub(super) fn told(lines: &[TableLine]) -> Self {
+        let least = lines.iter().filter_map(|line| Some((line.line, line.least.as_ref()?)));
+        Self {
+            accepted: None,
+            asked: Vec::new(),
+            released: Vec::new(),
+            kept: Vec::new(),
+            least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
+            programs: 0,
+            iterations: 0,
+        }
+    }
+}
+
 /// Signs that a line is asked for.
 struct Asked {
     line: usize,
@@ -59,8 +74,6 @@ pub(super) struct Question<'a> {
     pub(super) lambda: f64,
     pub(super) sigma: f64,
     pub(super) wishes: &'a Wishes,
-    /// Signs of the whole that stay.
-    pub(super) signs: Option<(&'a [SignForms; 2], &'a [Pattern; 2])>,
     pub(super) lines: &'a [TableLine],
     pub(super) kept: &'a [Line],
     pub(super) solver: &'a Settings,
@@ -79,18 +92,7 @@ impl Question<'_> {
                 asked.push(Asked { line: k, limits: line.wished(), start: false });
             }
         }
-        let mut guarded = Guarded {
-            accepted: None,
-            asked: Vec::new(),
-            released: Vec::new(),
-            kept: Vec::new(),
-            least: lines
-                .iter()
-                .filter_map(|line| line.least.as_ref().map(|least| (line.line, least.count, least.certified())))
-                .collect(),
-            programs: 0,
-            iterations: 0,
-        };
+        let mut guarded = Guarded::told(lines);
         for round in 0..ROUNDS {
             let last = round + 1 == ROUNDS;
             if last {
@@ -105,7 +107,7 @@ impl Question<'_> {
             if round > 0 || asked.is_empty() {
                 for (k, line) in lines.iter().enumerate() {
                     let known = asked.iter().any(|asked| asked.line == k && asked.start);
-                    if !self.surface.own && !known && line.count(&net) > line.count(start) {
+                    if !known && line.count(&net) > line.count(start) {
                         asked.retain(|asked| asked.line != k);
                         asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
                         added = true;
@@ -151,7 +153,7 @@ impl Question<'_> {
     fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
         let bends = asked.iter().flat_map(|asked| asked.limits.iter().cloned()).collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
-        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, self.signs);
+        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
         let solved = program.solve(self.model, self.smoother, self.lambda, self.solver)?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;

@@ -7,7 +7,8 @@ use super::bends::Line;
 use super::constraint::Constraint;
 use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
 use super::infeasible::Reach;
-use super::inspect::{CurveReport, Inspection, Planes, kind};
+use super::inspect::{Planes, inflections, kind};
+use super::least::TableLine;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::{Suspect, suspects};
@@ -200,27 +201,26 @@ impl Job {
         } else {
             Vec::new()
         };
-        // The chart needs the highest offset of every station: it is its deck at side. There the expected value stands in.
+        // The start needs a value in every cell that was left out: the expected one stands in.
         let mut charted = table.clone();
         for suspect in &found.suspects {
             let (station, waterline) = (suspect.station, suspect.waterline);
             if excluded.contains(&(station, waterline)) {
                 clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
-                let higher = &table.stations[station].half_breadths[waterline + 1..];
-                let highest = higher.iter().all(|cell| cell.value().is_none());
                 charted.stations[station].half_breadths[waterline].entry =
-                    if highest { Entry::Given(suspect.verdict.expected) } else { Entry::Unknown };
+                    Entry::Given(suspect.verdict.expected.max(0.0));
             }
         }
         let fitted = Hull::fit(&charted, &FitMethod::Graded)?;
         let mut notes = fitted.notes;
         let before = fitted.hull;
         let quantum = table.form.quantum().unwrap_or(0.0);
-        let mut surface = FairSurface::new(&clean, &before, self.energy, true)?;
-        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         let noise = found.noise.max(quantum / 12f64.sqrt());
+        let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
+        let mut surface = FairSurface::new(&clean, &before, self.energy, Some(least))?;
+        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
-            surface = FairSurface::new(&clean, &before, self.energy, false)?;
+            surface = FairSurface::new(&clean, &before, self.energy, None)?;
             search = None;
         }
         let locked = |place: &super::surface::Place| match place.origin {
@@ -290,11 +290,18 @@ impl Job {
                 Cut::Waterline { z } => Line::Waterline(z),
                 _ => continue,
             };
-            let least = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
-            turns.minimum = least.map(|(_, count, proved)| (*count, *proved));
+            let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            turns.minimum = match known {
+                Some((_, count, proved)) => Some((*count, *proved)),
+                None if self.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => {
+                    TableLine::minimum(&surface, line, &faired.net)
+                }
+                None => None,
+            };
         }
         let held = held(&surface, &settings, &faired, &before, &after);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
+        notes.extend(surface.straight_parts());
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }
@@ -440,17 +447,7 @@ fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Ve
     let mut planes = Planes::with_defaults(before);
     planes.stations = table.stations.iter().map(|station| station.station.x).collect();
     planes.waterlines.clone_from(&table.waterlines);
-    let count = |hull: &Hull| -> Vec<(Cut, usize)> {
-        let curves: Vec<CurveReport> = Inspection::new(hull, &planes, tolerance).curves;
-        let mut list: Vec<(Cut, usize)> = Vec::new();
-        for curve in curves {
-            match list.last_mut() {
-                Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
-                _ => list.push((curve.cut, curve.inflections.len())),
-            }
-        }
-        list
-    };
+    let count = |hull: &Hull| inflections(hull, &planes, tolerance);
     let (old, new) = (count(before), count(after));
     let cuts = old.iter().filter_map(|(cut, before)| {
         let after = new.iter().find(|(other, _)| other == cut)?.1;

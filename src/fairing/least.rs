@@ -59,6 +59,19 @@ impl TableLine {
         Self { line, bends: bends(surface, line), least }
     }
 
+    /// The least number of inflections within the tolerances of the offsets, and whether it is proved, for a line of a net that keeps
+    /// them: a net without inflection is the proof itself, else the search of [`super::inflections`].
+    #[must_use]
+    pub fn minimum(surface: &FairSurface, line: Line, net: &[f64]) -> Option<(usize, bool)> {
+        let values: Vec<f64> = bends(surface, line).iter().map(|bend| value(&bend.numerator, net)).collect();
+        let (low, high) = values.iter().fold((0.0_f64, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
+        if low.abs().min(high) <= STRAIGHT * low.abs().max(high) {
+            return Some((0, true));
+        }
+        let least = minimum_inflections(&bands(surface, line)?);
+        Some((least.count, least.certified()))
+    }
+
     /// Inflections of a net along the line.
     #[must_use]
     pub fn count(&self, net: &[f64]) -> usize {

@@ -1,7 +1,9 @@
 //! What is unfair or wrong in a table or a hull: suspects among the offsets, lines that break, inflections and energies of its
 //! curves.
 
+mod adapt;
 pub mod bends;
+pub mod breaks;
 pub mod constraint;
 pub mod curve;
 pub mod fair;

@@ -43,6 +43,8 @@ pub struct Model {
     pub readings: Vec<Reading>,
     /// Control values that are known \[m\].
     pub known: Vec<Option<f64>>,
+    /// What straight parts ask: c'S c in the size of one reading of weight 1, whatever the smoothing; known values there are 0.
+    pub straight: Option<SymmetricBand>,
     /// Control values to stay near where nothing else is said \[m\].
     pub start: Option<Vec<f64>>,
 }
@@ -62,6 +64,8 @@ pub struct Reduced {
     pub constant: f64,
     /// Rows a_k over the free values.
     pub data: SparseRows,
+    /// S over the free values.
+    pub straight: Option<SymmetricBand>,
     /// Free control values to stay near.
     pub start: Option<Vec<f64>>,
     /// d_k less what the known values contribute.
@@ -97,18 +101,22 @@ impl Model {
         let mut place = vec![None; n];
         free.iter().enumerate().for_each(|(k, &i)| place[i] = Some(k));
         let base: Vec<f64> = self.known.iter().map(|known| known.unwrap_or(0.0)).collect();
-        let w = self.energy.width();
-        let mut energy = SymmetricBand::zeros(free.len(), w.min(free.len().saturating_sub(1)));
-        for (k, &i) in free.iter().enumerate() {
-            for (j, l) in place.iter().enumerate().take(i + 1).skip(i.saturating_sub(w)) {
-                if let Some(l) = *l {
-                    let value = self.energy.get(i, j);
-                    if value != 0.0 {
-                        energy.add(k, l, value);
+        let reduce = |band: &SymmetricBand| {
+            let w = band.width();
+            let mut reduced = SymmetricBand::zeros(free.len(), w.min(free.len().saturating_sub(1)));
+            for (k, &i) in free.iter().enumerate() {
+                for (j, l) in place.iter().enumerate().take(i + 1).skip(i.saturating_sub(w)) {
+                    if let Some(l) = *l {
+                        let value = band.get(i, j);
+                        if value != 0.0 {
+                            reduced.add(k, l, value);
+                        }
                     }
                 }
             }
-        }
+            reduced
+        };
+        let (energy, straight) = (reduce(&self.energy), self.straight.as_ref().map(reduce));
         let product = self.energy.apply(&base);
         let mut data = SparseRows::new(free.len());
         let mut values = Vec::with_capacity(self.readings.len());
@@ -124,6 +132,7 @@ impl Model {
             free,
             place,
             energy,
+            straight,
             data,
             values,
             base,

@@ -9,10 +9,9 @@
 //! sigma^2 N^-1, a lobe whose statistic s'(D C D')^-1 s (Wald 1943) is below the 99.9 % point of chi-square with as many degrees of
 //! freedom as it has forms is noise: it takes the sign around it. At each change that remains one form is left free.
 //!
-//! Open: the ends of a parallel middle body. A quintic net of uniform knots rings in the flat between shoulders that it does not
-//! know, by a tenth of the largest second difference; forbidding that costs more than the price guard gives. Tried without success: a price
-//! eight times as high (24 to 36 changes of sign instead of 42, but 1.6 times the RMS on S-shaped hulls), a net as dense as the
-//! offsets (36), taking lobes below a hundredth of the largest value of their line for flat (no change there, and a lost pattern elsewhere).
+//! A flat has signs of noise only: straight parts are found beforehand and kept straight ([`super::breaks`]). Tried without success on
+//! a parallel middle body that was not: a price eight times as high (24 to 36 changes of sign instead of 42, but 1.6 times the
+//! RMS on S-shaped hulls), a net as dense as the offsets (36), lobes below a hundredth of their line's largest value taken for flat.
 
 use super::model::Row;
 use super::smoothing::{Smoothed, Smoother};
@@ -71,8 +70,10 @@ fn differences(surface: &FairSurface, along_u: bool) -> SignForms {
     let mut lines: Vec<[f64; 3]> = Vec::new();
     for i in 0..count.saturating_sub(2) {
         // c'_i = p (c_i+1 - c_i) / (t_i+p+1 - t_i+1); once more with degree p - 1 over the inner knots.
-        let first = |k: usize| p as f64 / (t[k + p + 1] - t[k + 1]);
-        let second = (p as f64 - 1.0) / (t[i + p + 1] - t[i + 2]);
+        // Nothing where the support is a point: across a knuckle there is no slope, across a tangent line no second derivative.
+        let over = |factor: usize, support: f64| if support > 0.0 { factor as f64 / support } else { 0.0 };
+        let first = |k: usize| over(p, t[k + p + 1] - t[k + 1]);
+        let second = over(p - 1, t[i + p + 1] - t[i + 2]);
         let (a, b) = (first(i), first(i + 1));
         lines.push([second * a, -second * (a + b), second * b]);
     }

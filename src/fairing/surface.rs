@@ -1,8 +1,9 @@
 //! The hull as a model to be faired: which net, which readings, which energy.
 //!
 //! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with plumb ends
-//! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship; all others keep the
-//! cubic net of their fit, in which profiles, knuckles and flats are lines of the net already.
+//! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship, with lines of the net where
+//! straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in which profiles, knuckles and flats are
+//! lines of the net already, and an energy that spares what bends sharply ([`super::adapt`]).
 //!
 //! Energy of order n over the unit square of the parameters,
 //!
@@ -12,9 +13,12 @@
 //!
 //! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them.
 
+use super::adapt::CellEnergies;
+use super::breaks::{Break, Course, Lines, STIFF};
 use super::model::{Model, Reading};
-use crate::hull::{Entry, Hull, HullError, OffsetTable};
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, MAX_DEGREE};
+use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
+use crate::numeric::SymmetricBand;
+use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE, add_product};
 pub use crate::spline::{basis_row, energy, mixed_energy};
 
 /// Half-breadths below this part of B are on the centreplane.
@@ -25,6 +29,10 @@ const DENSITY: [f64; 2] = [0.8, 0.9];
 
 /// Weight of a doubtful offset.
 const DOUBTFUL: f64 = 0.01;
+
+/// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges they are
+/// the edges.
+const BESIDE: f64 = 1e-3;
 
 /// Which energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,8 +98,27 @@ pub struct FairSurface {
     pub anisotropy: f64,
     /// Whether the net is one of its own, not that of the fit.
     pub own: bool,
+    /// Breaks and straight parts along the ship and up, on a net of its own.
+    pub courses: [Course; 2],
     /// Whether the chart is the rectangle itself: x linear in u and z linear in v.
     pub plain: bool,
+}
+
+/// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one reading.
+fn straightness(surface: &BsplineSurface<3>, courses: &[Course; 2]) -> Option<SymmetricBand> {
+    let knots = [surface.u(), surface.v()];
+    let [rows, columns] = surface.shape();
+    let width = knots[0].degree().min(rows - 1) * columns + knots[1].degree().min(columns - 1);
+    let mut all = SymmetricBand::zeros(rows * columns, width);
+    let plain = knots.map(|knots| Gram::new(knots, knots, [0, 0]));
+    for k in 0..2 {
+        for part in courses[k].stiffness(knots[k]).into_iter().flatten() {
+            let grams = if k == 0 { [&part, &plain[1]] } else { [&plain[0], &part] };
+            add_product(&mut all, grams, 1.0, knots);
+        }
+    }
+    let trace = all.trace();
+    (trace > 0.0).then(|| SymmetricBand::zeros(rows * columns, width).plus(STIFF / trace, &all))
 }
 
 /// Whether the chart is a rectangle: level, plumb ends, z and x linear in the parameters.
@@ -117,24 +144,91 @@ fn is_rectangular(hull: &Hull) -> bool {
     let length = surface.point(rows - 1, 0)[0] - surface.point(0, 0)[0];
     let plumb =
         |i: usize| (0..columns).all(|j| (surface.point(i, j)[0] - surface.point(i, 0)[0]).abs() <= 1e-9 * length);
-    let simple = |knots: &KnotVector| {
-        let breaks = knots.breakpoints();
-        breaks[1..breaks.len() - 1].iter().all(|&t| knots.multiplicity(t) == 1)
-    };
-    hull.is_level() && plumb(0) && plumb(rows - 1) && simple(surface.u()) && simple(surface.v())
+    hull.is_level() && plumb(0) && plumb(rows - 1)
 }
 
-/// A quintic net over the rectangle of a hull with `counts` control values, through the same deck; half-breadths 0.
-fn rectangle(hull: &Hull, counts: [usize; 2]) -> Result<Hull, HullError> {
-    let knots = |count: usize| {
-        let degree = 5.min(count - 1);
-        KnotVector::uniform(degree, count - degree)
-    };
-    let (u, v) = (knots(counts[0])?, knots(counts[1])?);
+/// Whether no knot of a fit is multiple beyond those of as many declared lines: it has no other features of its own.
+fn is_simple(knots: &KnotVector, lines: usize) -> bool {
+    let breaks = knots.breakpoints();
+    breaks[1..breaks.len() - 1].iter().filter(|&&t| knots.multiplicity(t) > 1).count() <= lines
+}
+
+/// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with the
+/// breaks that the table declares; none where the hull does not stand over a rectangle or a declared line is neither
+/// level nor plumb.
+struct OverRectangle {
+    lines: [Lines; 2],
+    given: [Vec<Break>; 2],
+}
+
+impl OverRectangle {
+    fn new(table: &OffsetTable, fitted: &Hull) -> Option<Self> {
+        if !is_rectangular(fitted) {
+            return None;
+        }
+        let [rows, columns] = fitted.surface().shape();
+        let (aft, fore) = (fitted.surface().point(0, 0)[0], fitted.surface().point(rows - 1, columns - 1)[0]);
+        let part = |value: f64, from: f64, to: f64| ((value - from) / (to - from)).clamp(0.0, 1.0);
+        let along: Vec<f64> = table.stations.iter().map(|station| part(station.station.x, aft, fore)).collect();
+        let up: Vec<f64> = table.waterlines.iter().map(|&z| part(z, fitted.bottom(), fitted.top())).collect();
+        if [&along, &up].iter().any(|sites| sites.len() < 4 || sites.windows(2).any(|w| w[1] <= w[0])) {
+            return None;
+        }
+        let value = |station: usize, waterline: usize| {
+            table.stations[station].half_breadths[waterline].value().unwrap_or(f64::NAN)
+        };
+        let spans = |sites: &[f64], density: f64| {
+            let count = ((sites.len() as f64 * density).ceil() as usize).clamp(6.min(sites.len()), sites.len());
+            count - 5.min(count - 1)
+        };
+        let mut given = [Vec::new(), Vec::new()];
+        for line in &table.lines {
+            let smooth = match line.kind {
+                LineKind::Knuckle => 0,
+                LineKind::Tangent => 1,
+            };
+            let spread = |axis: usize| {
+                let values = line.points.iter().map(|p| p[axis]);
+                let (low, high) =
+                    (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+                (high - low, 0.5 * (low + high))
+            };
+            let (long, high) = (spread(0), spread(2));
+            if high.0 <= 1e-6 * (fitted.top() - fitted.bottom()) {
+                given[1].push(Break { at: part(high.1, fitted.bottom(), fitted.top()), smooth });
+            } else if long.0 <= 1e-6 * (fore - aft) {
+                given[0].push(Break { at: part(long.1, aft, fore), smooth });
+            } else {
+                return None;
+            }
+        }
+        for list in &mut given {
+            list.retain(|b| (BESIDE..=1.0 - BESIDE).contains(&b.at));
+            list.sort_by(|a, b| a.at.total_cmp(&b.at));
+            if list.windows(2).any(|w| w[1].at - w[0].at < BESIDE) {
+                return None;
+            }
+        }
+        let net = [fitted.surface().u(), fitted.surface().v()];
+        if !(0..2).all(|k| is_simple(net[k], given[k].len())) {
+            return None;
+        }
+        let forward = (0..up.len()).map(|w| (0..along.len()).map(|s| value(s, w)).collect()).collect();
+        let upward = (0..along.len()).map(|s| (0..up.len()).map(|w| value(s, w)).collect()).collect();
+        let lines = [
+            Lines { spans: spans(&along, DENSITY[0]), sites: along, values: forward },
+            Lines { spans: spans(&up, DENSITY[1]), sites: up, values: upward },
+        ];
+        Some(Self { lines, given })
+    }
+}
+
+/// A net of given knots over the rectangle of a hull, through the same deck; half-breadths 0.
+fn rectangle(hull: &Hull, [u, v]: [KnotVector; 2]) -> Result<Hull, HullError> {
     let surface = hull.surface();
     let [rows, columns] = surface.shape();
     let (aft, fore) = (surface.point(0, 0)[0], surface.point(rows - 1, columns - 1)[0]);
-    let mut points = Vec::with_capacity(counts[0] * counts[1]);
+    let mut points = Vec::with_capacity(u.basis_count() * v.basis_count());
     for s in u.greville() {
         for t in v.greville() {
             points.push([aft + (fore - aft) * s, 0.0, hull.bottom() + (hull.top() - hull.bottom()) * t]);
@@ -160,13 +254,19 @@ impl FairSurface {
     ///
     /// # Errors
     /// [`HullError`] when the net makes no hull.
-    pub fn new(table: &OffsetTable, fitted: &Hull, settings: EnergySettings, own: bool) -> Result<Self, HullError> {
-        let smooth = own && is_rectangular(fitted) && table.lines.is_empty();
-        let mut hull = if smooth {
-            let ([stations, waterlines], [along, up]) = ([table.stations.len(), table.waterlines.len()], DENSITY);
-            let count =
-                |lines: usize, density: f64| ((lines as f64 * density).ceil() as usize).clamp(6.min(lines), lines);
-            rectangle(fitted, [count(stations, along), count(waterlines, up)])?
+    pub fn new(
+        table: &OffsetTable,
+        fitted: &Hull,
+        settings: EnergySettings,
+        own: Option<f64>,
+    ) -> Result<Self, HullError> {
+        let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
+        let smooth = over.is_some();
+        let mut courses = [Course::default(), Course::default()];
+        let mut hull = if let Some((OverRectangle { lines, given }, noise)) = &over {
+            courses = [0, 1].map(|k| lines[k].course(&given[k], *noise));
+            let knots = |k: usize| courses[k].knots(&lines[k].sites, lines[k].spans);
+            rectangle(fitted, [knots(0)?, knots(1)?])?
         } else {
             fitted.clone()
         };
@@ -187,10 +287,17 @@ impl FairSurface {
                 reading.weight = 0.0;
             }
         }
-        let energy = energy(surface.u(), surface.v(), order, settings.anisotropy);
+        let (u, v) = (surface.u(), surface.v());
+        let energy = if smooth {
+            energy(u, v, order, settings.anisotropy)
+        } else {
+            CellEnergies::new(u, v, order, settings.anisotropy).adapted(&start)
+        };
         let plain = is_plain(&hull);
+        let straight = straightness(hull.surface(), &courses);
         Ok(Self {
-            model: Model { energy, readings, known, start: (!smooth).then(|| start.clone()) },
+            model: Model { energy, readings, known, straight, start: (!smooth).then(|| start.clone()) },
+            courses,
             places,
             start,
             order,
@@ -199,6 +306,22 @@ impl FairSurface {
             own: smooth,
             hull,
         })
+    }
+
+    /// Straight parts that were found and are kept straight, in words.
+    #[must_use]
+    pub fn straight_parts(&self) -> Vec<String> {
+        let surface = self.hull.surface();
+        let [rows, columns] = surface.shape();
+        let (aft, fore) = (surface.point(0, 0)[0], surface.point(rows - 1, columns - 1)[0]);
+        let spans = [(aft, fore, "waterlines", "x"), (self.hull.bottom(), self.hull.top(), "stations", "z")];
+        let parts = self.courses.iter().zip(spans).flat_map(|(course, (from, to, lines, axis))| {
+            course.straight.iter().map(move |part| {
+                let [a, b] = part.map(|t| from + (to - from) * t);
+                format!("all {lines} are straight from {axis} = {a:.2} to {b:.2} m within the noise and stay so")
+            })
+        });
+        parts.collect()
     }
 
     /// The hull with other half-breadths of the net.

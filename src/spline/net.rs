@@ -27,7 +27,8 @@ pub fn basis_row<const D: usize>(
 }
 
 /// Binomial coefficient C(n, k).
-fn binomial(n: usize, k: usize) -> f64 {
+#[must_use]
+pub fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
@@ -63,23 +64,30 @@ fn partial_energy(
     for a in terms {
         let ((along, by_u), (across, by_v)) = (scaled(u, order - a), scaled(v, a));
         let weight = binomial(order, a) * anisotropy.powi((order - a) as i32 - a as i32) * by_u * by_v;
-        for i in 0..rows {
-            for k in i.saturating_sub(p)..=i {
-                let g = weight * along.get(i, k);
-                if g == 0.0 {
-                    continue;
-                }
-                for j in 0..columns {
-                    let last = if k == i { j } else { (j + q).min(columns - 1) };
-                    for l in j.saturating_sub(q)..=last {
-                        let h = across.get(j, l);
-                        if h != 0.0 {
-                            energy.add(i * columns + j, k * columns + l, g * h);
-                        }
+        add_product(&mut energy, [&along, &across], weight, [u, v]);
+    }
+    energy
+}
+
+/// Adds factor times the product of two Gram matrices, one over the rows and one over the columns of a net, to a band over the net.
+pub fn add_product(sum: &mut SymmetricBand, [along, across]: [&Gram; 2], factor: f64, [u, v]: [&KnotVector; 2]) {
+    let (rows, columns) = (u.basis_count(), v.basis_count());
+    let (p, q) = (u.degree().min(rows - 1), v.degree().min(columns - 1));
+    for i in 0..rows {
+        for k in i.saturating_sub(p)..=i {
+            let g = factor * along.get(i, k);
+            if g == 0.0 {
+                continue;
+            }
+            for j in 0..columns {
+                let last = if k == i { j } else { (j + q).min(columns - 1) };
+                for l in j.saturating_sub(q)..=last {
+                    let h = across.get(j, l);
+                    if h != 0.0 {
+                        sum.add(i * columns + j, k * columns + l, g * h);
                     }
                 }
             }
         }
     }
-    energy
 }

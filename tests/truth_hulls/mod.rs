@@ -4,7 +4,7 @@
 //!
 //! * Wigley: y = (B/2)(1 - s^2)(1 - w^2), s = 2x/L - 1, w = 1 - z/T (Wigley 1942);
 //! * S-shaped: y = (B/2)(1 - r(a)/r(1))(1 - w^2), a = |s|, r(t) = 1 - cos(sqrt(-m) t), t^2/2 or cosh(sqrt(m) t) - 1 for
-//!   m < 0, = 0, > 0 and m = 12 z/T - 8: hollow waterlines below, full ones above, y_xxx jumps amidships;
+//!   m < 0, = 0, > 0 and m = 12 z/T - 8: hollow waterlines below, full ones above;
 //! * parallel middle body: flat from 0.36 L to 0.64 L, ends 1 - q(t)/q(1) with q(t) = k t - sin(k t) or sinh(k t) - k t;
 //! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a vertical side;
 //! * bulk carrier: the preset of the generator; Series 60 and S-175: surfaces fitted to the published tables.
@@ -17,17 +17,15 @@
 
 mod measure;
 
-pub use measure::Summary;
+pub use measure::{Summary, page};
 
 use std::path::Path;
 
 use loftsman::exchange::read_table;
 use loftsman::fairing::constraint::Constraint;
 use loftsman::fairing::job::{Holding, Job};
-use loftsman::fairing::{LineCourse, proposed_lines, suspects};
 use loftsman::hull::{
-    Cell, Entry, FeatureLine, FitMethod, Hull, LineKind, Marks, OffsetStation, OffsetTable, StatedParticulars,
-    StationOffsets, Written,
+    Cell, Entry, FitMethod, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
 };
 use loftsman::parametric::ShipType;
 use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
@@ -371,32 +369,6 @@ fn swaps(table: &mut OffsetTable, cells: &[(usize, usize)], random: &mut Random)
     }
 }
 
-/// Tangent lines and knuckles along waterlines that the program itself proposes for a table, as lines of the table.
-pub fn found_lines(table: &OffsetTable) -> Vec<FeatureLine> {
-    let found = proposed_lines(table, &suspects(table));
-    let level = found.iter().filter(|line| line.course == LineCourse::Waterline);
-    level
-        .map(|line| FeatureLine {
-            name: format!("{} {:.3}", line.kind.as_str(), line.at),
-            kind: LineKind::Tangent,
-            points: table
-                .stations
-                .iter()
-                .map(|s| [s.station.x, on(table, &s.half_breadths, line.at), line.at])
-                .collect(),
-        })
-        .collect()
-}
-
-/// The half-breadth of a station between its offsets.
-fn on(table: &OffsetTable, cells: &[Cell], z: f64) -> f64 {
-    let known: Vec<[f64; 2]> =
-        table.waterlines.iter().zip(cells).filter_map(|(&z, cell)| Some([z, cell.value()?])).collect();
-    let k = known.partition_point(|p| p[0] < z).clamp(1, known.len() - 1);
-    let [a, b] = [known[k - 1], known[k]];
-    a[1] + (b[1] - a[1]) * (z - a[0]) / (b[0] - a[0])
-}
-
 /// A case of the benchmark.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
@@ -406,14 +378,12 @@ pub struct Case {
     pub truth: fn() -> Truth,
     /// Which errors.
     pub errors: Errors,
-    /// The lines that the program proposes are declared.
-    pub lines: bool,
 }
 
 impl Case {
-    /// Truth, errors, and whether lines are declared.
+    /// Truth and errors.
     pub fn title(&self) -> String {
-        format!("{}, {}{}", self.name, self.errors.words(), if self.lines { ", lines found" } else { "" })
+        format!("{}, {}", self.name, self.errors.words())
     }
 }
 
@@ -427,18 +397,18 @@ fn s175() -> Truth {
 
 /// Every case of the benchmark. The third error is 0.5 % of B/2.
 pub fn cases() -> Vec<Case> {
-    type Kind = (&'static str, fn() -> Truth, f64, bool);
+    type Kind = (&'static str, fn() -> Truth, f64);
     let truths: [Kind; 7] = [
-        ("Wigley", wigley, 0.025, false),
-        ("S-shaped", s_shaped, 0.04, false),
-        ("middle body", middle_body, 0.04, false),
-        ("bilge", bilge, 0.04, true),
-        ("bulk carrier", bulk_carrier, 0.0806, false),
-        ("Series 60", series60, 0.0406, false),
-        ("S-175", s175, 0.0635, false),
+        ("Wigley", wigley, 0.025),
+        ("S-shaped", s_shaped, 0.04),
+        ("middle body", middle_body, 0.04),
+        ("bilge", bilge, 0.04),
+        ("bulk carrier", bulk_carrier, 0.0806),
+        ("Series 60", series60, 0.0406),
+        ("S-175", s175, 0.0635),
     ];
     let mut list = Vec::new();
-    for (name, truth, half_percent, lines) in truths {
+    for (name, truth, half_percent) in truths {
         let kinds = [
             Errors::Normal(0.002),
             Errors::Normal(0.01),
@@ -448,7 +418,7 @@ pub fn cases() -> Vec<Case> {
             Errors::Typing,
             Errors::Outliers,
         ];
-        list.extend(kinds.map(|errors| Case { name, truth, errors, lines }));
+        list.extend(kinds.map(|errors| Case { name, truth, errors }));
     }
     list
 }

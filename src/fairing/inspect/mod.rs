@@ -181,20 +181,39 @@ impl Inspection {
     /// Inspects a hull; `tolerance` is the departure that can just be seen \[m\].
     #[must_use]
     pub fn new(hull: &Hull, planes: &Planes, tolerance: f64) -> Self {
-        let locator = Locator::new(hull.surface());
-        let (mut curves, mut empty, mut narrow) = (Vec::new(), Vec::new(), Vec::new());
-        for cut in planes.cuts() {
-            let (found, thin) = inspect_plane(hull, &locator, cut, planes, tolerance);
-            if thin {
-                narrow.push(cut);
-            } else if found.is_empty() {
-                empty.push(cut);
-            }
-            curves.extend(found);
-        }
+        let (curves, empty, narrow) = curves(hull, planes, tolerance);
         let net = net_signs(hull.surface(), ON_CHORD * tolerance);
         Self { tolerance, curves, empty, narrow, net, surface: SurfaceMeasures::of(hull) }
     }
+}
+
+/// Inflections of each plane that has curves, in the order of [`Planes`]: the curves of an inspection alone.
+#[must_use]
+pub fn inflections(hull: &Hull, planes: &Planes, tolerance: f64) -> Vec<(Cut, usize)> {
+    let mut list: Vec<(Cut, usize)> = Vec::new();
+    for curve in curves(hull, planes, tolerance).0 {
+        match list.last_mut() {
+            Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
+            _ => list.push((curve.cut, curve.inflections.len())),
+        }
+    }
+    list
+}
+
+/// Curves; planes that have none; planes of which one was not counted.
+fn curves(hull: &Hull, planes: &Planes, tolerance: f64) -> (Vec<CurveReport>, Vec<Cut>, Vec<Cut>) {
+    let locator = Locator::new(hull.surface());
+    let (mut curves, mut empty, mut narrow) = (Vec::new(), Vec::new(), Vec::new());
+    for cut in planes.cuts() {
+        let (found, thin) = inspect_plane(hull, &locator, cut, planes, tolerance);
+        if thin {
+            narrow.push(cut);
+        } else if found.is_empty() {
+            empty.push(cut);
+        }
+        curves.extend(found);
+    }
+    (curves, empty, narrow)
 }
 
 /// The curves of a plane, and whether one was not counted for want of breadth.
