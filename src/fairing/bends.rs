@@ -24,6 +24,10 @@ const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
 /// Curvature below this part of the largest of the line is none.
 pub const DEAD: f64 = 0.01;
 
+/// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and nothing lies strictly
+/// within them all.
+const ROOM: f64 = 0.1;
+
 /// A line of the ship's drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Line {
@@ -94,17 +98,20 @@ impl Bend {
 }
 
 impl Bend {
-    /// The limit that gives the numerator a sign, scaled to size 1; none where the line has no bend to give.
+    /// The limit that gives the numerator a sign, scaled to size 1, but for a part of the dead band about `none` \[1/m\], the curvature
+    /// below which there is none, at the slopes of `net`; none where the line has no bend to give.
     #[must_use]
-    pub fn limit(&self, positive: bool) -> Option<Limit> {
-        let (lower, upper) = if positive { (0.0, f64::INFINITY) } else { (f64::NEG_INFINITY, 0.0) };
-        self.row().map(|row| Limit { row, lower, upper })
+    pub fn limit(&self, positive: bool, net: &[f64], none: f64) -> Option<Limit> {
+        let (row, room) = self.row(net, none)?;
+        let (lower, upper) = if positive { (-room, f64::INFINITY) } else { (f64::NEG_INFINITY, room) };
+        Some(Limit { row, lower, upper })
     }
 
-    /// The numerator scaled to size 1.
-    fn row(&self) -> Option<Row> {
+    /// The numerator scaled to size 1, and the room of its limits.
+    fn row(&self, net: &[f64], none: f64) -> Option<(Row, f64)> {
         let size = self.numerator.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
-        (size > 0.0).then(|| self.numerator.iter().map(|&(i, value)| (i, value / size)).collect())
+        let room = ROOM * none * self.along.hypot(value(&self.slope, net)).powi(3) / size;
+        (size > 0.0).then(|| (self.numerator.iter().map(|&(i, value)| (i, value / size)).collect(), room))
     }
 }
 
@@ -131,20 +138,24 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     }
 }
 
+/// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make flats of all else.
+#[must_use]
+pub fn dead(bends: &[Bend], net: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = bends.iter().map(|bend| bend.curvature(net).abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    DEAD * sizes.get(sizes.len() * 9 / 10).copied().unwrap_or(0.0)
+}
+
 /// Signs of curvature along bends, 0 within the dead band.
 #[must_use]
 pub fn signs(bends: &[Bend], net: &[f64]) -> Vec<i8> {
-    let curvature: Vec<f64> = bends.iter().map(|bend| bend.curvature(net)).collect();
-    let mut sizes: Vec<f64> = curvature.iter().map(|k| k.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    // The ninth decile: a tight bilge does not make flats of everything else.
-    let large = sizes.get(sizes.len() * 9 / 10).copied().unwrap_or(0.0);
+    let dead = dead(bends, net);
     let sign = |k: f64| match k {
-        k if k.abs() <= DEAD * large => 0,
+        k if k.abs() <= dead => 0,
         k if k > 0.0 => 1,
         _ => -1,
     };
-    curvature.into_iter().map(sign).collect()
+    bends.iter().map(|bend| sign(bend.curvature(net))).collect()
 }
 
 /// Changes of sign, zeros left out.
@@ -154,16 +165,16 @@ pub fn changes(signs: &[i8]) -> usize {
     told.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is.
+/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a tenth of the band is left open.
 #[must_use]
 pub fn kept(bends: &[Bend], start: &[f64]) -> Vec<Limit> {
-    let signs = signs(bends, start);
+    let (signs, none) = (signs(bends, start), dead(bends, start));
     let limits = bends.iter().zip(signs).filter_map(|(bend, sign)| match sign {
-        0 => bend.row().map(|row| {
-            let band = value(&row, start).abs();
+        0 => bend.row(start, none).map(|(row, room)| {
+            let band = value(&row, start).abs().max(room);
             Limit { row, lower: -band, upper: band }
         }),
-        _ => bend.limit(sign > 0),
+        _ => bend.limit(sign > 0, start, none),
     });
     limits.collect()
 }

@@ -20,6 +20,9 @@ use crate::qp::{ProblemError, Settings, Status};
 /// Most programs.
 const ROUNDS: usize = 8;
 
+/// Most iterations of a program: what takes more has next to nothing within its limits.
+const ITERATIONS: usize = 100;
+
 /// A line whose proof of infeasibility has more than this part of the largest charge is let go.
 const SHARE: f64 = 0.5;
 
@@ -89,7 +92,7 @@ impl Question<'_> {
             if self.kept.contains(&line.line) {
                 asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
             } else if line.bends_too_often(&free.net) {
-                asked.push(Asked { line: k, limits: line.wished(), start: false });
+                asked.push(Asked { line: k, limits: line.wished(start), start: false });
             }
         }
         let mut guarded = Guarded::told(lines);
@@ -154,7 +157,8 @@ impl Question<'_> {
         let bends = asked.iter().flat_map(|asked| asked.limits.iter().cloned()).collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
-        let solved = program.solve(self.model, self.smoother, self.lambda, self.solver)?;
+        let solver = Settings { iterations: self.solver.iterations.min(ITERATIONS), ..self.solver.clone() };
+        let solved = program.solve(self.model, self.smoother, self.lambda, &solver)?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;
         Ok((program, solved))

@@ -12,7 +12,7 @@
 //! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by no more than the
 //! sum over all lines. A line dearer than [`super::fair::PRICE`] is let go, and so is the dearest one by the proof when nothing satisfies all.
 
-use super::bends::{Bend, Line, bends, changes, signs};
+use super::bends::{Bend, Line, bends, changes, dead, signs};
 use super::inflections::{Bands, Inflections, minimum_inflections};
 use super::model::{Limit, value};
 use super::surface::FairSurface;
@@ -84,9 +84,9 @@ impl TableLine {
         self.least.as_ref().is_some_and(|least| least.curve.is_some() && self.count(net) > least.count)
     }
 
-    /// Limits that ask for the signs of the curve with the least inflections.
+    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`.
     #[must_use]
-    pub fn wished(&self) -> Vec<Limit> {
+    pub fn wished(&self, start: &[f64]) -> Vec<Limit> {
         let Some((least, curve)) = self.least.as_ref().and_then(|least| Some((least, least.curve.as_ref()?))) else {
             return Vec::new();
         };
@@ -100,6 +100,7 @@ impl TableLine {
             .flat_map(|stretch| &stretch.inflections)
             .map(|interval| [interval.from.min(interval.at), interval.to.max(interval.at)])
             .collect();
+        let none = dead(&self.bends, start);
         let mut limits = Vec::new();
         for bend in &self.bends {
             let x = bend.at;
@@ -110,7 +111,7 @@ impl TableLine {
             if sign.abs() <= STRAIGHT * largest {
                 continue;
             }
-            limits.extend(bend.limit(sign > 0.0));
+            limits.extend(bend.limit(sign > 0.0, start, none));
         }
         limits
     }
