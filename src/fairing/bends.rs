@@ -24,6 +24,9 @@ const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
 /// Curvature below this part of the largest of the line is none.
 pub const DEAD: f64 = 0.01;
 
+/// A line that leaves its chord by less is straight \[m\].
+const STRAIGHT: f64 = 1e-5;
+
 /// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and nothing lies strictly
 /// within them all.
 const ROOM: f64 = 0.1;
@@ -138,12 +141,15 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     }
 }
 
-/// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make flats of all else.
+/// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make flats of all else,
+/// and at least that of an arc as long as the line that leaves its chord by [`STRAIGHT`].
 #[must_use]
 pub fn dead(bends: &[Bend], net: &[f64]) -> f64 {
+    let length = bends.first().zip(bends.last()).map_or(0.0, |(first, last)| (last.at - first.at).abs());
+    let least = if length > 0.0 { 8.0 * STRAIGHT / (length * length) } else { 0.0 };
     let mut sizes: Vec<f64> = bends.iter().map(|bend| bend.curvature(net).abs()).collect();
     sizes.sort_by(f64::total_cmp);
-    DEAD * sizes.get(sizes.len() * 9 / 10).copied().unwrap_or(0.0)
+    least.max(DEAD * sizes.get(sizes.len() * 9 / 10).copied().unwrap_or(0.0))
 }
 
 /// Signs of curvature along bends, 0 within the dead band.
