@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
-use crate::fairing::job::{Change, Held, Outcome};
+use crate::fairing::held::Held;
+use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
 use crate::hull::{Cut, OffsetTable, SideKind};
 use crate::qp::Status;

@@ -8,7 +8,7 @@
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
 use super::bends::Line;
-use super::constraint::{Constraint, breadths, control_values};
+use super::constraint::{Constraint, Rule, breadths, control_values};
 use super::guard::{Guarded, Question};
 use super::infeasible::{Diagnosis, diagnose};
 use super::least::TableLine;
@@ -16,6 +16,8 @@ use super::model::{Limit, Model};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
+use super::relinearise::Settling;
+use super::rules::{guarded_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
 use crate::numeric::SingularMatrix;
@@ -38,6 +40,8 @@ const ROUNDS: usize = 8;
 pub struct FairSettings {
     /// Constraints of the whole hull.
     pub constraints: Vec<Constraint>,
+    /// Rules for lines and regions.
+    pub rules: Vec<Rule>,
     /// Smoothing weight; none: by cross-validation.
     pub weight: Option<f64>,
     /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
@@ -73,6 +77,9 @@ pub enum FairError {
     /// Numbers that make no program.
     #[error(transparent)]
     Problem(#[from] ProblemError),
+    /// Rules that name what the surface does not have: index of the rule, and why.
+    #[error("{}", .0.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("; "))]
+    Rules(Vec<(usize, String)>),
     /// No metric for a refresh.
     #[error(transparent)]
     Refresh(#[from] RefreshError),
@@ -107,6 +114,11 @@ pub struct Faired {
     pub price: f64,
     /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
     pub refreshed: Option<Vec<f64>>,
+    /// Rows of the rules, with the index of the rule.
+    pub rules: Vec<(usize, Limit)>,
+    /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each; none where
+    /// everything that is held is linear.
+    pub settled: Option<Vec<f64>>,
     /// The smoothing problem, for further questions.
     pub smoother: Smoother,
     /// Programs solved.
@@ -211,10 +223,11 @@ pub fn fair_prepared(
     let greatest = widest.max(0.5 * hull.particulars().breadth);
     let first = smoother.reduced.expand(&smoothed.free);
     let constraints: Vec<Limit> = settings.constraints.iter().map(|constraint| constraint.limit(hull)).collect();
-    let wishes = Wishes {
+    let mut wishes = Wishes {
         constraints,
         breadths: breadths(hull, &first, greatest, 2.0 * sigma),
         bends: Vec::new(),
+        rules: rule_limits(surface, &settings.rules).map_err(FairError::Rules)?,
         widening: 1.0,
     };
     let forms = sign_forms(surface);
@@ -222,6 +235,19 @@ pub fn fair_prepared(
     let mut program = Program::new(model, smoother, lambda, &wishes, None);
     let mut solved = program.solve(model, smoother, lambda, &settings.solver)?;
     let (mut programs, mut iterations) = (1, solved.solution.iterations);
+    if solved.is_optimal()
+        && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
+            let asked = Wishes { rules: wishes.rules.iter().chain(rules).cloned().collect(), ..wishes.clone() };
+            let program = Program::new(model, smoother, lambda, &asked, None);
+            let solved = program.solve(model, smoother, lambda, &settings.solver)?;
+            programs += 1;
+            iterations += solved.solution.iterations;
+            Ok((program, solved))
+        })?
+    {
+        wishes.rules.extend(found.limits);
+        (program, solved) = (found.program, found.solved);
+    }
     let mut diagnosis = None;
     if solved.solution.status != Status::Optimal {
         // A compromise may lie far from the smoothed net: the limits of a hull are needed everywhere.
@@ -230,7 +256,7 @@ pub fn fair_prepared(
         let wishes = Wishes { breadths: limits, ..wishes.clone() };
         program = Program::new(model, smoother, lambda, &wishes, None);
         let found = diagnose(&program, &settings.solver)?;
-        programs += 1 + 2 * found.reaches.len();
+        programs += 1 + 2 * found.reaches.len() + found.rules.len();
         if let Some(factor) = found.widening {
             // The best compromise: every wish, with tolerances as wide as they must be and some room to solve in.
             for room in ROOMS {
@@ -288,7 +314,7 @@ pub fn fair_prepared(
             sigma,
             wishes: &wishes,
             signs: patterns.as_ref().map(|patterns| (&forms, patterns)),
-            lines: &prepared.lines,
+            lines: &guarded_lines(&prepared.lines, &settings.rules),
             kept: &settings.kept,
             solver: &settings.solver,
         };
@@ -315,8 +341,22 @@ pub fn fair_prepared(
         refreshed = Some(found.functional);
         surface.model.energy = found.model.energy;
     }
+    let mut settled = None;
+    if diagnosis.is_none() && solved.is_optimal() {
+        let (smoother, lambda, model) = (&final_smoother, final_lambda, &surface.model);
+        let constraints = &settings.constraints;
+        let settling = Settling { surface, constraints, model, smoother, lambda, solver: &settings.solver };
+        if let Some(found) = settling.run(&program, &solved)? {
+            programs += found.programs;
+            iterations += found.iterations;
+            (program, solved) = (found.program, found.solved);
+            settled = Some(found.errors);
+        }
+    }
     Ok(Faired {
         refreshed,
+        rules: wishes.rules,
+        settled,
         diagnosis,
         guarded,
         net: solved.net.clone(),
@@ -342,22 +382,24 @@ impl Faired {
         self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
     }
 
-    /// Multiplier of a constraint \[m^2 per unit of its row\].
-    #[must_use]
-    pub fn multiplier(&self, constraint: usize) -> f64 {
-        let place = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint));
-        place.map_or(0.0, |row| self.solved.solution.multipliers[row])
+    /// Rows of the program whose names are these.
+    pub fn rows(&self, these: impl Fn(RowName) -> bool) -> impl Iterator<Item = usize> {
+        self.program.names.iter().enumerate().filter(move |(_, name)| these(**name)).map(|(row, _)| row)
     }
 
-    /// What a constraint costs \[m\]: how much the root of the mean square of the moves falls when it is dropped.
+    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
     #[must_use]
-    pub fn price_of(&self, model: &Model, constraint: usize, solver: &Settings) -> f64 {
-        let Some(row) = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint)) else {
-            return 0.0;
-        };
+    pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
         let mut without = self.program.clone();
-        without.problem.lower[row] = f64::NEG_INFINITY;
-        without.problem.upper[row] = f64::INFINITY;
+        let mut any = false;
+        for row in self.rows(these) {
+            without.problem.lower[row] = f64::NEG_INFINITY;
+            without.problem.upper[row] = f64::INFINITY;
+            any = true;
+        }
+        if !any {
+            return 0.0;
+        }
         let rms = |net: &[f64]| {
             let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
             (squares / self.smoother.count().max(1) as f64).sqrt()

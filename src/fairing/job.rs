@@ -4,8 +4,9 @@
 //! [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
-use super::constraint::Constraint;
+use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
+use super::held::{self, Held, HeldRule};
 use super::infeasible::Reach;
 use super::inspect::{CurveReport, Inspection, Planes, kind};
 use super::smoothing::{Smoothed, Smoother, Trial};
@@ -61,6 +62,8 @@ pub struct Job {
     pub weight: Option<f64>,
     /// What is held.
     pub holding: Holding,
+    /// Rules for lines and regions.
+    pub rules: Vec<Rule>,
     /// Tolerances.
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
@@ -81,6 +84,7 @@ impl Default for Job {
             energy: EnergySettings::default(),
             weight: None,
             holding: Holding::Table,
+            rules: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
             locked: Vec::new(),
             exclude_suspects: true,
@@ -128,21 +132,6 @@ pub struct Change {
     pub locked: bool,
 }
 
-/// A constraint and how it is held.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Held {
-    /// The constraint with its target.
-    pub constraint: Constraint,
-    /// Its quantity before, for the surface through the table.
-    pub before: f64,
-    /// Its quantity after.
-    pub after: f64,
-    /// Multiplier of its row \[m^2 per unit of the row\].
-    pub multiplier: f64,
-    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
-    pub price: f64,
-}
-
 /// Inflections of one curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turns {
@@ -172,6 +161,8 @@ pub struct Outcome {
     pub changes: Vec<Change>,
     /// Constraints.
     pub held: Vec<Held>,
+    /// Rules for lines and regions.
+    pub rules: Vec<HeldRule>,
     /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
     pub turns: Vec<Turns>,
     /// Suspects of the table.
@@ -216,7 +207,8 @@ impl Job {
         let mut notes = fitted.notes;
         let before = fitted.hull;
         let quantum = table.form.quantum().unwrap_or(0.0);
-        let mut surface = FairSurface::new(&clean, &before, self.energy, true)?;
+        let own = !self.rules.iter().any(Rule::keeps_the_fit);
+        let mut surface = FairSurface::new(&clean, &before, self.energy, own)?;
         let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         let noise = found.noise.max(quantum / 12f64.sqrt());
         if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
@@ -228,13 +220,13 @@ impl Job {
             Origin::Deck { .. } => false,
         };
         surface.places.iter_mut().for_each(|place| place.locked |= locked(place));
-        let own = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
+        let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
             Holding::Given(list) => list.clone(),
-            Holding::Both { own: list, given } => list.iter().map(own).chain(given.iter().copied()).collect(),
+            Holding::Both { own: list, given } => list.iter().map(valued).chain(given.iter().copied()).collect(),
             Holding::Table => {
                 [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
-                    .map(|constraint| own(&constraint))
+                    .map(|constraint| valued(&constraint))
                     .to_vec()
             }
         };
@@ -242,8 +234,12 @@ impl Job {
         let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = table.waterlines.iter().map(|&z| Line::Waterline(z));
+        // What a rule says of the inflections of a line stands over the guard of them.
+        let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
+        let guarded = |line: &Line| !ruled.contains(line);
         let mut settings = FairSettings {
             constraints,
+            rules: self.rules.clone(),
             weight: self.weight,
             table_noise: Some(found.noise),
             most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
@@ -273,7 +269,7 @@ impl Job {
                 Cut::Waterline { z } => Some(Line::Waterline(z)),
                 _ => None,
             });
-            let worse: Vec<Line> = worse.filter(|line| !faired.kept().contains(line)).collect();
+            let worse: Vec<Line> = worse.filter(|line| guarded(line) && !faired.kept().contains(line)).collect();
             if !self.signs || surface.own || worse.is_empty() {
                 break;
             }
@@ -293,7 +289,8 @@ impl Job {
             let least = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             turns.minimum = least.map(|(_, count, proved)| (*count, *proved));
         }
-        let held = held(&surface, &settings, &faired, &before, &after);
+        let held = held::constraints(&surface, &settings, &faired, [&before, &after]);
+        let rules = held::rules(&surface, &settings, &faired);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
@@ -305,6 +302,7 @@ impl Job {
             after,
             changes,
             held,
+            rules,
             turns: lines,
             suspects: found.suspects,
             order: surface.order,
@@ -420,19 +418,6 @@ fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
         }
     }
     table
-}
-
-/// Constraints with what they cost: the same program without the row.
-fn held(surface: &FairSurface, settings: &FairSettings, faired: &Faired, before: &Hull, after: &Hull) -> Vec<Held> {
-    let list = settings.constraints.iter().enumerate();
-    list.map(|(k, &constraint)| Held {
-        constraint,
-        before: constraint.value(before),
-        after: constraint.value(after),
-        multiplier: faired.multiplier(k),
-        price: faired.price_of(&surface.model, k, &settings.solver),
-    })
-    .collect()
 }
 
 /// Inflections of the lines of the table, of buttocks and of diagonals.

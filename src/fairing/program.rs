@@ -4,7 +4,7 @@
 //! the tolerance of every reading, the signs of curvature and the limits of every control value. The objective is the
 //! weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
 
-use super::model::{Limit, Model};
+use super::model::{Limit, Model, Reduced};
 use super::pattern::{Pattern, SignForms};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
@@ -23,6 +23,8 @@ pub enum RowName {
     Bend(usize),
     /// A limit of the half-breadth at a point of the surface: its index.
     Breadth(usize),
+    /// One of the rows of a rule for a line or a region: the index of the rule.
+    Rule(usize),
 }
 
 /// Everything that is wished.
@@ -34,6 +36,8 @@ pub struct Wishes {
     pub breadths: Vec<Limit>,
     /// Signs of curvature that single lines keep.
     pub bends: Vec<Limit>,
+    /// Rows of rules, with the index of the rule.
+    pub rules: Vec<(usize, Limit)>,
     /// Multiplies every tolerance.
     pub widening: f64,
 }
@@ -126,6 +130,9 @@ impl Program {
         for (k, limit) in wishes.bends.iter().enumerate() {
             add(RowName::Bend(k), &limit.row, limit.lower, limit.upper);
         }
+        for (k, limit) in &wishes.rules {
+            add(RowName::Rule(*k), &limit.row, limit.lower, limit.upper);
+        }
         for (k, limit) in wishes.breadths.iter().enumerate() {
             add(RowName::Breadth(k), &limit.row, limit.lower, limit.upper);
         }
@@ -140,6 +147,25 @@ impl Program {
         changed.problem.quadratic = symmetric(&normal, 2.0);
         changed.problem.linear = right.iter().map(|b| -2.0 * b).collect();
         changed
+    }
+
+    /// The same program with other limits in the place of the rows of these names.
+    #[must_use]
+    pub fn with_rows(&self, changed: &[(RowName, Limit)], reduced: &Reduced) -> Self {
+        let mut program = self.clone();
+        program.problem.rows = SparseRows::new(self.problem.rows.column_count());
+        for (k, name) in self.names.iter().enumerate() {
+            if let Some((_, limit)) = changed.iter().find(|(other, _)| other == name) {
+                let (row, offset) = reduced.row(&limit.row);
+                program.problem.rows.push(row);
+                program.problem.lower[k] = limit.lower - offset;
+                program.problem.upper[k] = limit.upper - offset;
+            } else {
+                let (columns, values) = self.problem.rows.row(k);
+                program.problem.rows.push(columns.iter().copied().zip(values.iter().copied()));
+            }
+        }
+        program
     }
 
     /// Solves, and judges the answer.

@@ -10,6 +10,7 @@ mod fit;
 mod form;
 mod functional;
 mod immersion;
+mod inertia;
 mod offsets;
 mod particulars;
 mod section;
@@ -26,6 +27,7 @@ pub use fit::{
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
+pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};

@@ -4,7 +4,8 @@ use super::fair::{FairJob, FairOutputs};
 use super::page::{WIDTH, fixed, wrapped};
 use crate::exchange::{reached, status_word};
 use crate::fairing::constraint::Constraint;
-use crate::fairing::job::{Change, Held, Outcome};
+use crate::fairing::held::Held;
+use crate::fairing::job::{Change, Outcome};
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
