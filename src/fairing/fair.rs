@@ -16,10 +16,11 @@ use super::model::{Limit, Model};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
-use super::relinearise::Settling;
+use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
-use super::smoothing::{Smoothed, Smoother, Trial};
+use super::smoothing::{GAMMA, Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
+use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, Settings, Status};
 
@@ -80,6 +81,9 @@ pub enum FairError {
     /// Rules that name what the surface does not have: index of the rule, and why.
     #[error("{}", .0.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("; "))]
     Rules(Vec<(usize, String)>),
+    /// A net with an accepted line makes no hull.
+    #[error(transparent)]
+    Hull(#[from] HullError),
     /// No metric for a refresh.
     #[error(transparent)]
     Refresh(#[from] RefreshError),
@@ -96,6 +100,8 @@ pub struct Faired {
     pub lambda: f64,
     /// The search for the weight.
     pub trials: Vec<Trial>,
+    /// The smoothed net without any wish, at the weight that was taken.
+    pub chosen: Trial,
     /// Effective degrees of freedom of the smoothed net.
     pub edf: f64,
     /// The program that was solved last.
@@ -235,6 +241,15 @@ pub fn fair_prepared(
     let mut program = Program::new(model, smoother, lambda, &wishes, None);
     let mut solved = program.solve(model, smoother, lambda, &settings.solver)?;
     let (mut programs, mut iterations) = (1, solved.solution.iterations);
+    if solved.is_optimal() && solved.net.iter().any(|y| !(-greatest..=2.0 * greatest).contains(y)) {
+        // An optimum that balloons between the offsets is no hull: the limits are needed everywhere.
+        wishes.breadths = breadths(hull, &first, greatest, f64::INFINITY);
+        wishes.breadths.extend(control_values(&smoother.reduced.free, greatest));
+        program = Program::new(model, smoother, lambda, &wishes, None);
+        solved = program.solve(model, smoother, lambda, &settings.solver)?;
+        programs += 1;
+        iterations += solved.solution.iterations;
+    }
     if solved.is_optimal()
         && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
             let asked = Wishes { rules: wishes.rules.iter().chain(rules).cloned().collect(), ..wishes.clone() };
@@ -363,6 +378,7 @@ pub fn fair_prepared(
         sigma,
         lambda: final_lambda,
         trials: prepared.trials.clone(),
+        chosen: chosen(smoother, smoothed),
         edf: smoothed.edf,
         program,
         solved,
@@ -382,6 +398,12 @@ impl Faired {
         self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
     }
 
+    /// Whether metacentre or wetted surface did not come to their targets.
+    #[must_use]
+    pub fn stalled(&self) -> bool {
+        self.settled.as_ref().and_then(|errors| errors.last()).is_some_and(|error| *error > ON_TARGET)
+    }
+
     /// Rows of the program whose names are these.
     pub fn rows(&self, these: impl Fn(RowName) -> bool) -> impl Iterator<Item = usize> {
         self.program.names.iter().enumerate().filter(move |(_, name)| these(**name)).map(|(row, _)| row)
@@ -390,22 +412,29 @@ impl Faired {
     /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
     #[must_use]
     pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
-        let mut without = self.program.clone();
-        let mut any = false;
-        for row in self.rows(these) {
-            without.problem.lower[row] = f64::NEG_INFINITY;
-            without.problem.upper[row] = f64::INFINITY;
-            any = true;
-        }
-        if !any {
+        if self.rows(&these).next().is_none() {
             return 0.0;
         }
+        let without = self.program.without(these);
         let rms = |net: &[f64]| {
             let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
             (squares / self.smoother.count().max(1) as f64).sqrt()
         };
         let solved = without.solve(model, &self.smoother, self.lambda, solver);
         solved.ok().filter(Solved::is_optimal).map_or(0.0, |solved| rms(&self.net) - rms(&solved.net))
+    }
+}
+
+/// The point of the search for the weight where a smoothed net stands.
+fn chosen(smoother: &Smoother, smoothed: &Smoothed) -> Trial {
+    let count = smoother.count() as f64;
+    let freedom = count - GAMMA * smoothed.edf;
+    Trial {
+        lambda: smoothed.lambda,
+        gcv: if freedom > 0.0 { count * smoothed.rss / (freedom * freedom) } else { f64::INFINITY },
+        rms: (smoothed.rss / count.max(1.0)).sqrt(),
+        energy: smoothed.energy,
+        edf: smoothed.edf,
     }
 }
 

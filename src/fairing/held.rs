@@ -7,7 +7,7 @@ use super::program::RowName;
 use super::surface::FairSurface;
 use crate::hull::Hull;
 
-/// Multipliers below this part of the greatest of all rows bind nothing.
+/// A row nearer to its limit than this binds: \[m\], a slope, or a part of the row's size.
 const BINDING: f64 = 1e-9;
 
 /// A constraint and how it is held.
@@ -62,19 +62,26 @@ pub(super) fn constraints(
 /// Rules with what they cost; one that does not bind costs nothing.
 pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Faired) -> Vec<HeldRule> {
     let multipliers = &faired.solved.solution.multipliers;
-    let greatest = multipliers.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
+    let problem = &faired.program.problem;
     let list = settings.rules.iter().enumerate();
     list.map(|(k, rule)| {
         let own = |name: RowName| name == RowName::Rule(k);
         let at: Vec<usize> = faired.rows(own).collect();
-        let binding = at.iter().filter(|&&row| multipliers[row].abs() > BINDING * greatest).count();
+        let binds = |row: usize| {
+            let y = problem.rows.dot(row, &faired.solved.solution.x);
+            (y - problem.lower[row]).min(problem.upper[row] - y) <= BINDING * (1.0 + y.abs())
+        };
+        let binding = at.iter().filter(|&&row| binds(row)).count();
         let largest = at.iter().fold(0.0_f64, |most, &row| most.max(multipliers[row].abs()));
         let violated = |limit: &super::model::Limit| {
             let y = value(&limit.row, &faired.net);
             (limit.lower - y).max(y - limit.upper).max(0.0)
         };
-        let violation =
-            faired.rules.iter().filter(|(rule, _)| *rule == k).fold(0.0_f64, |most, (_, limit)| most.max(violated(limit)));
+        let violation = faired
+            .rules
+            .iter()
+            .filter(|(rule, _)| *rule == k)
+            .fold(0.0_f64, |most, (_, limit)| most.max(violated(limit)));
         let price = if binding == 0 { 0.0 } else { faired.price_of(&surface.model, own, &settings.solver) };
         HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price }
     })

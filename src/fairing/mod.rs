@@ -4,6 +4,7 @@
 pub mod bends;
 pub mod constraint;
 pub mod curve;
+mod determined;
 pub mod fair;
 pub mod guard;
 pub mod held;
@@ -17,12 +18,14 @@ pub mod metric;
 pub mod model;
 pub mod pattern;
 pub mod program;
+pub mod proposals;
 pub mod refresh;
 pub mod relinearise;
 mod rules;
 pub mod smoothing;
 pub mod surface;
 mod suspects;
+mod told;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use suspects::{

@@ -4,7 +4,8 @@
 //! the tolerance of every reading, the signs of curvature and the limits of every control value. The objective is the
 //! weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
 
-use super::model::{Limit, Model, Reduced};
+use super::determined::Determined;
+use super::model::{Limit, Model, Reduced, Row};
 use super::pattern::{Pattern, SignForms};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
@@ -49,6 +50,16 @@ pub struct Program {
     pub problem: Problem,
     /// What each row stands for.
     pub names: Vec<RowName>,
+    /// Rows that equalities of rules decide, within their limits.
+    decided: Vec<Wanted>,
+}
+
+/// A row over the free control values.
+#[derive(Debug, Clone)]
+struct Wanted {
+    name: RowName,
+    row: Row,
+    limits: [f64; 2],
 }
 
 /// A solved program.
@@ -87,25 +98,24 @@ impl Program {
     ) -> Self {
         let (normal, right) = smoother.normal(lambda);
         let n = right.len();
-        let mut problem = Problem {
+        let problem = Problem {
             quadratic: symmetric(&normal, 2.0),
             linear: right.iter().map(|b| -2.0 * b).collect(),
             rows: SparseRows::new(n),
             lower: Vec::new(),
             upper: Vec::new(),
         };
-        let mut names = Vec::new();
         let reduced = &smoother.reduced;
+        let mut wanted: Vec<Wanted> = Vec::new();
         let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64| {
             let (row, offset) = reduced.row(row);
-            if row.iter().all(|(_, value)| value.abs() < 1e-14) {
-                return;
+            if row.iter().any(|(_, value)| value.abs() >= 1e-14) {
+                wanted.push(Wanted { name, row, limits: [lower - offset, upper - offset] });
             }
-            problem.rows.push(row);
-            problem.lower.push(lower - offset);
-            problem.upper.push(upper - offset);
-            names.push(name);
         };
+        for (k, limit) in &wishes.rules {
+            add(RowName::Rule(*k), &limit.row, limit.lower, limit.upper);
+        }
         for (k, limit) in wishes.constraints.iter().enumerate() {
             add(RowName::Constraint(k), &limit.row, limit.lower, limit.upper);
         }
@@ -130,13 +140,57 @@ impl Program {
         for (k, limit) in wishes.bends.iter().enumerate() {
             add(RowName::Bend(k), &limit.row, limit.lower, limit.upper);
         }
-        for (k, limit) in &wishes.rules {
-            add(RowName::Rule(*k), &limit.row, limit.lower, limit.upper);
-        }
         for (k, limit) in wishes.breadths.iter().enumerate() {
             add(RowName::Breadth(k), &limit.row, limit.lower, limit.upper);
         }
-        Self { problem, names }
+        Self::assembled(problem, wanted)
+    }
+
+    /// The program with what is wanted, less the rows that equalities of rules decide already.
+    fn assembled(mut problem: Problem, wanted: Vec<Wanted>) -> Self {
+        let n = problem.linear.len();
+        problem.rows = SparseRows::new(n);
+        (problem.lower, problem.upper) = (Vec::new(), Vec::new());
+        let equal = |row: &Wanted| {
+            matches!(row.name, RowName::Rule(_) | RowName::Tolerance(_)) && row.limits[0] >= row.limits[1]
+        };
+        let mut known = Determined::new(n);
+        // Only rules make equalities that follow from each other: lines that cross, flats.
+        if wanted.iter().any(|row| matches!(row.name, RowName::Rule(_))) {
+            wanted.iter().filter(|row| equal(row)).for_each(|row| {
+                known.take(&row.row, row.limits[0]);
+            });
+        }
+        let (mut names, mut decided) = (Vec::new(), Vec::new());
+        let mut seen = Determined::new(n);
+        for row in wanted {
+            // What a fixed line does beyond 0 or B/2 between the offsets, by which its spline passes them, stays.
+            let limits =
+                if matches!(row.name, RowName::Breadth(_)) { [f64::NEG_INFINITY, f64::INFINITY] } else { row.limits };
+            let follows = !known.is_empty()
+                && if equal(&row) { !seen.take(&row.row, row.limits[0]) } else { known.decides(&row.row, limits) };
+            if follows {
+                decided.push(row);
+                continue;
+            }
+            problem.rows.push(row.row);
+            problem.lower.push(row.limits[0]);
+            problem.upper.push(row.limits[1]);
+            names.push(row.name);
+        }
+        Self { problem, names, decided }
+    }
+
+    /// The program without the rows of these names, and with what they alone decided.
+    #[must_use]
+    pub fn without(&self, these: impl Fn(RowName) -> bool) -> Self {
+        let rows = self.names.iter().enumerate().map(|(k, &name)| {
+            let (columns, values) = self.problem.rows.row(k);
+            let row = columns.iter().copied().zip(values.iter().copied()).collect();
+            Wanted { name, row, limits: [self.problem.lower[k], self.problem.upper[k]] }
+        });
+        let all = rows.chain(self.decided.iter().cloned()).filter(|row| !these(row.name));
+        Self::assembled(self.problem.clone(), all.collect())
     }
 
     /// The same rows with the objective of another energy over the same unknowns.

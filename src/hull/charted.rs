@@ -91,12 +91,7 @@ pub(crate) fn advance(hull: &Hull, along: [f64; 2], up: [f64; 2]) -> f64 {
 }
 
 /// Enumerates the weights of the waterplane area or of a moment of it.
-pub(super) fn waterplane_weights(
-    hull: &Hull,
-    draught: f64,
-    arm: Arm,
-    sink: &mut dyn FnMut(usize, usize, &[f64]),
-) {
+pub(super) fn waterplane_weights(hull: &Hull, draught: f64, arm: Arm, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     if immersion.above() {
         return;

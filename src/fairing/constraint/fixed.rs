@@ -58,7 +58,11 @@ pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limi
         }
         FixedLine::Line(Line::Waterline(z)) => {
             let places: Vec<_> = us.into_iter().filter_map(|u| Some([u, hull.height_parameter_at(u, *z)?])).collect();
-            if places.is_empty() { Err(format!("the surface has no waterline at z = {z:.3} m")) } else { Ok(at(places)) }
+            if places.is_empty() {
+                Err(format!("the surface has no waterline at z = {z:.3} m"))
+            } else {
+                Ok(at(places))
+            }
         }
         FixedLine::Named(name, points) => {
             let places: Vec<[f64; 2]> = points.iter().filter_map(|[x, z]| hull.parameters(*x, *z)).collect();
@@ -68,9 +72,9 @@ pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limi
             let domain = net.v().domain();
             let slack = SAME * (domain.1 - domain.0);
             if places.iter().all(|place| (place[1] - first[1]).abs() <= slack) {
-                let (from, to) = places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), place| {
-                    (a.min(place[0]), b.max(place[0]))
-                });
+                let (from, to) = places
+                    .iter()
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), place| (a.min(place[0]), b.max(place[0])));
                 let inside = us.into_iter().filter(|u| (from - SAME..=to + SAME).contains(u));
                 return Ok(at(inside.map(|u| [u, first[1]]).collect()));
             }

@@ -189,6 +189,7 @@ impl Constraint {
 }
 
 pub use breadth::{breadths, control_values};
+pub use flat::edged;
 pub use rule::{FixedLine, Rule, TangentPlace};
 
 /// A dense row without its zeros, times a factor.

@@ -181,7 +181,9 @@ impl Rule {
             Self::FlatOfBottom { x } => flat::bottom(surface, *x),
             Self::Monotone { line, over, rising } => monotone::limits(surface, *line, *over, *rising),
             Self::Curvature { line, over, convex } => curvature::limits(surface, *line, *over, *convex),
-            Self::Inflections { line, .. } => along(surface, *line, [f64::NEG_INFINITY, f64::INFINITY]).map(|_| Vec::new()),
+            Self::Inflections { line, .. } => {
+                along(surface, *line, [f64::NEG_INFINITY, f64::INFINITY]).map(|_| Vec::new())
+            }
         }
     }
 }
