@@ -68,6 +68,8 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "fairing-moves.svg",
         "fairing.json",
         "hull.json",
+        "lcurve.png",
+        "lcurve.svg",
         "manifest.json",
         "offsets.csv",
         "summary.json",

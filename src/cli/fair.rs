@@ -39,13 +39,26 @@ pub(super) struct Arguments {
     /// Waterplane area [m2], instead of the coefficient
     #[arg(long, value_name = "AREA")]
     waterplane_area: Option<String>,
+    /// Height of the transverse metacentre above the base line [default: free]
+    #[arg(long, value_name = "KM", conflicts_with = "gm")]
+    km: Option<String>,
+    /// Transverse metacentric height, for the centre of gravity of --kg [default: free]
+    #[arg(long, value_name = "GM")]
+    gm: Option<String>,
+    /// Height of the centre of gravity above the base line
+    #[arg(long, value_name = "KG")]
+    kg: Option<String>,
+    /// Wetted surface [m2] at the design draught [default: free]
+    #[arg(long, value_name = "AREA")]
+    wetted_surface: Option<String>,
     /// Design draught: what is held holds there [default: of the table]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
     /// How far an offset may move [default: three noise levels, at least two steps of the table's writing]
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<String>,
-    /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0"; may be repeated
+    /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too: "stem",
+    /// "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
     /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on plain hulls, else 3]
@@ -60,6 +73,9 @@ pub(super) struct Arguments {
     /// Take suspected typing errors as they are
     #[arg(long)]
     keep_suspects: bool,
+    /// Take knuckles and tangent lines that are proposed: "L1,L2", or "all"
+    #[arg(long, value_name = "L1,L2|all")]
+    accept_lines: Option<String>,
     /// Do not forbid changes of curvature that are noise
     #[arg(long)]
     no_signs: bool,
@@ -75,8 +91,8 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 Held are displacement, LCB and CM of the surface through the table unless something else is said; a target that is given \
-replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [energy], [suspects], \
-[signs]: `loftsman schema job`.
+replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
+[shape], [energy], [suspects], [signs]: `loftsman schema job`.
 Files: hull.json, offsets.csv (in the notation of the table), changes.csv, fairing.json (the certificate), summary.json, \
 manifest.json, figures.
 Exit code 4 when the wishes cannot all be had within the tolerances; the best compromise is written, marked.
@@ -97,11 +113,16 @@ impl Arguments {
             ("--lcf", "hold.LCF", &self.lcf),
             ("--cwp", "hold.Cwp", &self.cwp),
             ("--waterplane-area", "hold.waterplane_area", &self.waterplane_area),
+            ("--km", "hold.KM", &self.km),
+            ("--gm", "hold.GM", &self.gm),
+            ("--kg", "hold.KG", &self.kg),
+            ("--wetted-surface", "hold.wetted_surface", &self.wetted_surface),
             ("--draught", "dimensions.T", &self.draught),
             ("--tolerance", "tolerance.table", &self.tolerance),
             ("--order", "energy.order", &self.order),
             ("--anisotropy", "energy.anisotropy", &self.anisotropy),
             ("--weight", "energy.weight", &self.weight),
+            ("--accept-lines", "lines.accept", &self.accept_lines),
         ];
         let said = |(option, key, value): (&'static str, &'static str, &Option<String>)| {
             value.as_ref().map(|value| (option, key, value.clone()))
@@ -111,6 +132,8 @@ impl Arguments {
             let (key, name) = match lock.trim().split_once(char::is_whitespace) {
                 Some(("station", name)) => ("lock.stations", name),
                 Some(("waterline", name)) => ("lock.waterlines", name),
+                Some(("line", _)) => ("lock.lines", lock.as_str()),
+                None if ["stem", "stern", "keel", "deck"].contains(&lock.trim()) => ("lock.lines", lock.as_str()),
                 _ => ("lock.cells", lock.as_str()),
             };
             options.push(("--lock", key, name.trim().to_owned()));

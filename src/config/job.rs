@@ -14,9 +14,11 @@
 //! ```
 
 mod hold;
+mod shape;
 mod spot;
 
 pub use hold::{Quantity, Wish};
+pub use shape::RuleMark;
 pub use spot::{Mark, Spot};
 
 use super::diagnostic::{Diagnostic, Severity, position};
@@ -24,6 +26,7 @@ use super::document::{Document, Raw};
 use super::keys::{Key, Kind, key};
 use super::value::Scalar;
 use crate::fairing::job::{Holding, Job};
+use crate::fairing::proposals::Accepted;
 use crate::hull::{OffsetTable, StatedParticulars};
 
 const HOLD: [&str; 2] = ["table", "free"];
@@ -31,6 +34,10 @@ const AUTO: [&str; 1] = ["auto"];
 
 const fn hold(name: &'static str, kind: &'static Kind, description: &'static str) -> Key {
     key("hold", name, Kind::OrWord(kind, &HOLD), &[], description)
+}
+
+const fn shape(name: &'static str, description: &'static str) -> Key {
+    key("shape", name, Kind::Phrases(r#""waterline 6.5 from 0 to 5", "station 5 from 2 m""#), &[], description)
 }
 
 /// Every key of the job file.
@@ -88,6 +95,13 @@ pub const JOB_KEYS: &[Key] = &[
     key("lock", "stations", Kind::Names, &[], "Stations that do not move: names of the table, or positions."),
     key("lock", "waterlines", Kind::Names, &[], "Waterlines that do not move: heights."),
     key("lock", "cells", Kind::Names, &[], "Cells that do not move, \"station@waterline\"."),
+    key(
+        "lock",
+        "lines",
+        Kind::Phrases(r#""stem", "deck", "waterline 6.5", "line KNUCKLE 1""#),
+        &[],
+        "Lines that stay where the surface through the table has them: \"stem\", \"stern\", \"keel\", \"deck\", \"station 5\", \"waterline 6.5\", \"line NAME\" for a knuckle or tangent line of the table.",
+    ),
     hold("displacement", &Kind::Displacement, "Displacement at the design draught. Default: \"table\"."),
     hold("Cb", &Kind::Number, "Block coefficient, instead of the displacement."),
     hold("LCB", &Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: \"table\"."),
@@ -96,6 +110,60 @@ pub const JOB_KEYS: &[Key] = &[
     hold("Cwp", &Kind::Number, "Waterplane coefficient. Default: \"free\"."),
     hold("waterplane_area", &Kind::Area, "Waterplane area, instead of Cwp. Default: \"free\"."),
     hold("Cm", &Kind::Number, "Midship section coefficient. Default: \"table\"."),
+    hold("KM", &Kind::Length, "Height of the transverse metacentre above the base line. Default: \"free\"."),
+    hold("GM", &Kind::Length, "Transverse metacentric height, instead of KM; needs KG. Default: \"free\"."),
+    key("hold", "KG", Kind::Length, &[], "Height of the centre of gravity above the base line, for GM."),
+    hold("wetted_surface", &Kind::Area, "Wetted surface at the design draught. Default: \"free\"."),
+    key(
+        "tangent",
+        "entrance",
+        Kind::NamedAngles(r#""6.5" = "12 deg""#),
+        &[],
+        "Half angles of entrance of waterlines, { \"6.5\" = \"12 deg\" }.",
+    ),
+    key("tangent", "run", Kind::NamedAngles(r#""6.5" = "12 deg""#), &[], "Half angles of run of waterlines."),
+    key(
+        "tangent",
+        "waterlines",
+        Kind::NamedAngles(r#""5@6.5" = "4 deg""#),
+        &[],
+        "Angles of waterlines from the centreline at \"station@height\", positive where the half-breadth rises forward.",
+    ),
+    key(
+        "tangent",
+        "stations",
+        Kind::NamedAngles(r#""5@6.5" = "0 deg""#),
+        &[],
+        "Angles of stations from the vertical at \"station@height\", positive where the half-breadth rises upward; 0 deg where a flat of side begins.",
+    ),
+    key(
+        "flat",
+        "side",
+        Kind::Phrases(r#""stations 8 to 12, waterlines 3 to 9.75""#),
+        &[],
+        "Flats of side: the half-breadth is B/2 there.",
+    ),
+    key(
+        "flat",
+        "bottom",
+        Kind::Phrases(r#""stations 8 to 12""#),
+        &[],
+        "Flats of bottom: their edge stays where the surface through the table has it.",
+    ),
+    shape(
+        "rising",
+        "Parts of lines on which the half-breadth rises, forward along a waterline and upward along a station.",
+    ),
+    shape("falling", "Parts of lines on which the half-breadth falls."),
+    shape("convex", "Parts of lines that are convex, full as seen from outside."),
+    shape("concave", "Parts of lines that are concave, hollow as seen from outside."),
+    key(
+        "shape",
+        "inflections",
+        Kind::NamedCounts(r#""waterline 6.5" = 1"#),
+        &[],
+        "Most inflections of lines, { \"waterline 6.5\" = 1 }.",
+    ),
     key(
         "hold",
         "section_areas",
@@ -116,6 +184,13 @@ pub const JOB_KEYS: &[Key] = &[
         Kind::Switch,
         &[],
         "Whether cells that are more likely wrong than right are left out. Default: true.",
+    ),
+    key(
+        "lines",
+        "accept",
+        Kind::Phrases(r#""L1", "L2""#),
+        &[],
+        "Which of the knuckles and tangent lines that `fair` proposes are taken: [\"L1\", \"L2\"], or \"all\". Default: none.",
     ),
     key(
         "signs",
@@ -149,6 +224,14 @@ pub struct JobFile {
     pub locks: Vec<Mark>,
     /// What is held, or left free.
     pub hold: Vec<(Quantity, Wish)>,
+    /// Height of the centre of gravity \[m\].
+    pub gravity: Option<f64>,
+    /// File and place of GM, which needs it.
+    metacentric: Option<(String, Option<(usize, usize)>)>,
+    /// Rules for lines and regions.
+    pub rules: Vec<RuleMark>,
+    /// Which proposed lines are taken.
+    pub accepted: Option<Accepted>,
     /// Section areas: x \[m\], area and band \[m^2\].
     pub section_areas: Vec<[f64; 3]>,
     /// Whether suspects are left out.
@@ -190,13 +273,15 @@ pub fn read_option(option: &str, key: &str, value: &str) -> Result<JobFile, Vec<
     };
     let quoted = serde_json::Value::String(value.to_owned()).to_string();
     let text = match kind {
-        Some(Kind::Names) => format!("{key} = [{quoted}]"),
+        Some(Kind::Names | Kind::Phrases(_)) => format!("{key} = [{quoted}]"),
         _ if bare => format!("{key} = {value}"),
         _ => format!("{key} = {quoted}"),
     };
     read_job(option, &text)
         .map(|mut job| {
             job.locks.iter_mut().for_each(Mark::without_place);
+            job.rules.iter_mut().for_each(RuleMark::without_place);
+            job.metacentric.iter_mut().for_each(|(_, at)| *at = None);
             job
         })
         .map_err(|problems| {
@@ -226,6 +311,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
     };
     spot::read(document, &mut job);
     hold::read(document, &mut job);
+    shape::read(document, &mut job);
     job
 }
 
@@ -277,9 +363,13 @@ impl JobFile {
         self.tolerances.extend(other.tolerances);
         self.locks.extend(other.locks);
         self.section_areas.extend(other.section_areas);
+        self.rules.extend(other.rules);
         Self {
             table: other.table.or(self.table),
+            accepted: other.accepted.or(self.accepted),
             density: other.density.or(self.density),
+            gravity: other.gravity.or(self.gravity),
+            metacentric: other.metacentric.or(self.metacentric),
             order: other.order.or(self.order),
             anisotropy: other.anisotropy.or(self.anisotropy),
             weight: other.weight.or(self.weight),
@@ -294,7 +384,7 @@ impl JobFile {
     /// The job for a table whose L_PP is `length` \[m\], and for water of the density of the file or of 1.025 t/m^3.
     ///
     /// # Errors
-    /// Names of stations, waterlines and cells that the table does not have, all of them.
+    /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG; all of them.
     pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
         let mut job = Job::default();
         job.energy.order = self.order;
@@ -303,6 +393,7 @@ impl JobFile {
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.signs = self.signs.unwrap_or(true);
         job.true_curvature = self.true_curvature.unwrap_or(false);
+        job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(length);
         let mut problems = Vec::new();
@@ -320,6 +411,19 @@ impl JobFile {
                 Err(problem) => problems.push(*problem),
             }
         }
+        for rule in &self.rules {
+            match rule.find(table) {
+                Ok(rule) => job.rules.push(rule),
+                Err(problem) => problems.push(*problem),
+            }
+        }
+        let metacentric =
+            |(quantity, wish): &(Quantity, Wish)| *quantity == Quantity::MetacentricHeight && *wish != Wish::Free;
+        if let (None, Some((file, at)), true) = (self.gravity, &self.metacentric, self.hold.iter().any(metacentric)) {
+            let text = "hold.GM: the height of the centre of gravity is not said".to_owned();
+            let help = "Give hold.KG (--kg), or hold KM instead.".to_owned();
+            problems.push(message("E179", (file, "hold.GM"), *at, text, help));
+        }
         job.locked.sort_unstable();
         job.locked.dedup();
         if problems.is_empty() { Ok(job) } else { Err(problems) }
@@ -330,7 +434,7 @@ impl JobFile {
             return Holding::Table;
         }
         let density = self.density.unwrap_or(crate::hydrostatics::Conventions::default().density);
-        hold::holding(&self.hold, &self.section_areas, length, density)
+        hold::holding(&self.hold, &self.section_areas, [length, density, self.gravity.unwrap_or(0.0)])
     }
 }
 

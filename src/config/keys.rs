@@ -45,6 +45,12 @@ pub enum Kind {
     NamedLengths,
     /// Section areas: a list of [x, area] or [x, area, band], m and m^2.
     SectionAreas,
+    /// Texts about lines and regions; the example stands in messages.
+    Phrases(&'static str),
+    /// A table from places to angles; plain numbers are degrees.
+    NamedAngles(&'static str),
+    /// A table from lines to whole numbers.
+    NamedCounts(&'static str),
     /// Shell plating: a table with thickness or factor.
     Shell,
     /// Names from the list, one or several, or `all`, or `none`.

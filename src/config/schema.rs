@@ -53,6 +53,11 @@ fn value_schema(kind: Kind) -> Value {
             "type": "array",
             "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 }
         }),
+        Kind::Phrases(_) => json!({ "type": ["array", "string"], "items": { "type": "string" } }),
+        Kind::NamedAngles(_) => json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } }),
+        Kind::NamedCounts(_) => {
+            json!({ "type": "object", "additionalProperties": { "type": "integer", "minimum": 0, "maximum": 99 } })
+        }
         Kind::Shell => json!({
             "type": "object",
             "properties": { "thickness": { "type": ["number", "string"] }, "factor": { "type": ["number", "string"] } },

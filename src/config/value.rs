@@ -39,6 +39,9 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
         Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),
         Kind::SectionAreas => "a list of [x, area] or [x, area, band], m and m2".into(),
+        Kind::Phrases(example) => format!("a list of texts, as [{example}]"),
+        Kind::NamedAngles(example) => format!("a table of places with angles, as {{ {example} }}"),
+        Kind::NamedCounts(example) => format!("a table of lines with whole numbers, as {{ {example} }}"),
         Kind::Figures => format!("\"all\", \"none\" or names of {}", FIGURES.join(", ")),
     }
 }
@@ -55,7 +58,7 @@ fn accepts(kind: Kind, dimension: Dimension) -> bool {
         Dimension::Length => {
             matches!(kind, Kind::Length | Kind::FractionOrLength | Kind::Positions | Kind::NamedLengths)
         }
-        Dimension::Angle => matches!(kind, Kind::Angle | Kind::RawAngle),
+        Dimension::Angle => matches!(kind, Kind::Angle | Kind::RawAngle | Kind::NamedAngles(_)),
         Dimension::Mass | Dimension::Volume => kind == Kind::Displacement,
         Dimension::Density => kind == Kind::Density,
         Dimension::Speed => false,

@@ -4,8 +4,11 @@ use serde_json::{Value, json};
 
 use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
-use crate::fairing::job::{Change, Held, Outcome};
+use crate::fairing::held::Held;
+use crate::fairing::inspect::PolygonSigns;
+use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
+use crate::fairing::proposals::Proposal;
 use crate::hull::{Cut, OffsetTable, SideKind};
 use crate::qp::Status;
 
@@ -37,10 +40,30 @@ pub fn status_word(status: Status) -> &'static str {
 fn unit(held: &Held) -> &'static str {
     match held.constraint.key() {
         "displacement" => "m3",
-        "lcb" | "kb" | "lcf" => "m",
-        "waterplane_area" | "section_area" => "m2",
+        "lcb" | "kb" | "lcf" | "km" | "gm" => "m",
+        "waterplane_area" | "section_area" | "wetted_surface" => "m2",
         _ => "-",
     }
+}
+
+/// Moves below this \[m\] are none: without the wish the objective falls, but the moves need not.
+const NO_MOVE: f64 = 5e-7;
+
+/// What a wish costs, as "holding LCB costs 0.42 mm RMS".
+#[must_use]
+pub fn priced(words: &str, price: f64) -> String {
+    if price < NO_MOVE {
+        return format!("holding {words} costs no moves");
+    }
+    let value = 1e3 * price;
+    let decimals = if value >= 10.0 {
+        1
+    } else if value >= 0.1 {
+        2
+    } else {
+        3
+    };
+    format!("holding {words} costs {value:.decimals$} mm RMS")
 }
 
 fn at(cut: &Cut) -> f64 {
@@ -104,11 +127,43 @@ fn diagnosis(outcome: &Outcome) -> Value {
             }))
         })
         .collect();
+    let rules: Vec<Value> = found
+        .rules
+        .iter()
+        .filter_map(|(rule, give)| {
+            let held = outcome.rules.get(*rule)?;
+            Some(json!({ "kind": held.rule.key(), "name": held.rule.words(), "slack": json_number(*give) }))
+        })
+        .collect();
     let cheapest = found.cheapest().and_then(|reach| outcome.held.get(reach.constraint));
     json!({
         "widening": json_number(found.widening),
         "alone": reaches,
+        "rules": rules,
         "cheapest": cheapest.map(|held| held.constraint.key()),
+    })
+}
+
+/// Signs of the rows and columns of a net: + outboard of the chord of the neighbours, - inboard, 0 on it.
+fn polygon(lines: &[PolygonSigns]) -> Vec<Value> {
+    let sign = |line: &PolygonSigns| line.signs.iter().map(|side| side.as_char()).collect::<String>();
+    let of = |line: &PolygonSigns| {
+        json!({
+            "line": line.line.as_str(), "index": line.index, "at": number(line.at), "signs": sign(line),
+            "changes": line.changes, "enclosed": line.enclosed,
+        })
+    };
+    lines.iter().map(of).collect()
+}
+
+/// A line that the table does not declare, and what it would bring.
+fn proposed(proposal: &Proposal) -> Value {
+    let line = &proposal.line;
+    json!({
+        "id": format!("L{}", proposal.number), "kind": line.kind.as_str(), "course": line.course.as_str(),
+        "at": number(line.at), "reach": line.reach.map(number), "gain": number(line.gain),
+        "rms_without": json_number(proposal.rms.map(|rms| rms[0])), "rms_with": json_number(proposal.rms.map(|rms| rms[1])),
+        "objective_gain": json_number(proposal.gain), "accepted": proposal.accepted,
     })
 }
 
@@ -135,7 +190,18 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": unit(held),
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
-                "price": number(held.price),
+                "price": number(held.price), "words": priced(&held.constraint.words(), held.price),
+            })
+        })
+        .collect();
+    let rules: Vec<Value> = outcome
+        .rules
+        .iter()
+        .map(|held| {
+            json!({
+                "kind": held.rule.key(), "name": held.rule.words(), "rows": held.rows, "binding": held.binding,
+                "violation": number(held.violation), "multiplier": number(held.multiplier), "price": number(held.price),
+                "words": priced(&held.rule.words(), held.price),
             })
         })
         .collect();
@@ -170,11 +236,16 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "stationarity": number(certificate.stationarity), "max_violation": number(certificate.max_violation),
         },
         "constraints": constraints,
+        "rules": rules,
+        // Largest relative error of what is not linear, before its first new linearisation and after each.
+        "settled": faired.settled.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
         "inflections": {
             "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },
         "signs": signs,
+        "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
+        "lines": outcome.proposals.iter().map(proposed).collect::<Vec<_>>(),
         "infeasible": diagnosis(outcome),
         "moves": { "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)) },
         "tolerance": {
@@ -188,7 +259,10 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "noise": { "sigma": number(faired.sigma) },
         // The functional of true curvature at the convex answer and after each refresh of its metric.
         "refreshes": faired.refreshed.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
-        "smoothing": { "weight": number(faired.lambda), "edf": number(faired.edf), "trials": trials },
+        "smoothing": {
+            "weight": number(faired.lambda), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
+            "energy": number(faired.chosen.energy), "trials": trials,
+        },
         "suspects": suspects,
         "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
         "notes": outcome.notes,

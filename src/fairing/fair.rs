@@ -9,16 +9,19 @@
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
 use super::bends::Line;
-use super::constraint::{Constraint, between, breadths, broken};
+use super::constraint::{Constraint, Rule, between, breadths, broken};
 use super::guard::{Guarded, Question};
-use super::infeasible::{Diagnosis, least_widening, reaches};
+use super::infeasible::{Diagnosis, diagnose, least_widening};
 use super::least::TableLine;
 use super::model::{Limit, Model};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
-use super::smoothing::{Smoothed, Smoother, Trial};
+use super::relinearise::{ON_TARGET, Settling};
+use super::rules::{guarded_lines, rule_limits, turned};
+use super::smoothing::{GAMMA, Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
+use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, Settings, Status};
 
@@ -52,6 +55,8 @@ const ROUNDS: usize = 8;
 pub struct FairSettings {
     /// Constraints of the whole hull.
     pub constraints: Vec<Constraint>,
+    /// Rules for lines and regions.
+    pub rules: Vec<Rule>,
     /// Smoothing weight; none: by cross-validation.
     pub weight: Option<f64>,
     /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
@@ -87,6 +92,12 @@ pub enum FairError {
     /// Numbers that make no program.
     #[error(transparent)]
     Problem(#[from] ProblemError),
+    /// Rules that name what the surface does not have: index of the rule, and why.
+    #[error("{}", .0.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("; "))]
+    Rules(Vec<(usize, String)>),
+    /// A net with an accepted line makes no hull.
+    #[error(transparent)]
+    Hull(#[from] HullError),
     /// No metric for a refresh.
     #[error(transparent)]
     Refresh(#[from] RefreshError),
@@ -103,6 +114,8 @@ pub struct Faired {
     pub lambda: f64,
     /// The search for the weight.
     pub trials: Vec<Trial>,
+    /// The smoothed net without any wish, at the weight that was taken.
+    pub chosen: Trial,
     /// Effective degrees of freedom of the smoothed net.
     pub edf: f64,
     /// The program that was solved last.
@@ -121,6 +134,11 @@ pub struct Faired {
     pub price: f64,
     /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
     pub refreshed: Option<Vec<f64>>,
+    /// Rows of the rules, with the index of the rule.
+    pub rules: Vec<(usize, Limit)>,
+    /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each; none where
+    /// everything that is held is linear.
+    pub settled: Option<Vec<f64>>,
     /// The smoothing problem, for further questions.
     pub smoother: Smoother,
     /// Programs solved.
@@ -228,6 +246,7 @@ pub fn fair_prepared(
     let mut wishes = Wishes {
         constraints,
         breadths: breadths(hull, &first, greatest, 2.0 * sigma),
+        rules: rule_limits(surface, &settings.rules).map_err(FairError::Rules)?,
         widening: 1.0,
         ..Wishes::default()
     };
@@ -236,8 +255,28 @@ pub fn fair_prepared(
     // The net of a fit goes through its table; a net of its own follows it as it was smoothed.
     let reference = if surface.own { &first } else { &surface.start };
     let basic = Basic { surface, model, smoother, lambda, reference, greatest, solver: &settings.solver };
-    let (answer, diagnosis) = basic.solve(&mut wishes)?;
+    let (answer, mut diagnosis) = basic.solve(&mut wishes)?;
     let Answer { mut program, mut solved, mut programs, mut iterations, .. } = answer;
+    if diagnosis.is_none()
+        && solved.is_optimal()
+        && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
+            let asked = Wishes { rules: wishes.rules.iter().chain(rules).cloned().collect(), ..wishes.clone() };
+            let program = Program::new(model, smoother, lambda, &asked, None);
+            let solved = program.solve(model, smoother, lambda, &settings.solver)?;
+            programs += 1;
+            iterations += solved.solution.iterations;
+            Ok((program, solved))
+        })?
+    {
+        wishes.rules.extend(found.limits);
+        (program, solved) = (found.program, found.solved);
+        if !solved.is_optimal() {
+            let (answer, why) = basic.solve(&mut wishes)?;
+            programs += answer.programs;
+            iterations += answer.iterations;
+            (program, solved, diagnosis) = (answer.program, answer.solved, why);
+        }
+    }
     let (mut patterns, mut price) = (None, 0.0);
     if settings.signs && diagnosis.is_none() && surface.own && solved.is_optimal() {
         let free = solved.objective;
@@ -275,7 +314,7 @@ pub fn fair_prepared(
             lambda,
             sigma,
             wishes: &wishes,
-            lines: &prepared.lines,
+            lines: &guarded_lines(&prepared.lines, &settings.rules),
             kept: &settings.kept,
             solver: &settings.solver,
         };
@@ -302,14 +341,29 @@ pub fn fair_prepared(
         refreshed = Some(found.functional);
         surface.model.energy = found.model.energy;
     }
+    let mut settled = None;
+    if diagnosis.is_none() && solved.is_optimal() {
+        let (smoother, lambda, model) = (&final_smoother, final_lambda, &surface.model);
+        let constraints = &settings.constraints;
+        let settling = Settling { surface, constraints, model, smoother, lambda, solver: &settings.solver };
+        if let Some(found) = settling.run(&program, &solved)? {
+            programs += found.programs;
+            iterations += found.iterations;
+            (program, solved) = (found.program, found.solved);
+            settled = Some(found.errors);
+        }
+    }
     Ok(Faired {
         refreshed,
+        rules: wishes.rules,
+        settled,
         diagnosis,
         guarded,
         net: solved.net.clone(),
         sigma,
         lambda: final_lambda,
         trials: prepared.trials.clone(),
+        chosen: chosen(smoother, smoothed),
         edf: smoothed.edf,
         program,
         solved,
@@ -376,9 +430,9 @@ impl Basic<'_> {
             }
             let diagnosis = match answer.met {
                 true => None,
-                false => Some(Diagnosis { widening: answer.least, reaches: reaches(&plain, self.solver)? }),
+                false => Some(diagnose(&plain, answer.least, self.solver)?),
             };
-            programs += diagnosis.as_ref().map_or(0, |found| 2 * found.reaches.len());
+            programs += diagnosis.as_ref().map_or(0, |found| 2 * found.reaches.len() + found.rules.len());
             (answer.programs, answer.iterations) = (programs, iterations);
             return Ok((answer, diagnosis));
         }
@@ -430,28 +484,43 @@ impl Faired {
         self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
     }
 
-    /// Multiplier of a constraint \[m^2 per unit of its row\].
+    /// Whether metacentre or wetted surface did not come to their targets.
     #[must_use]
-    pub fn multiplier(&self, constraint: usize) -> f64 {
-        let place = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint));
-        place.map_or(0.0, |row| self.solved.solution.multipliers[row])
+    pub fn stalled(&self) -> bool {
+        self.settled.as_ref().and_then(|errors| errors.last()).is_some_and(|error| *error > ON_TARGET)
     }
 
-    /// What a constraint costs \[m\]: how much the root of the mean square of the moves falls when it is dropped.
+    /// Rows of the program whose names are these.
+    pub fn rows(&self, these: impl Fn(RowName) -> bool) -> impl Iterator<Item = usize> {
+        self.program.names.iter().enumerate().filter(move |(_, name)| these(**name)).map(|(row, _)| row)
+    }
+
+    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
     #[must_use]
-    pub fn price_of(&self, model: &Model, constraint: usize, solver: &Settings) -> f64 {
-        let Some(row) = self.program.names.iter().position(|name| *name == RowName::Constraint(constraint)) else {
+    pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
+        if self.rows(&these).next().is_none() {
             return 0.0;
-        };
-        let mut without = self.program.clone();
-        without.problem.lower[row] = f64::NEG_INFINITY;
-        without.problem.upper[row] = f64::INFINITY;
+        }
+        let without = self.program.without(these);
         let rms = |net: &[f64]| {
             let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
             (squares / self.smoother.count().max(1) as f64).sqrt()
         };
         let solved = without.solve(model, &self.smoother, self.lambda, solver);
         solved.ok().filter(Solved::is_optimal).map_or(0.0, |solved| rms(&self.net) - rms(&solved.net))
+    }
+}
+
+/// The point of the search for the weight where a smoothed net stands.
+fn chosen(smoother: &Smoother, smoothed: &Smoothed) -> Trial {
+    let count = smoother.count() as f64;
+    let freedom = count - GAMMA * smoothed.edf;
+    Trial {
+        lambda: smoothed.lambda,
+        gcv: if freedom > 0.0 { count * smoothed.rss / (freedom * freedom) } else { f64::INFINITY },
+        rms: (smoothed.rss / count.max(1.0)).sqrt(),
+        energy: smoothed.energy,
+        edf: smoothed.edf,
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s delta_k (and s delta_k
 //!   besides the room between the offsets), and the rest.
+//! * For each rule of lines and regions alone: the least slack of all its rows with which the rest can be had.
 //! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave, min and max
 //!   of its row. The distance from its target to that interval is what it would have to give.
 
@@ -27,6 +28,8 @@ pub struct Diagnosis {
     pub widening: Option<f64>,
     /// Each constraint alone.
     pub reaches: Vec<Reach>,
+    /// Each rule alone: its index, and by how much all its rows would have to give, in their unit; none when no giving of it helps.
+    pub rules: Vec<(usize, Option<f64>)>,
 }
 
 impl Diagnosis {
@@ -97,11 +100,41 @@ fn reach(program: &Program, row: usize, settings: &Settings) -> Result<Option<[f
     Ok(Some(ends))
 }
 
+/// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can be had.
+fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result<Option<f64>, ProblemError> {
+    let problem = &program.problem;
+    let n = problem.linear.len();
+    let mut rows = SparseRows::new(n + 1);
+    let (mut lower, mut upper) = (Vec::new(), Vec::new());
+    for (k, name) in program.names.iter().enumerate() {
+        let (columns, values) = problem.rows.row(k);
+        let row = || columns.iter().copied().zip(values.iter().copied());
+        let (low, high) = (problem.lower[k], problem.upper[k]);
+        for (sign, from, to) in [(1.0, low, f64::INFINITY), (-1.0, f64::NEG_INFINITY, high)] {
+            if *name == these && (from.is_finite() || to.is_finite()) {
+                rows.push(row().chain([(n, sign)]));
+                lower.push(from);
+                upper.push(to);
+            }
+        }
+        if *name != these {
+            rows.push(row());
+            lower.push(low);
+            upper.push(high);
+        }
+    }
+    rows.push([(n, 1.0)]);
+    lower.push(0.0);
+    upper.push(f64::INFINITY);
+    let mut linear = vec![0.0; n + 1];
+    linear[n] = 1.0;
+    let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
+    let solution = problem.solve(settings)?;
+    Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
+}
+
 /// What each constraint alone could be.
-///
-/// # Errors
-/// [`ProblemError`] when the numbers make no problem.
-pub fn reaches(program: &Program, settings: &Settings) -> Result<Vec<Reach>, ProblemError> {
+fn reaches(program: &Program, settings: &Settings) -> Result<Vec<Reach>, ProblemError> {
     let mut reaches = Vec::new();
     for (row, name) in program.names.iter().enumerate() {
         let RowName::Constraint(constraint) = *name else { continue };
@@ -111,4 +144,20 @@ pub fn reaches(program: &Program, settings: &Settings) -> Result<Vec<Reach>, Pro
         reaches.push(Reach { constraint, row: interval, missing });
     }
     Ok(reaches)
+}
+
+/// Everything that can be said of a program without a solution, whose least widening is known.
+///
+/// # Errors
+/// [`ProblemError`] when the numbers make no problem.
+pub fn diagnose(program: &Program, widening: Option<f64>, settings: &Settings) -> Result<Diagnosis, ProblemError> {
+    let mut rules: Vec<(usize, Option<f64>)> = Vec::new();
+    for name in &program.names {
+        if let RowName::Rule(rule) = *name
+            && !rules.iter().any(|(known, _)| *known == rule)
+        {
+            rules.push((rule, least_slack(program, *name, settings)?));
+        }
+    }
+    Ok(Diagnosis { rules, widening, reaches: reaches(program, settings)? })
 }

@@ -4,14 +4,19 @@
 //! [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
-use super::constraint::Constraint;
+use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
+use super::held::{self, Held, HeldRule};
 use super::infeasible::Reach;
-use super::inspect::{Planes, inflections, kind};
+use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
+use super::lines::proposed_lines;
+use super::program::RowName;
+use super::proposals::{Accepted, Proposal, proposals, with_line};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::{Suspect, suspects};
+use super::told::{changes, turns, written};
 use crate::hull::{Cut, Entry, FitError, FitMethod, Hull, HullError, OffsetTable};
 use crate::qp::{Settings, Status};
 
@@ -20,6 +25,9 @@ const LEAST_TOLERANCE: f64 = 1e-6;
 
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
+
+/// Noise over the quantum of the writing from which an undeclared line is likely.
+const ALARM: f64 = 3.0;
 
 /// Most times that lines which bend more often than before are added and the job is done again.
 const REPEATS: usize = 2;
@@ -62,6 +70,10 @@ pub struct Job {
     pub weight: Option<f64>,
     /// What is held.
     pub holding: Holding,
+    /// Rules for lines and regions.
+    pub rules: Vec<Rule>,
+    /// Which of the lines that are proposed are taken.
+    pub accepted: Accepted,
     /// Tolerances.
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
@@ -82,6 +94,8 @@ impl Default for Job {
             energy: EnergySettings::default(),
             weight: None,
             holding: Holding::Table,
+            rules: Vec::new(),
+            accepted: Accepted::None,
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
             locked: Vec::new(),
             exclude_suspects: true,
@@ -104,6 +118,14 @@ pub enum JobError {
     /// The offsets make no problem.
     #[error(transparent)]
     Fair(#[from] FairError),
+    /// A line is accepted that is not proposed.
+    #[error("L{number} is not proposed: {}", match count { 0 => "no line is".to_owned(), 1 => "there is L1".to_owned(), n => format!("there are L1 to L{n}") })]
+    NoLine {
+        /// Its number.
+        number: usize,
+        /// How many are proposed.
+        count: usize,
+    },
 }
 
 /// A cell and what became of it.
@@ -127,21 +149,6 @@ pub struct Change {
     pub suspect: bool,
     /// The cell was locked.
     pub locked: bool,
-}
-
-/// A constraint and how it is held.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Held {
-    /// The constraint with its target.
-    pub constraint: Constraint,
-    /// Its quantity before, for the surface through the table.
-    pub before: f64,
-    /// Its quantity after.
-    pub after: f64,
-    /// Multiplier of its row \[m^2 per unit of the row\].
-    pub multiplier: f64,
-    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
-    pub price: f64,
 }
 
 /// Inflections of one curve.
@@ -173,8 +180,14 @@ pub struct Outcome {
     pub changes: Vec<Change>,
     /// Constraints.
     pub held: Vec<Held>,
+    /// Rules for lines and regions.
+    pub rules: Vec<HeldRule>,
     /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
     pub turns: Vec<Turns>,
+    /// Knuckles and tangent lines that the table has and does not declare.
+    pub proposals: Vec<Proposal>,
+    /// Signs of the control polygons of the nets before and after.
+    pub signs: [Vec<PolygonSigns>; 2],
     /// Suspects of the table.
     pub suspects: Vec<Suspect>,
     /// The program, its certificate, its noise level and its pattern.
@@ -216,11 +229,28 @@ impl Job {
         let before = fitted.hull;
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
+        let list = proposed_lines(table, &found);
+        if let Accepted::These(numbers) = &self.accepted
+            && let Some(&number) = numbers.iter().find(|number| !(1..=list.len()).contains(number))
+        {
+            return Err(JobError::NoLine { number, count: list.len() });
+        }
+        let proposals = proposals(&clean, &before, &list, self.energy, noise, &self.accepted)?;
+        let mut start = before.clone();
+        for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
+            start = with_line(&start, &proposal.line)?.unwrap_or(start);
+        }
+        for rule in &self.rules {
+            if let Rule::FlatOfSide { x, z } = rule {
+                start = edged(&start, *x, *z)?;
+            }
+        }
+        let own = !self.rules.iter().any(Rule::keeps_the_fit);
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
-        let mut surface = FairSurface::new(&clean, &before, self.energy, Some(least))?;
+        let mut surface = FairSurface::new(&clean, &start, self.energy, own.then_some(least))?;
         let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
         if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
-            surface = FairSurface::new(&clean, &before, self.energy, None)?;
+            surface = FairSurface::new(&clean, &start, self.energy, None)?;
             search = None;
         }
         let locked = |place: &super::surface::Place| match place.origin {
@@ -228,13 +258,13 @@ impl Job {
             Origin::Deck { .. } => false,
         };
         surface.places.iter_mut().for_each(|place| place.locked |= locked(place));
-        let own = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
+        let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
             Holding::Given(list) => list.clone(),
-            Holding::Both { own: list, given } => list.iter().map(own).chain(given.iter().copied()).collect(),
+            Holding::Both { own: list, given } => list.iter().map(valued).chain(given.iter().copied()).collect(),
             Holding::Table => {
                 [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
-                    .map(|constraint| own(&constraint))
+                    .map(|constraint| valued(&constraint))
                     .to_vec()
             }
         };
@@ -242,8 +272,12 @@ impl Job {
         let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = table.waterlines.iter().map(|&z| Line::Waterline(z));
+        // What a rule says of the inflections of a line stands over the guard of them.
+        let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
+        let guarded = |line: &Line| !ruled.contains(line);
         let mut settings = FairSettings {
             constraints,
+            rules: self.rules.clone(),
             weight: self.weight,
             table_noise: Some(found.noise),
             most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
@@ -273,7 +307,7 @@ impl Job {
                 Cut::Waterline { z } => Some(Line::Waterline(z)),
                 _ => None,
             });
-            let worse: Vec<Line> = worse.filter(|line| !faired.kept().contains(line)).collect();
+            let worse: Vec<Line> = worse.filter(|line| guarded(line) && !faired.kept().contains(line)).collect();
             if !self.signs || surface.own || worse.is_empty() {
                 break;
             }
@@ -299,19 +333,36 @@ impl Job {
                 None => None,
             };
         }
-        let held = held(&surface, &settings, &faired, &before, &after);
+        let held = held::constraints(&surface, &settings, &faired, [&before, &after]);
+        let rules = held::rules(&surface, &settings, &faired);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }
+        if noise > ALARM * quantum && proposals.iter().any(|proposal| !proposal.accepted) {
+            notes.push(
+                "the noise is far above the rounding of the table, and lines are proposed that it does not declare"
+                    .to_owned(),
+            );
+        }
+        let signs = [&before, &after].map(|hull| net_signs(hull.surface(), ON_CHORD * resolution));
         Ok(Outcome {
-            status: if faired.diagnosis.is_some() { Status::Infeasible } else { faired.solved.solution.status },
+            proposals,
+            signs,
+            status: if faired.diagnosis.is_some() {
+                Status::Infeasible
+            } else if faired.stalled() {
+                Status::Limit
+            } else {
+                faired.solved.solution.status
+            },
             table: written(table, &changes),
             before,
             after,
             changes,
             held,
+            rules,
             turns: lines,
             suspects: found.suspects,
             order: surface.order,
@@ -370,92 +421,6 @@ impl Search {
     }
 }
 
-/// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
-fn changes(table: &OffsetTable, surface: &FairSurface, after: &Hull, excluded: &[(usize, usize)]) -> Vec<Change> {
-    let mut changes: Vec<Change> = Vec::new();
-    for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
-        let (station, waterline) = match place.origin {
-            Origin::HalfBreadth { station, waterline } => (station, Some(waterline)),
-            Origin::Deck { station } => (station, None),
-        };
-        changes.push(Change {
-            station,
-            waterline,
-            x: place.x,
-            z: place.z,
-            before: reading.value,
-            after: after.surface().eval(place.at[0], place.at[1])[1],
-            tolerance: reading.tolerance,
-            suspect: false,
-            locked: place.locked,
-        });
-    }
-    for &(station, waterline) in excluded {
-        let (column, z) = (&table.stations[station], table.waterlines[waterline]);
-        let x = column.station.x;
-        if let (Some(before), Some(after)) = (column.half_breadths[waterline].value(), after.half_breadth(x, z)) {
-            let waterline = Some(waterline);
-            changes.push(Change {
-                station,
-                waterline,
-                x,
-                z,
-                before,
-                after,
-                tolerance: None,
-                suspect: true,
-                locked: false,
-            });
-        }
-    }
-    changes.sort_by_key(|change| (change.station, change.waterline.unwrap_or(usize::MAX)));
-    changes
-}
-
-/// The table with the new half-breadths.
-fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
-    let mut table = table.clone();
-    for change in changes {
-        let station = &mut table.stations[change.station];
-        match change.waterline {
-            Some(waterline) => {
-                let cell = &mut station.half_breadths[waterline];
-                cell.entry = Entry::Given(change.after);
-                cell.written = None;
-            }
-            None => station.deck_half_breadth = Some(change.after),
-        }
-    }
-    table
-}
-
-/// Constraints with what they cost: the same program without the row.
-fn held(surface: &FairSurface, settings: &FairSettings, faired: &Faired, before: &Hull, after: &Hull) -> Vec<Held> {
-    let list = settings.constraints.iter().enumerate();
-    list.map(|(k, &constraint)| Held {
-        constraint,
-        before: constraint.value(before),
-        after: constraint.value(after),
-        multiplier: faired.multiplier(k),
-        price: faired.price_of(&surface.model, k, &settings.solver),
-    })
-    .collect()
-}
-
-/// Inflections of the lines of the table, of buttocks and of diagonals.
-fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Vec<Turns> {
-    let mut planes = Planes::with_defaults(before);
-    planes.stations = table.stations.iter().map(|station| station.station.x).collect();
-    planes.waterlines.clone_from(&table.waterlines);
-    let count = |hull: &Hull| inflections(hull, &planes, tolerance);
-    let (old, new) = (count(before), count(after));
-    let cuts = old.iter().filter_map(|(cut, before)| {
-        let after = new.iter().find(|(other, _)| other == cut)?.1;
-        Some(Turns { cut: *cut, before: *before, after, minimum: None })
-    });
-    cuts.collect()
-}
-
 impl Outcome {
     /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
     #[must_use]
@@ -479,11 +444,21 @@ impl Outcome {
                 target + row * p.length_between_perpendiculars
             }
             Constraint::HeightOfBuoyancy(_) => target + row * p.draught,
+            // Of the tangent at the surface through the table.
+            Constraint::Metacentre { .. } => target + (row - self.tangent(reach)) * constraint.scale(&self.before),
+            Constraint::WettedSurface(_) => target + (row - self.tangent(reach)) * target,
             Constraint::MidshipCoefficient(_) => row,
             Constraint::SectionArea { .. } => row * p.breadth * p.draught,
             _ => row * target,
         };
         reach.row.map(|ends| ends.map(of))
+    }
+
+    /// The value of a row on its target.
+    fn tangent(&self, reach: &Reach) -> f64 {
+        let wanted = RowName::Constraint(reach.constraint);
+        let row = self.faired.rows(|name| name == wanted).next();
+        row.map_or(0.0, |row| self.faired.program.problem.lower[row])
     }
 
     /// Inflections before and after of one kind of curve: station, waterline, buttock or diagonal.

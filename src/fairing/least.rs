@@ -84,6 +84,12 @@ impl TableLine {
         self.least.as_ref().is_some_and(|least| least.curve.is_some() && self.count(net) > least.count)
     }
 
+    /// Whether the offsets allow a curve with at most `most` inflections.
+    #[must_use]
+    pub fn least_at_most(&self, most: usize) -> bool {
+        self.least.as_ref().is_some_and(|least| least.curve.is_some() && least.count <= most)
+    }
+
     /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`.
     #[must_use]
     pub fn wished(&self, start: &[f64]) -> Vec<Limit> {

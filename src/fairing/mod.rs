@@ -6,8 +6,10 @@ pub mod bends;
 pub mod breaks;
 pub mod constraint;
 pub mod curve;
+mod determined;
 pub mod fair;
 pub mod guard;
+pub mod held;
 pub mod infeasible;
 pub mod inflections;
 pub mod inspect;
@@ -18,10 +20,14 @@ pub mod metric;
 pub mod model;
 pub mod pattern;
 pub mod program;
+pub mod proposals;
 pub mod refresh;
+pub mod relinearise;
+mod rules;
 pub mod smoothing;
 pub mod surface;
 mod suspects;
+mod told;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use suspects::{

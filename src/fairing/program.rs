@@ -4,7 +4,8 @@
 //! the tolerance of every reading, the signs of curvature and the limits of every control value. The objective is the
 //! weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
 
-use super::model::{Limit, Model};
+use super::determined::Determined;
+use super::model::{Limit, Model, Reduced, Row};
 use super::pattern::{Pattern, SignForms};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
@@ -25,6 +26,8 @@ pub enum RowName {
     Breadth(usize),
     /// A limit of what the surface moves between the offsets: its index.
     Between(usize),
+    /// One of the rows of a rule for a line or a region: the index of the rule.
+    Rule(usize),
 }
 
 /// Everything that is wished.
@@ -38,6 +41,8 @@ pub struct Wishes {
     pub between: Vec<Between>,
     /// Signs of curvature that single lines keep.
     pub bends: Vec<Limit>,
+    /// Rows of rules, with the index of the rule.
+    pub rules: Vec<(usize, Limit)>,
     /// Multiplies every tolerance.
     pub widening: f64,
 }
@@ -64,6 +69,17 @@ pub struct Program {
     pub names: Vec<RowName>,
     /// Tolerance of each row \[m\]: what either limit gives for a widening by one.
     pub tolerances: Vec<f64>,
+    /// Rows that equalities of rules decide, within their limits.
+    decided: Vec<Wanted>,
+}
+
+/// A row over the free control values.
+#[derive(Debug, Clone)]
+struct Wanted {
+    name: RowName,
+    row: Row,
+    tolerance: f64,
+    limits: [f64; 2],
 }
 
 /// A solved program.
@@ -102,26 +118,24 @@ impl Program {
     ) -> Self {
         let (normal, right) = smoother.normal(lambda);
         let n = right.len();
-        let mut problem = Problem {
+        let problem = Problem {
             quadratic: symmetric(&normal, 2.0),
             linear: right.iter().map(|b| -2.0 * b).collect(),
             rows: SparseRows::new(n),
             lower: Vec::new(),
             upper: Vec::new(),
         };
-        let (mut names, mut tolerances) = (Vec::new(), Vec::new());
         let reduced = &smoother.reduced;
+        let mut wanted: Vec<Wanted> = Vec::new();
         let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64, tolerance: f64| {
             let (row, offset) = reduced.row(row);
-            if row.iter().all(|(_, value)| value.abs() < 1e-14) {
-                return;
+            if row.iter().any(|(_, value)| value.abs() >= 1e-14) {
+                wanted.push(Wanted { name, row, tolerance, limits: [lower - offset, upper - offset] });
             }
-            problem.rows.push(row);
-            problem.lower.push(lower - offset);
-            problem.upper.push(upper - offset);
-            names.push(name);
-            tolerances.push(tolerance);
         };
+        for (k, limit) in &wishes.rules {
+            add(RowName::Rule(*k), &limit.row, limit.lower, limit.upper, 0.0);
+        }
         for (k, limit) in wishes.constraints.iter().enumerate() {
             add(RowName::Constraint(k), &limit.row, limit.lower, limit.upper, 0.0);
         }
@@ -153,7 +167,58 @@ impl Program {
             let band = limit.tolerance * wishes.widening + limit.room;
             add(RowName::Between(k), &limit.row, limit.value - band, limit.value + band, limit.tolerance);
         }
-        Self { problem, names, tolerances }
+        Self::assembled(problem, wanted)
+    }
+
+    /// The program with what is wanted, less the rows that equalities of rules decide already.
+    fn assembled(mut problem: Problem, wanted: Vec<Wanted>) -> Self {
+        let n = problem.linear.len();
+        problem.rows = SparseRows::new(n);
+        (problem.lower, problem.upper) = (Vec::new(), Vec::new());
+        let equal = |row: &Wanted| {
+            matches!(row.name, RowName::Rule(_) | RowName::Tolerance(_)) && row.limits[0] >= row.limits[1]
+        };
+        let mut known = Determined::new(n);
+        // Only rules make equalities that follow from each other: lines that cross, flats.
+        if wanted.iter().any(|row| matches!(row.name, RowName::Rule(_))) {
+            wanted.iter().filter(|row| equal(row)).for_each(|row| {
+                known.take(&row.row, row.limits[0]);
+            });
+        }
+        let (mut names, mut tolerances, mut decided) = (Vec::new(), Vec::new(), Vec::new());
+        let mut seen = Determined::new(n);
+        for row in wanted {
+            // What a fixed line does beyond 0 or B/2 between the offsets, by which its spline passes them, stays.
+            let limits = if matches!(row.name, RowName::Breadth(_) | RowName::Between(_)) {
+                [f64::NEG_INFINITY, f64::INFINITY]
+            } else {
+                row.limits
+            };
+            let follows = !known.is_empty()
+                && if equal(&row) { !seen.take(&row.row, row.limits[0]) } else { known.decides(&row.row, limits) };
+            if follows {
+                decided.push(row);
+                continue;
+            }
+            problem.rows.push(row.row);
+            problem.lower.push(row.limits[0]);
+            problem.upper.push(row.limits[1]);
+            names.push(row.name);
+            tolerances.push(row.tolerance);
+        }
+        Self { problem, names, tolerances, decided }
+    }
+
+    /// The program without the rows of these names, and with what they alone decided.
+    #[must_use]
+    pub fn without(&self, these: impl Fn(RowName) -> bool) -> Self {
+        let rows = self.names.iter().enumerate().map(|(k, &name)| {
+            let (columns, values) = self.problem.rows.row(k);
+            let row = columns.iter().copied().zip(values.iter().copied()).collect();
+            Wanted { name, row, tolerance: self.tolerances[k], limits: [self.problem.lower[k], self.problem.upper[k]] }
+        });
+        let all = rows.chain(self.decided.iter().cloned()).filter(|row| !these(row.name));
+        Self::assembled(self.problem.clone(), all.collect())
     }
 
     /// The same rows with the objective of another energy over the same unknowns.
@@ -164,6 +229,25 @@ impl Program {
         changed.problem.quadratic = symmetric(&normal, 2.0);
         changed.problem.linear = right.iter().map(|b| -2.0 * b).collect();
         changed
+    }
+
+    /// The same program with other limits in the place of the rows of these names.
+    #[must_use]
+    pub fn with_rows(&self, changed: &[(RowName, Limit)], reduced: &Reduced) -> Self {
+        let mut program = self.clone();
+        program.problem.rows = SparseRows::new(self.problem.rows.column_count());
+        for (k, name) in self.names.iter().enumerate() {
+            if let Some((_, limit)) = changed.iter().find(|(other, _)| other == name) {
+                let (row, offset) = reduced.row(&limit.row);
+                program.problem.rows.push(row);
+                program.problem.lower[k] = limit.lower - offset;
+                program.problem.upper[k] = limit.upper - offset;
+            } else {
+                let (columns, values) = self.problem.rows.row(k);
+                program.problem.rows.push(columns.iter().copied().zip(values.iter().copied()));
+            }
+        }
+        program
     }
 
     /// Solves, and judges the answer.

@@ -5,29 +5,30 @@
 //! lines u = constant is immersed, else of a relative error of about 1e-10.
 
 use super::form::Hull;
-use super::functional::Moment;
+use super::functional::{Arm, Moment};
 use super::immersion::{Immersion, UpperEnd};
 use crate::numeric::gauss_legendre;
 use crate::spline::MAX_DEGREE;
 
-/// x, z, x_u and z_u of the columns of the net on a line u = constant.
-fn collapse(hull: &Hull, span: usize, basis: &[[f64; MAX_DEGREE + 1]; 2], columns: &mut [[f64; 4]]) {
+/// x, z, x_u, z_u and y of the columns of the net on a line u = constant.
+fn collapse(hull: &Hull, span: usize, basis: &[[f64; MAX_DEGREE + 1]; 2], columns: &mut [[f64; 5]]) {
     let p = hull.surface().u().degree();
     let count = columns.len();
-    columns.fill([0.0; 4]);
+    columns.fill([0.0; 5]);
     for (i, row) in (span - p..=span).enumerate() {
         for (column, point) in columns.iter_mut().zip(&hull.surface().points()[row * count..]) {
             column[0] += basis[0][i] * point[0];
             column[1] += basis[0][i] * point[2];
             column[2] += basis[1][i] * point[0];
             column[3] += basis[1][i] * point[2];
+            column[4] += basis[0][i] * point[1];
         }
     }
 }
 
-/// [x, z, x_u, z_u] summed with the functions of `basis`.
-fn sum(columns: &[[f64; 4]], basis: &[f64]) -> [f64; 4] {
-    let mut total = [0.0; 4];
+/// [x, z, x_u, z_u, y] summed with the functions of `basis`.
+fn sum(columns: &[[f64; 5]], basis: &[f64]) -> [f64; 5] {
+    let mut total = [0.0; 5];
     for (column, b) in columns.iter().zip(basis) {
         for (t, c) in total.iter_mut().zip(column) {
             *t += b * c;
@@ -42,7 +43,7 @@ pub(super) fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &m
     let surface = hull.surface();
     let (p, q, count) = (surface.u().degree(), surface.v().degree(), surface.shape()[1]);
     let (spans, knots) = (surface.v().spans(), surface.v().knots());
-    let mut columns = vec![[0.0; 4]; count];
+    let mut columns = vec![[0.0; 5]; count];
     let (mut line, mut scaled) = (vec![0.0; count], vec![0.0; count]);
     for piece in immersion.pieces() {
         // Degrees 4p - 1 and 4q - 1 with an arm.
@@ -89,20 +90,15 @@ pub(crate) fn advance(hull: &Hull, along: [f64; 2], up: [f64; 2]) -> f64 {
     if lean.abs() > 0.0 && up[1] > 0.0 { along[0] - lean / up[1] } else { along[0] }
 }
 
-/// Enumerates the weights of the waterplane area or its moment about x = 0.
-pub(super) fn waterplane_weights(
-    hull: &Hull,
-    draught: f64,
-    with_moment: bool,
-    sink: &mut dyn FnMut(usize, usize, &[f64]),
-) {
+/// Enumerates the weights of the waterplane area or of a moment of it.
+pub(super) fn waterplane_weights(hull: &Hull, draught: f64, arm: Arm, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     if immersion.above() {
         return;
     }
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
-    let mut columns = vec![[0.0; 4]; surface.shape()[1]];
+    let mut columns = vec![[0.0; 5]; surface.shape()[1]];
     let mut scaled = [0.0; MAX_DEGREE + 1];
     for piece in immersion.pieces().iter().filter(|piece| piece.upper == UpperEnd::Waterline) {
         for (u, weight) in piece.nodes(2 * p) {
@@ -113,7 +109,11 @@ pub(super) fn waterplane_weights(
             let [across, slopes] = surface.v().basis_derivatives::<2>(span, v);
             let at = sum(&columns[span - q..=span], &across);
             let up = sum(&columns[span - q..=span], &slopes);
-            let arm = if with_moment { at[0] } else { 1.0 };
+            let arm = match arm {
+                Arm::One => 1.0,
+                Arm::Length => at[0],
+                Arm::BreadthSquared => at[4] * at[4],
+            };
             let factor = 2.0 * weight * arm * advance(hull, [at[2], at[3]], [up[0], up[1]]);
             for (i, b) in basis[0][..=p].iter().enumerate() {
                 for (target, a) in scaled.iter_mut().zip(&across) {

@@ -77,8 +77,8 @@ impl Functional {
     fn weights(&self, hull: &Hull, draught: f64, sink: &mut dyn FnMut(usize, usize, &[f64])) {
         match *self {
             Self::SectionArea { x } => section_weights(hull, x, draught, sink),
-            Self::WaterplaneArea => waterplane_weights(hull, draught, false, sink),
-            Self::WaterplaneMoment => waterplane_weights(hull, draught, true, sink),
+            Self::WaterplaneArea => waterplane_weights(hull, draught, Arm::One, sink),
+            Self::WaterplaneMoment => waterplane_weights(hull, draught, Arm::Length, sink),
             Self::Volume => volume_weights(hull, draught, Moment::None, sink),
             Self::LongitudinalMoment => volume_weights(hull, draught, Moment::Length, sink),
             Self::VerticalMoment => volume_weights(hull, draught, Moment::Height, sink),
@@ -92,6 +92,15 @@ pub(super) enum Moment {
     None,
     Length,
     Height,
+}
+
+/// What a waterplane area is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Arm {
+    One,
+    Length,
+    /// The square of the half-breadth of the hull.
+    BreadthSquared,
 }
 
 /// A node in v: the basis functions first ..= first + q, z and the weight times z_v.
@@ -181,9 +190,9 @@ fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMu
     }
 }
 
-fn waterplane_weights(hull: &Hull, draught: f64, with_moment: bool, sink: &mut dyn FnMut(usize, usize, &[f64])) {
+pub(super) fn waterplane_weights(hull: &Hull, draught: f64, arm: Arm, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     if !hull.is_level() {
-        return charted::waterplane_weights(hull, draught, with_moment, sink);
+        return charted::waterplane_weights(hull, draught, arm, sink);
     }
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     if immersion.above() {
@@ -195,16 +204,25 @@ fn waterplane_weights(hull: &Hull, draught: f64, with_moment: bool, sink: &mut d
     let span_v = surface.v().find_span(v);
     let across = surface.v().basis(span_v, v);
     let line = surface.curve_at_v(v);
-    let count = if with_moment { (3 * p).div_ceil(2) } else { p };
+    // Degrees 2p - 1, with x 3p - 1, with y^2 4p - 1.
+    let count = match arm {
+        Arm::One => p,
+        Arm::Length => (3 * p).div_ceil(2),
+        Arm::BreadthSquared => 2 * p,
+    };
     let mut scaled = [0.0; MAX_DEGREE + 1];
     for piece in immersion.pieces().iter().filter(|piece| piece.upper == UpperEnd::Waterline) {
         let first = piece.span - p;
         for (u, weight) in gauss_legendre(count).on(piece.from, piece.to) {
             let [basis, slopes] = knots.basis_derivatives::<2>(piece.span, u);
-            let sum =
-                |row: &[f64]| row.iter().zip(&line.points()[first..=piece.span]).map(|(b, c)| b * c[0]).sum::<f64>();
-            let arm = if with_moment { sum(&basis) } else { 1.0 };
-            let factor = 2.0 * weight * sum(&slopes) * arm;
+            let points = &line.points()[first..=piece.span];
+            let sum = |row: &[f64], axis: usize| row.iter().zip(points).map(|(b, c)| b * c[axis]).sum::<f64>();
+            let arm = match arm {
+                Arm::One => 1.0,
+                Arm::Length => sum(&basis, 0),
+                Arm::BreadthSquared => sum(&basis, 1).powi(2),
+            };
+            let factor = 2.0 * weight * sum(&slopes, 0) * arm;
             for (i, along) in basis[..=p].iter().enumerate() {
                 for (target, b) in scaled.iter_mut().zip(&across) {
                     *target = factor * along * b;

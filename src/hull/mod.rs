@@ -10,6 +10,7 @@ mod fit;
 mod form;
 mod functional;
 mod immersion;
+mod inertia;
 mod mesh;
 mod offsets;
 mod particulars;
@@ -28,6 +29,7 @@ pub use fit::{
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
+pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, MeshReport, Region, whole_volume};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use particulars::PrincipalParticulars;

@@ -24,6 +24,7 @@ mod profile;
 mod scale;
 mod sectional_area;
 mod sections;
+mod smoothing;
 mod suspects;
 #[cfg(test)]
 mod tests;
@@ -35,4 +36,5 @@ pub use fairing::{fairing_body_plan, fairing_half_breadth_plan};
 pub use fairing_moves::fairing_moves;
 pub use figure::{Figure, FigureInputs, PlotError, Svg};
 pub use scale::{DRAWING_SCALES, sheet_scale};
+pub use smoothing::smoothing_figure;
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};

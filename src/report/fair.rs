@@ -9,12 +9,13 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_file};
 use super::source::{read_bytes, read_table_file, utf8};
-use crate::config::{self, Diagnostic, JobFile, Severity};
+use crate::config::{self, Diagnostic, JobFile, RuleMark, Severity};
 use crate::exchange::{
     ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
     fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
 };
-use crate::fairing::job::{Job, Outcome};
+use crate::fairing::fair::FairError;
+use crate::fairing::job::{Job, JobError, Outcome};
 use crate::hull::{Functional, Hull, OffsetTable, TableLayout};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
@@ -33,6 +34,8 @@ pub struct FairJob {
     table_file: PathBuf,
     /// Name and text of the conventions beside the table.
     beside: Option<(String, String)>,
+    /// Rules of the job with their places.
+    rules: Vec<RuleMark>,
     /// The files that were read; the first is the one that the command named.
     inputs: Vec<ManifestEntry>,
     files: Vec<PathBuf>,
@@ -145,7 +148,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);
     let conventions = Conventions { density, ..Conventions::default() };
-    Ok(FairJob { table, job, reading, conventions, table_file, beside, inputs, files })
+    Ok(FairJob { table, job, reading, conventions, table_file, beside, rules: said.rules, inputs, files })
 }
 
 /// The surface through a table.
@@ -218,7 +221,18 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
 /// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made. Wishes that cannot
 /// be had are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
-    let refusal = |error: crate::fairing::job::JobError| {
+    let refusal = |error: JobError| {
+        if let JobError::Fair(FairError::Rules(list)) = &error {
+            let at = |(rule, why): &(usize, String)| {
+                let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";
+                job.rules.get(*rule).map(|mark| mark.problem("E176", why, help))
+            };
+            return Failure::Input(list.iter().filter_map(at).collect());
+        }
+        if let JobError::NoLine { .. } = &error {
+            let help = "Run without it: the page and fairing.json list what is proposed";
+            return Failure::Input(vec![problem("E180", &job.table_file, error.to_string(), help)]);
+        }
         let help = "Look at the table with `loftsman check` and `loftsman fit`";
         Failure::Input(vec![problem("E175", &job.table_file, error.to_string(), help)])
     };
@@ -317,16 +331,28 @@ impl FairOutputs {
             let (words, target) = (held.constraint.words(), held.constraint.target());
             Some(format!(" {words} could be {low:.6} to {high:.6} where {target:.6} is asked for"))
         });
+        // Rules whose giving alone would do, the nearest first.
+        let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
+        let rule = rule.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(rule, give)| {
+            let words = self.outcome.rules.get(rule)?.rule.words();
+            Some(format!(" {words} would have to give by {give:.1e} (m of half-breadth, or slope);"))
+        });
         let (code, message, help) = match self.outcome.status {
             Status::Optimal => return Ok(()),
             Status::Infeasible => (
                 "E401",
                 "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
                 format!(
-                    "Widen the tolerance, unlock cells or free one of the targets:{}{}",
+                    "Widen the tolerance, unlock cells, drop a rule or free one of the targets:{}{}{}",
                     least.unwrap_or_default(),
+                    rule.unwrap_or_default(),
                     cheapest.unwrap_or_default()
                 ),
+            ),
+            Status::Limit if self.outcome.faired.stalled() => (
+                "E403",
+                "what is held of metacentre or wetted surface did not come to its target; what was written is the nearest",
+                "Look at constraints and settled in fairing.json, widen the tolerance or move the target".to_owned(),
             ),
             Status::Unbounded | Status::Limit => (
                 "E402",

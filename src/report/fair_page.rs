@@ -2,9 +2,13 @@
 
 use super::fair::{FairJob, FairOutputs};
 use super::page::{WIDTH, fixed, wrapped};
-use crate::exchange::{reached, status_word};
+use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::Constraint;
-use crate::fairing::job::{Change, Held, Outcome};
+use crate::fairing::held::Held;
+use crate::fairing::inspect::PolygonSigns;
+use crate::fairing::job::{Change, Outcome};
+use crate::fairing::proposals::Proposal;
+use crate::fairing::relinearise::ON_TARGET;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
@@ -128,10 +132,11 @@ fn held_line(held: &Held, length: f64) -> String {
     let target = held.constraint.target();
     let (unit, decimals) = match held.constraint {
         Constraint::Displacement(_) => (" m3", 3),
-        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) | Constraint::HeightOfBuoyancy(_) => {
-            (" m", 4)
-        }
-        Constraint::WaterplaneArea(_) | Constraint::SectionArea { .. } => (" m2", 3),
+        Constraint::CentreOfBuoyancy(_)
+        | Constraint::CentreOfFlotation(_)
+        | Constraint::HeightOfBuoyancy(_)
+        | Constraint::Metacentre { .. } => (" m", 4),
+        Constraint::WaterplaneArea(_) | Constraint::SectionArea { .. } | Constraint::WettedSurface(_) => (" m2", 3),
         _ => ("", 6),
     };
     let percent = match held.constraint {
@@ -145,13 +150,9 @@ fn held_line(held: &Held, length: f64) -> String {
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
-    let price = match held.price {
-        // Without it the objective falls, but the moves need not.
-        price if price < 5e-7 => "costs no moves".to_owned(),
-        price => format!("costs {} mm RMS", millimetres(price)),
-    };
+    let price = priced("it", held.price);
     format!(
-        "{words}: {} -> {}{unit}{percent}, {off}; holding it {price}.",
+        "{words}: {} -> {}{unit}{percent}, {off}; {price}.",
         fixed(held.before, decimals),
         fixed(held.after, decimals),
     )
@@ -178,11 +179,40 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
     page.push_str(&wrapped(&line, 2));
     page.push_str("  (buttocks and diagonals are no lines of the table: they were never used)\n");
+    let sum =
+        |side: usize, count: fn(&PolygonSigns) -> usize| outputs.outcome.signs[side].iter().map(count).sum::<usize>();
+    let line = format!(
+        "Control polygon, signs + and -: {} -> {} changes, {} -> {} enclosed by two of the other.",
+        sum(0, |line| line.changes),
+        sum(1, |line| line.changes),
+        sum(0, |line| line.enclosed),
+        sum(1, |line| line.enclosed)
+    );
+    page.push_str(&wrapped(&line, 2));
     if outputs.outcome.held.is_empty() {
         page.push_str("Nothing of the whole hull is held.\n");
     }
     for held in &outputs.outcome.held {
         page.push_str(&wrapped(&held_line(held, length), 2));
+    }
+    for held in &outputs.outcome.rules {
+        let words = held.rule.words();
+        let binds = match held.binding {
+            0 => "does not bind".to_owned(),
+            n if n == held.rows => priced("it", held.price),
+            n => format!("binds in {n} of {} rows; {}", held.rows, priced("it", held.price)),
+        };
+        page.push_str(&wrapped(&format!("{}{}: {binds}.", words[..1].to_uppercase(), &words[1..]), 2));
+    }
+    if let Some(errors) = &outputs.outcome.faired.settled {
+        let last = errors.last().copied().unwrap_or(0.0);
+        let steps = counted(errors.len() - 1, "step", "steps");
+        let line = if last <= ON_TARGET {
+            format!("What is not linear was linearised anew in {steps}: relative error {last:.0e}.")
+        } else {
+            format!("What is not linear STALLED after {steps}, {last:.0e} of its target away.")
+        };
+        page.push_str(&wrapped(&line, 2));
     }
 }
 
@@ -235,12 +265,41 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         ),
         2,
     ));
+    if !outcome.proposals.is_empty() {
+        page.push_str("Lines that the table does not declare (--accept-lines takes them):\n");
+    }
+    for line in outcome.proposals.iter().take(MOST_LINES) {
+        page.push_str(&format!("  {}", wrapped(&proposal(line), 5)));
+    }
     for note in outcome.notes.iter().take(MOST_REMARKS) {
         page.push_str(&wrapped(&format!("- {note}"), 2));
     }
     let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
     page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
     page
+}
+
+/// A line that is proposed, and what it would bring.
+fn proposal(proposal: &Proposal) -> String {
+    let line = &proposal.line;
+    let taken = if proposal.accepted { ", taken" } else { "" };
+    let brings = match (proposal.rms, proposal.gain) {
+        (Some([without, with]), Some(gain)) => format!(
+            "offsets depart by {} mm RMS without it and {} mm with it, the objective falls by {gain:.0} squares of the noise",
+            millimetres(without),
+            millimetres(with)
+        ),
+        _ => "the chart of the surface has no such line, so that it cannot be taken".to_owned(),
+    };
+    format!(
+        "L{} {} along the {} at {} m, from {} to {} m{taken}: {brings}.",
+        proposal.number,
+        line.kind.as_str(),
+        line.course.as_str(),
+        fixed(line.at, 3),
+        fixed(line.reach[0], 3),
+        fixed(line.reach[1], 3)
+    )
 }
 
 /// Four lines for a job that runs again and again.

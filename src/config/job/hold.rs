@@ -28,6 +28,12 @@ pub enum Quantity {
     WaterplaneArea,
     /// C_M.
     MidshipCoefficient,
+    /// KM_T.
+    Metacentre,
+    /// GM_T.
+    MetacentricHeight,
+    /// S.
+    WettedSurface,
 }
 
 /// What is wished of a quantity.
@@ -47,7 +53,7 @@ pub enum Wish {
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Displacement,
         Self::BlockCoefficient,
         Self::CentreOfBuoyancy,
@@ -56,6 +62,9 @@ impl Quantity {
         Self::WaterplaneCoefficient,
         Self::WaterplaneArea,
         Self::MidshipCoefficient,
+        Self::Metacentre,
+        Self::MetacentricHeight,
+        Self::WettedSurface,
     ];
 
     /// The key of `[hold]`.
@@ -70,6 +79,9 @@ impl Quantity {
             Self::WaterplaneCoefficient => "Cwp",
             Self::WaterplaneArea => "waterplane_area",
             Self::MidshipCoefficient => "Cm",
+            Self::Metacentre => "KM",
+            Self::MetacentricHeight => "GM",
+            Self::WettedSurface => "wetted_surface",
         }
     }
 
@@ -81,11 +93,14 @@ impl Quantity {
             Self::BlockCoefficient => Some(Self::Displacement),
             Self::WaterplaneArea => Some(Self::WaterplaneCoefficient),
             Self::WaterplaneCoefficient => Some(Self::WaterplaneArea),
+            Self::Metacentre => Some(Self::MetacentricHeight),
+            Self::MetacentricHeight => Some(Self::Metacentre),
             _ => None,
         }
     }
 
-    fn constraint(self, target: f64) -> Constraint {
+    /// With the height of the centre of gravity \[m\].
+    fn constraint(self, target: f64, gravity: f64) -> Constraint {
         match self {
             Self::Displacement => Constraint::Displacement(target),
             Self::BlockCoefficient => Constraint::BlockCoefficient(target),
@@ -95,6 +110,9 @@ impl Quantity {
             Self::WaterplaneCoefficient => Constraint::WaterplaneCoefficient(target),
             Self::WaterplaneArea => Constraint::WaterplaneArea(target),
             Self::MidshipCoefficient => Constraint::MidshipCoefficient(target),
+            Self::Metacentre => Constraint::Metacentre { height: target, gravity: 0.0 },
+            Self::MetacentricHeight => Constraint::Metacentre { height: target, gravity },
+            Self::WettedSurface => Constraint::WettedSurface(target),
         }
     }
 }
@@ -113,6 +131,7 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     for (first, second) in [
         (Quantity::Displacement, Quantity::BlockCoefficient),
         (Quantity::WaterplaneArea, Quantity::WaterplaneCoefficient),
+        (Quantity::Metacentre, Quantity::MetacentricHeight),
     ] {
         if named(first) && named(second) {
             let path = format!("hold.{}", second.key());
@@ -120,6 +139,10 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
             let message = format!("{} and {} say the same", first.key(), second.key());
             document.problem("E170", &path, &span, message, "Give one of them.".into());
         }
+    }
+    job.gravity = super::positive(document, "hold.KG", "length");
+    if let Some(entry) = document.entry("hold.GM") {
+        job.metacentric = Some((document.file.to_owned(), super::place(document, entry.span.start)));
     }
     section_areas(document, job);
 }
@@ -191,18 +214,18 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 /// The constraints; what is said stands over the default.
-pub(super) fn holding(hold: &[(Quantity, Wish)], areas: &[[f64; 3]], length: f64, density: f64) -> Holding {
+pub(super) fn holding(hold: &[(Quantity, Wish)], areas: &[[f64; 3]], [length, density, gravity]: [f64; 3]) -> Holding {
     let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
     let silent = |quantity: &Quantity| !said(*quantity) && !quantity.twin().is_some_and(said);
-    let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0)).collect();
+    let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
     let mut given = Vec::new();
     for &(quantity, wish) in hold {
         match wish {
             Wish::Free => {}
-            Wish::Table => own.push(quantity.constraint(0.0)),
-            Wish::Mass(mass) => given.push(quantity.constraint(mass / density)),
-            Wish::Along([share, shift]) => given.push(quantity.constraint(share * length + shift)),
-            Wish::Value(value) => given.push(quantity.constraint(value)),
+            Wish::Table => own.push(quantity.constraint(0.0, gravity)),
+            Wish::Mass(mass) => given.push(quantity.constraint(mass / density, gravity)),
+            Wish::Along([share, shift]) => given.push(quantity.constraint(share * length + shift, gravity)),
+            Wish::Value(value) => given.push(quantity.constraint(value, gravity)),
         }
     }
     given.extend(areas.iter().map(|&[x, area, band]| Constraint::SectionArea { x, area, band }));

@@ -109,6 +109,11 @@ fn mark(document: &mut Document<'_>, text: &str, sort: Sort, key: &str, byte: us
 }
 
 impl Mark {
+    /// A name to be looked up for another key, whose messages it has.
+    pub(super) fn new(file: &str, key: &str, at: Option<(usize, usize)>) -> Self {
+        Self { text: String::new(), sort: Sort::Cell, file: file.to_owned(), key: key.to_owned(), at }
+    }
+
     /// A mark of an option: there is no line and no column.
     pub(super) fn without_place(&mut self) {
         self.at = None;
@@ -138,7 +143,7 @@ impl Mark {
     }
 
     /// The station of that name; then the one whose name is that number; then the one at that position.
-    fn station(&self, table: &OffsetTable, text: &str) -> Result<usize, Box<Diagnostic>> {
+    pub(super) fn station(&self, table: &OffsetTable, text: &str) -> Result<usize, Box<Diagnostic>> {
         let names = || table.stations.iter().map(|station| station.station.name.trim());
         let number: Option<f64> = text.parse().ok();
         let same = |name: &str| number.is_some_and(|n| name.parse::<f64>().is_ok_and(|m| (m - n).abs() <= 1e-9));
@@ -154,7 +159,7 @@ impl Mark {
     }
 
     /// The waterline with that header, or at that height.
-    fn waterline(&self, table: &OffsetTable, text: &str) -> Result<usize, Box<Diagnostic>> {
+    pub(super) fn waterline(&self, table: &OffsetTable, text: &str) -> Result<usize, Box<Diagnostic>> {
         let heads = &table.form.waterline_heads;
         let head = heads.iter().find(|head| head.text.trim().eq_ignore_ascii_case(text)).map(|head| head.value);
         let height = parse_length(text).ok().and_then(|z| nearest(&table.waterlines, z));

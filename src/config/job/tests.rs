@@ -1,6 +1,8 @@
 use super::*;
+use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
-use crate::hull::{Cell, StationOffsets};
+use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
+use crate::hull::{Cell, FeatureLine, LineKind, StationOffsets};
 
 fn messages(text: &str) -> Vec<String> {
     read_job("j.toml", text).unwrap_err().iter().map(ToString::to_string).collect()
@@ -134,6 +136,123 @@ fn names_that_the_table_does_not_have() {
         "E171 j.toml:2:13 lock.stations: no station \"9\". The table has 0, 9 1/2, 10.",
         "E172 j.toml:3:15 lock.waterlines: no waterline \"3\". The table has 0, 2, 4 m.",
         "E173 j.toml:4:10 lock.cells: the table has no offset at 10@0",
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn rules_for_lines_and_regions_are_read() {
+    let text = "[lock]\nlines = [\"Stem\", \"waterline 2\", \"station 9 1/2\", \"line chine\"]\n\
+                [tangent]\nentrance = { \"2\" = \"12 deg\" }\nrun = { \"4 m\" = 20 }\nstations = { \"9 1/2@2\" = \"0 deg\" }\nwaterlines = { \"50@3\" = -4 }\n\
+                [flat]\nside = \"waterlines 2 to 4, stations 0 to 9 1/2\"\nbottom = [\"stations 10 m to 50 m\"]\n\
+                [shape]\nrising = [\"waterline 2 from 0 to 9 1/2\"]\nfalling = \"station 10\"\nconvex = [\"station 9 1/2 from 1 m\"]\nconcave = [\"waterline 3\"]\n\
+                inflections = { \"waterline 4\" = 1, \"station 0\" = 0 }\n[lines]\naccept = [\"L2\", \"l1\"]";
+    let file = read_job("j.toml", text).unwrap();
+    let mut table = table();
+    let points = vec![[0.0, 1.0, 2.5], [95.0, 1.2, 2.4]];
+    table.lines.push(FeatureLine { name: "Chine".into(), kind: LineKind::Knuckle, points });
+    let job = file.for_table(&table, 100.0).unwrap();
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    let degrees = |angle: f64| angle.to_radians();
+    let expected = [
+        Rule::Fixed(FixedLine::Stem),
+        Rule::Fixed(FixedLine::Line(Line::Waterline(2.0))),
+        Rule::Fixed(FixedLine::Line(Line::Station(95.0))),
+        Rule::Fixed(FixedLine::Named("Chine".into(), vec![[0.0, 2.5], [95.0, 2.4]])),
+        Rule::FlatOfSide { x: [0.0, 95.0], z: [2.0, 4.0] },
+        Rule::FlatOfBottom { x: [10.0, 50.0] },
+        Rule::Monotone { line: Line::Waterline(2.0), over: [0.0, 95.0], rising: true },
+        Rule::Monotone { line: Line::Station(100.0), over: open, rising: false },
+        Rule::Curvature { line: Line::Station(95.0), over: [1.0, f64::INFINITY], convex: true },
+        Rule::Curvature { line: Line::Waterline(3.0), over: open, convex: false },
+        Rule::Inflections { line: Line::Waterline(4.0), most: 1 },
+        Rule::Inflections { line: Line::Station(0.0), most: 0 },
+        Rule::Tangent(TangentPlace::Entrance(2.0), degrees(12.0)),
+        Rule::Tangent(TangentPlace::Run(4.0), degrees(20.0)),
+        Rule::Tangent(TangentPlace::Waterline([50.0, 3.0]), degrees(-4.0)),
+        Rule::Tangent(TangentPlace::Station([95.0, 2.0]), 0.0),
+    ];
+    for rule in &expected {
+        // Angles to the hundredth of a degree that the words have.
+        let same = |found: &Rule| found.words() == rule.words();
+        assert!(job.rules.iter().any(same), "{} of {:#?}", rule.words(), job.rules);
+    }
+    assert_eq!(job.rules.len(), expected.len());
+    assert_eq!(job.accepted, Accepted::These(vec![2, 1]));
+    let accepted = |text: &str| read_job("j.toml", &format!("lines.accept = {text}")).unwrap().accepted;
+    assert_eq!(accepted("\"all\""), Some(Accepted::All));
+    assert_eq!(accepted("\"L1, L3\""), Some(Accepted::These(vec![1, 3])));
+}
+
+#[test]
+fn metacentre_and_wetted_surface_are_read() {
+    let given = |text: &str| match read_job("j.toml", text).unwrap().for_table(&table(), 100.0).unwrap().holding {
+        Holding::Both { own, given } => (own.len(), given),
+        holding => panic!("{holding:?}"),
+    };
+    assert_eq!(given("hold.KM = 6.5"), (3, vec![Constraint::Metacentre { height: 6.5, gravity: 0.0 }]));
+    let gm = vec![Constraint::Metacentre { height: 0.5, gravity: 6.0 }, Constraint::WettedSurface(900.0)];
+    assert_eq!(given("[hold]\nGM = \"500 mm\"\nKG = 6\nwetted_surface = 900"), (3, gm));
+    assert_eq!(given("hold.KM = \"table\"").0, 4);
+    let refused = |text: &str| -> Vec<String> {
+        let file = read_job("j.toml", text).unwrap();
+        file.for_table(&table(), 100.0).unwrap_err().iter().map(ToString::to_string).collect()
+    };
+    let said = "E179 j.toml:2:6 hold.GM: the height of the centre of gravity is not said. Give hold.KG (--kg), or hold KM instead.";
+    assert_eq!(refused("[hold]\nGM = 0.5"), [said]);
+    assert_eq!(
+        messages("[hold]\nKM = 6\nGM = 1\nKG = 5"),
+        ["E170 j.toml:3:1 KM and GM say the same. Give one of them."]
+    );
+    // GM and KG may come as two options.
+    let option = |name, key, value| read_option(name, key, value).unwrap();
+    let job = JobFile::default().with(option("--gm", "hold.GM", "0.5")).with(option("--kg", "hold.KG", "6"));
+    assert!(job.for_table(&table(), 100.0).is_ok());
+    let alone = JobFile::default().with(option("--gm", "hold.GM", "0.5")).for_table(&table(), 100.0).unwrap_err();
+    assert!(alone[0].to_string().starts_with("E179 --gm hold.GM: the height"), "{}", alone[0]);
+}
+
+#[test]
+fn problems_of_rules_are_told_at_their_places() {
+    let found = messages(
+        "[lock]\nlines = [\"steem\", 3, \"waterline 2 from 1 to 3\"]\n[tangent]\nentrance = { \"2\" = \"95 deg\" }\nrun = 3\n\
+         stations = { \"5\" = 1 }\nwaterlines = { \"5@2\" = \"3 m\" }\n[flat]\nside = [\"stations 1 to 2\"]\nbottom = [\"waterlines 1 to 2\"]\n\
+         [shape]\nrising = [\"watrline 2\"]\nfalling = 4\nconvex = [\"waterline\"]\nconcave = [\"station 5 to\"]\n\
+         inflections = { \"waterline 2\" = 1.5, \"deck\" = 1 }\n[lines]\naccept = [\"2\"]\n[hold]\nKG = -1\nwetted_surface = \"5 m\"",
+    );
+    let expected = [
+        "E123 j.toml:2:10 lock.lines: \"steem\" is not clear. Did you mean stem?",
+        "E122 j.toml:2:19 lock.lines is 3, expected a list of texts",
+        "E123 j.toml:2:22 lock.lines: \"waterline 2 from 1 to 3\" is not clear. Expected a list of texts",
+        "E124 j.toml:4:14 tangent.entrance.2 is 95 deg. Expected 0 to 89 deg.",
+        "E122 j.toml:5:7 tangent.run is 3, expected a table of places with angles",
+        "E123 j.toml:6:14 tangent.stations: \"5\" is no place. Write \"station@height\", as \"5@6.5\".",
+        "E123 j.toml:7:16 tangent.waterlines.5@2: \"3 m\" is a length, expected a table of places with angles",
+        "E123 j.toml:9:9 flat.side: \"stations 1 to 2\" is not clear. Expected a list of texts, as [\"stations 8 to 12, waterlines 3 to 9.75\"].",
+        "E123 j.toml:10:11 flat.bottom: \"waterlines 1 to 2\" is not clear.",
+        "E123 j.toml:12:11 shape.rising: \"watrline 2\" is not clear. Did you mean waterline?",
+        "E122 j.toml:13:11 shape.falling is 4, expected a list of texts",
+        "E123 j.toml:14:11 shape.convex: \"waterline\" is not clear.",
+        "E123 j.toml:15:12 shape.concave: \"station 5 to\" is not clear.",
+        "E122 j.toml:16:17 shape.inflections.waterline 2 is 1.5. Expected a whole number from 0 to 99.",
+        "E123 j.toml:16:38 shape.inflections: \"deck\" is not clear.",
+        "E123 j.toml:18:11 lines.accept: \"2\" is no line that is proposed. Expected L1, L2, ... or all.",
+        "E124 j.toml:20:6 hold.KG is -1. Expected a positive length.",
+        "E123 j.toml:21:18 hold.wetted_surface: \"5 m\" is a length, expected an area",
+    ];
+    assert_eq!(found.len(), expected.len(), "{found:#?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(found.starts_with(expected), "{found}\n{expected}");
+    }
+    let job = read_job(
+        "j.toml",
+        "[lock]\nlines = [\"line chine\", \"station 11\"]\n[shape]\nconvex = [\"waterline 2 from 10 to 0\"]",
+    )
+    .unwrap();
+    let found: Vec<String> = job.for_table(&table(), 100.0).unwrap_err().iter().map(ToString::to_string).collect();
+    let expected = [
+        "E178 j.toml:2:10 lock.lines: no line \"chine\". The table declares no knuckles and no tangent lines.",
+        "E177 j.toml:4:11 shape.convex: the range from 100 m to 0 m is empty. Write the lesser of both first.",
     ];
     assert_eq!(found, expected);
 }

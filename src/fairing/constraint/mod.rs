@@ -1,10 +1,21 @@
-//! What a fair hull has to hold, one file each: linear rows over the net, each the same row that the hydrostatics evaluate.
+//! What a fair hull has to hold, one file each: quantities of the whole hull ([`Constraint`]) and rules for single lines and regions
+//! ([`Rule`]), as rows over the net. Linear quantities are the same rows that the hydrostatics evaluate; the metacentre and the wetted
+//! surface are linearised about a hull, and the answer is the start of the next linearisation ([`super::relinearise`]).
 
 mod area;
 mod breadth;
 mod centre;
+mod curvature;
+mod fixed;
+mod flat;
+pub mod inflections;
+mod metacentre;
+mod monotone;
+mod rule;
+mod tangent;
 mod volume;
 mod waterplane;
+mod wetted;
 
 use super::model::{Limit, Row};
 use crate::hull::Hull;
@@ -37,6 +48,16 @@ pub enum Constraint {
         /// Half width of the band \[m^2\].
         band: f64,
     },
+    /// Height of the transverse metacentre \[m\] at the design draught, KM_T = KB + I_T / V, less KG: GM_T for a height of the centre of
+    /// gravity, KM_T for 0. Not linear: its row is that of the tangent at a hull.
+    Metacentre {
+        /// Target of GM_T or KM_T \[m\].
+        height: f64,
+        /// Height of the centre of gravity above the base line \[m\]; 0 for KM_T.
+        gravity: f64,
+    },
+    /// Wetted surface \[m^2\] below the design draught. Not linear.
+    WettedSurface(f64),
 }
 
 impl Constraint {
@@ -53,6 +74,9 @@ impl Constraint {
             Self::CentreOfFlotation(_) => "lcf",
             Self::MidshipCoefficient(_) => "midship_coefficient",
             Self::SectionArea { .. } => "section_area",
+            Self::Metacentre { gravity, .. } if *gravity > 0.0 => "gm",
+            Self::Metacentre { .. } => "km",
+            Self::WettedSurface(_) => "wetted_surface",
         }
     }
 
@@ -69,6 +93,9 @@ impl Constraint {
             Self::CentreOfFlotation(_) => "LCF".to_owned(),
             Self::MidshipCoefficient(_) => "C_M".to_owned(),
             Self::SectionArea { x, .. } => format!("section area at x = {x:.3} m"),
+            Self::Metacentre { gravity, .. } if *gravity > 0.0 => format!("GM_T for KG {gravity:.3} m"),
+            Self::Metacentre { .. } => "KM_T".to_owned(),
+            Self::WettedSurface(_) => "wetted surface".to_owned(),
         }
     }
 
@@ -84,6 +111,8 @@ impl Constraint {
             | Self::WaterplaneCoefficient(value)
             | Self::CentreOfFlotation(value)
             | Self::MidshipCoefficient(value)
+            | Self::WettedSurface(value)
+            | Self::Metacentre { height: value, .. }
             | Self::SectionArea { area: value, .. } => value,
         }
     }
@@ -101,6 +130,8 @@ impl Constraint {
             Self::CentreOfFlotation(_) => Self::CentreOfFlotation(target),
             Self::MidshipCoefficient(_) => Self::MidshipCoefficient(target),
             Self::SectionArea { x, band, .. } => Self::SectionArea { x, area: target, band },
+            Self::Metacentre { gravity, .. } => Self::Metacentre { height: target, gravity },
+            Self::WettedSurface(_) => Self::WettedSurface(target),
         }
     }
 
@@ -117,7 +148,24 @@ impl Constraint {
             Self::CentreOfFlotation(_) => waterplane::centre(hull),
             Self::MidshipCoefficient(_) => area::midship_coefficient(hull),
             Self::SectionArea { x, .. } => area::section(hull, x),
+            Self::Metacentre { gravity, .. } => metacentre::height(hull) - gravity,
+            Self::WettedSurface(_) => wetted::surface(hull),
         }
+    }
+
+    /// What an error of the quantity is relative to: the target, or KM_T for a GM_T, which may be small.
+    #[must_use]
+    pub fn scale(&self, hull: &Hull) -> f64 {
+        match *self {
+            Self::Metacentre { .. } => metacentre::height(hull),
+            _ => self.target().abs(),
+        }
+    }
+
+    /// Whether the quantity is linear in the net: its row is then that of any hull on the chart.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        !matches!(self, Self::Metacentre { .. } | Self::WettedSurface(_))
     }
 
     /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for centres: an
@@ -134,11 +182,15 @@ impl Constraint {
             Self::CentreOfFlotation(target) => waterplane::centre_limit(hull, target),
             Self::MidshipCoefficient(target) => area::midship_limit(hull, target),
             Self::SectionArea { x, area, band } => area::section_limit(hull, x, area, band),
+            Self::Metacentre { height, gravity } => metacentre::limit(hull, height + gravity),
+            Self::WettedSurface(target) => wetted::limit(hull, target),
         }
     }
 }
 
 pub use breadth::{between, breadths, broken};
+pub use flat::edged;
+pub use rule::{FixedLine, Rule, TangentPlace};
 
 /// A dense row without its zeros, times a factor.
 fn compressed(row: &[f64], factor: f64) -> Row {

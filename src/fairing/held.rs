@@ -1,0 +1,89 @@
+//! What a fair hull holds and what each wish costs: the same program without its rows.
+
+use super::constraint::{Constraint, Rule};
+use super::fair::{FairSettings, Faired};
+use super::model::value;
+use super::program::RowName;
+use super::surface::FairSurface;
+use crate::hull::Hull;
+
+/// A row nearer to its limit than this binds: \[m\], a slope, or a part of the row's size.
+const BINDING: f64 = 1e-9;
+
+/// A constraint and how it is held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// The constraint with its target.
+    pub constraint: Constraint,
+    /// Its quantity before, for the surface through the table.
+    pub before: f64,
+    /// Its quantity after.
+    pub after: f64,
+    /// Multiplier of its row \[m^2 per unit of the row\].
+    pub multiplier: f64,
+    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
+    pub price: f64,
+}
+
+/// A rule for a line or a region and how it is held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldRule {
+    /// The rule.
+    pub rule: Rule,
+    /// Its rows in the program.
+    pub rows: usize,
+    /// Rows that bind.
+    pub binding: usize,
+    /// Largest violation of one of its rows: \[m\] of half-breadth, a slope, or for signs of curvature a part of the row's size.
+    pub violation: f64,
+    /// Largest multiplier of its rows \[m^2 per unit of the row\].
+    pub multiplier: f64,
+    /// Root of the mean square of what the readings move less when the rule is dropped \[m\].
+    pub price: f64,
+}
+
+/// Constraints with what they cost.
+pub(super) fn constraints(
+    surface: &FairSurface,
+    settings: &FairSettings,
+    faired: &Faired,
+    [before, after]: [&Hull; 2],
+) -> Vec<Held> {
+    let list = settings.constraints.iter().enumerate();
+    list.map(|(k, &constraint)| {
+        let row = |name: RowName| name == RowName::Constraint(k);
+        let multiplier = faired.rows(row).map(|at| faired.solved.solution.multipliers[at]).sum();
+        let price = faired.price_of(&surface.model, row, &settings.solver);
+        Held { constraint, before: constraint.value(before), after: constraint.value(after), multiplier, price }
+    })
+    .collect()
+}
+
+/// Rules with what they cost; one that does not bind costs nothing.
+pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Faired) -> Vec<HeldRule> {
+    let multipliers = &faired.solved.solution.multipliers;
+    let problem = &faired.program.problem;
+    let list = settings.rules.iter().enumerate();
+    list.map(|(k, rule)| {
+        let own = |name: RowName| name == RowName::Rule(k);
+        let at: Vec<usize> = faired.rows(own).collect();
+        let binds = |row: usize| {
+            let y = problem.rows.dot(row, &faired.solved.solution.x);
+            (y - problem.lower[row]).min(problem.upper[row] - y) <= BINDING * (1.0 + y.abs())
+        };
+        let binding = at.iter().filter(|&&row| binds(row)).count();
+        let largest = at.iter().fold(0.0_f64, |most, &row| most.max(multipliers[row].abs()));
+        let violated = |limit: &super::model::Limit| {
+            let y = value(&limit.row, &faired.net);
+            (limit.lower - y).max(y - limit.upper).max(0.0)
+        };
+        let violation = faired
+            .rules
+            .iter()
+            .filter(|(rule, _)| *rule == k)
+            .fold(0.0_f64, |most, (_, limit)| most.max(violated(limit)));
+        let price = if binding == 0 { 0.0 } else { faired.price_of(&surface.model, own, &settings.solver) };
+        HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price }
+    })
+    .collect()
+}

@@ -1,0 +1,160 @@
+//! Knuckles and tangent lines that a table has and does not declare, with what they would bring, and nets that have them.
+//!
+//! A line at one height is v = constant on a level chart, a line at one station u = constant on an upright chart or where the ends do
+//! not lean. A p-fold knot there lets the slope break (knuckle), a (p-1)-fold one the curvature (tangent line); the energy charges
+//! nothing across either. What a line brings is told by smoothing with the same weight with and without it: the root of the mean
+//! square of what the offsets depart, and by how much sum w r^2 + lambda E falls, in units of the square of the noise.
+
+use super::fair::FairError;
+use super::lines::{LineCourse, LineKind, ProposedLine};
+use super::smoothing::Smoother;
+use super::surface::{EnergySettings, FairSurface};
+use crate::hull::{Hull, HullError, OffsetTable};
+
+/// A line of the net departs by no more than this \[m\] from the line that is proposed.
+const STRAIGHT: f64 = 1e-6;
+
+/// Nearer to a knot than this part of a span, a line is at the knot.
+const AT_KNOT: f64 = 1e-6;
+
+/// Which proposals are taken.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Accepted {
+    /// None.
+    #[default]
+    None,
+    /// All of them.
+    All,
+    /// Those of these numbers, from 1: L1, L2, ...
+    These(Vec<usize>),
+}
+
+impl Accepted {
+    /// Whether the proposal of number `k`, from 1, is taken.
+    #[must_use]
+    pub fn has(&self, k: usize) -> bool {
+        match self {
+            Self::None => false,
+            Self::All => true,
+            Self::These(list) => list.contains(&k),
+        }
+    }
+}
+
+/// A proposal and what it would bring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// Number, from 1.
+    pub number: usize,
+    /// The line.
+    pub line: ProposedLine,
+    /// Root of the mean square of what the offsets depart from the smoothed surface without and with the line \[m\]; none where the
+    /// chart has no such line.
+    pub rms: Option<[f64; 2]>,
+    /// What the objective falls by with the line, in squares of the noise.
+    pub gain: Option<f64>,
+    /// Whether it was taken.
+    pub accepted: bool,
+}
+
+/// The hull with a line along which it may break, its surface being the same; none where the chart has no such line.
+///
+/// # Errors
+/// [`HullError`] when the net makes no hull.
+pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullError> {
+    let surface = hull.surface();
+    let (us, vs) = (surface.u().domain(), surface.v().domain());
+    let middle = 0.5 * (line.reach[0] + line.reach[1]);
+    let at = match line.course {
+        LineCourse::Waterline => hull.parameters(middle, line.at).map(|at| at[1]),
+        LineCourse::Station => hull.parameters(line.at, middle).map(|at| at[0]),
+    };
+    let Some(t) = at else { return Ok(None) };
+    // Along the reach of the line its parameter stands still.
+    let follows = (0..=8).all(|k| {
+        let part = line.reach[0] + (line.reach[1] - line.reach[0]) * f64::from(k) / 8.0;
+        let place = match line.course {
+            LineCourse::Waterline => hull.parameters(part, line.at),
+            LineCourse::Station => hull.parameters(line.at, part),
+        };
+        place.is_none_or(|[u, v]| {
+            let [on, axis] = match line.course {
+                LineCourse::Waterline => [surface.eval(u, t)[2], line.at],
+                LineCourse::Station => [surface.eval(t, v)[0], line.at],
+            };
+            (on - axis).abs() <= STRAIGHT
+        })
+    });
+    let (from, to) = if line.course == LineCourse::Waterline { vs } else { us };
+    if !follows || t <= from || t >= to {
+        return Ok(None);
+    }
+    broken(hull, line.course, t, line.kind).map(Some)
+}
+
+/// The same surface with a line of the parameters along which its slope or its curvature may break: a p-fold or a (p-1)-fold knot.
+pub(super) fn broken(hull: &Hull, course: LineCourse, mut t: f64, kind: LineKind) -> Result<Hull, HullError> {
+    let surface = hull.surface();
+    let knots = if course == LineCourse::Waterline { surface.v() } else { surface.u() };
+    let (from, to) = knots.domain();
+    let nearest = knots.breakpoints().into_iter().min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()));
+    if let Some(knot) = nearest.filter(|knot| (knot - t).abs() <= AT_KNOT * (to - from)) {
+        t = knot;
+    }
+    let wanted = match kind {
+        LineKind::Knuckle => knots.degree(),
+        LineKind::Tangent => knots.degree() - 1,
+    };
+    let inserted = vec![t; wanted.saturating_sub(knots.multiplicity(t))];
+    let finer = match course {
+        LineCourse::Waterline => surface.insert_knots(&[], &inserted)?,
+        LineCourse::Station => surface.insert_knots(&inserted, &[])?,
+    };
+    Hull::new(hull.name(), *hull.particulars(), finer, hull.deck().clone())
+}
+
+/// Every proposal with what it would bring to the surface of the fit, smoothed with the greatest weight at which the typical offset departs
+/// by no more than `noise` \[m\].
+///
+/// # Errors
+/// [`FairError`] when a net with a line makes no problem.
+pub fn proposals(
+    table: &OffsetTable,
+    hull: &Hull,
+    lines: &[ProposedLine],
+    energy: EnergySettings,
+    noise: f64,
+    accepted: &Accepted,
+) -> Result<Vec<Proposal>, FairError> {
+    if lines.is_empty() {
+        return Ok(Vec::new());
+    }
+    // Departure, objective, and the weight of the energy itself, which is the same for all nets.
+    let of = |hull: &Hull, weight: Option<f64>| -> Result<[f64; 3], FairError> {
+        let surface = FairSurface::new(table, hull, energy, None)?;
+        let smoother = Smoother::new(&surface.model);
+        let lambda = match weight {
+            Some(weight) => weight / smoother.unit,
+            None => smoother.for_noise(noise)?,
+        };
+        let smoothed = smoother.at(lambda)?;
+        let rms = (smoothed.rss / smoother.count().max(1) as f64).sqrt();
+        let weight = lambda * smoother.unit;
+        Ok([rms, smoothed.rss + weight * smoothed.energy, weight])
+    };
+    let without = of(hull, None)?;
+    let mut list = Vec::with_capacity(lines.len());
+    for (k, line) in lines.iter().enumerate() {
+        let accepted = accepted.has(k + 1);
+        let mut proposal = Proposal { number: k + 1, line: *line, rms: None, gain: None, accepted };
+        if let Some(hull) = with_line(hull, line)? {
+            let with = of(&hull, Some(without[2]))?;
+            proposal.rms = Some([without[0], with[0]]);
+            proposal.gain = Some((without[1] - with[1]) / (noise * noise));
+        } else {
+            proposal.accepted = false;
+        }
+        list.push(proposal);
+    }
+    Ok(list)
+}

@@ -1,0 +1,84 @@
+//! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
+
+use super::inspect::{Planes, inflections};
+use super::job::{Change, Turns};
+use super::surface::{FairSurface, Origin};
+use crate::hull::{Entry, Hull, OffsetTable};
+
+/// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
+pub(super) fn changes(
+    table: &OffsetTable,
+    surface: &FairSurface,
+    after: &Hull,
+    excluded: &[(usize, usize)],
+) -> Vec<Change> {
+    let mut changes: Vec<Change> = Vec::new();
+    for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
+        let (station, waterline) = match place.origin {
+            Origin::HalfBreadth { station, waterline } => (station, Some(waterline)),
+            Origin::Deck { station } => (station, None),
+        };
+        changes.push(Change {
+            station,
+            waterline,
+            x: place.x,
+            z: place.z,
+            before: reading.value,
+            after: after.surface().eval(place.at[0], place.at[1])[1],
+            tolerance: reading.tolerance,
+            suspect: false,
+            locked: place.locked,
+        });
+    }
+    for &(station, waterline) in excluded {
+        let (column, z) = (&table.stations[station], table.waterlines[waterline]);
+        let x = column.station.x;
+        if let (Some(before), Some(after)) = (column.half_breadths[waterline].value(), after.half_breadth(x, z)) {
+            let waterline = Some(waterline);
+            changes.push(Change {
+                station,
+                waterline,
+                x,
+                z,
+                before,
+                after,
+                tolerance: None,
+                suspect: true,
+                locked: false,
+            });
+        }
+    }
+    changes.sort_by_key(|change| (change.station, change.waterline.unwrap_or(usize::MAX)));
+    changes
+}
+
+/// The table with the new half-breadths.
+pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
+    let mut table = table.clone();
+    for change in changes {
+        let station = &mut table.stations[change.station];
+        match change.waterline {
+            Some(waterline) => {
+                let cell = &mut station.half_breadths[waterline];
+                cell.entry = Entry::Given(change.after);
+                cell.written = None;
+            }
+            None => station.deck_half_breadth = Some(change.after),
+        }
+    }
+    table
+}
+
+/// Inflections of the lines of the table, of buttocks and of diagonals.
+pub(super) fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Vec<Turns> {
+    let mut planes = Planes::with_defaults(before);
+    planes.stations = table.stations.iter().map(|station| station.station.x).collect();
+    planes.waterlines.clone_from(&table.waterlines);
+    let count = |hull: &Hull| inflections(hull, &planes, tolerance);
+    let (old, new) = (count(before), count(after));
+    let cuts = old.iter().filter_map(|(cut, before)| {
+        let after = new.iter().find(|(other, _)| other == cut)?.1;
+        Some(Turns { cut: *cut, before: *before, after, minimum: None })
+    });
+    cuts.collect()
+}

@@ -1,0 +1,84 @@
+//! The L-curve of the search for the smoothing weight: deviation from the offsets against energy, one point a weight, both as powers of
+//! ten.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::chart::{Axis, Chart, Series, colour};
+use super::label::LabelPlacer;
+use super::{PlotError, Svg, caption};
+use crate::fairing::job::Outcome;
+use crate::fairing::smoothing::Trial;
+use crate::hull::OffsetTable;
+
+/// Size of the sheet [mm].
+const SHEET: [f64; 2] = [210.0, 170.0];
+
+/// log10 of the deviation \[mm\] and of the energy; none where one of them is 0.
+fn point(trial: &Trial) -> Option<[f64; 2]> {
+    (trial.rms > 0.0 && trial.energy > 0.0).then(|| [(1e3 * trial.rms).log10(), trial.energy.log10()])
+}
+
+/// Draws the curve; none where the weight was given and nothing was tried.
+///
+/// # Errors
+/// [`PlotError`] when the chart cannot be drawn.
+pub fn smoothing_figure(table: &OffsetTable, outcome: &Outcome) -> Result<Option<Svg>, PlotError> {
+    let trials: Vec<(f64, [f64; 2])> =
+        outcome.faired.trials.iter().filter_map(|trial| Some((trial.lambda, point(trial)?))).collect();
+    let chosen = point(&outcome.faired.chosen);
+    if trials.len() < 2 {
+        return Ok(None);
+    }
+    let all = trials.iter().map(|(_, point)| *point).chain(chosen);
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in all {
+        for axis in 0..2 {
+            (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]));
+        }
+    }
+    let frame = Rectangle::new(26.0, 26.0, SHEET[0] - 16.0, SHEET[1] - 24.0);
+    let chart = Chart {
+        frame,
+        bottom: Axis::new("log10 of the deviation of the offsets, RMS [mm]", low[0], high[0], 10.0),
+        left: Axis::new("log10 of the energy", low[1], high[1], 8.0),
+        top: None,
+        right: None,
+        text_size: 2.8,
+    };
+    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let name: String = caption::plain(&table.name).chars().take(40).collect();
+    let title = format!("SEARCH FOR THE SMOOTHING WEIGHT – {name}");
+    canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.2, Anchor::Middle));
+    let words = format!(
+        "weight taken {:.2e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
+        outcome.faired.lambda,
+        outcome.faired.edf,
+        1e3 * outcome.faired.sigma
+    );
+    canvas.text([0.5 * SHEET[0], 14.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    let mut placer = LabelPlacer::default();
+    let points = trials.iter().map(|(_, point)| *point).collect();
+    let series = [Series { name: "", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.5 }];
+    chart.draw(&mut canvas, &mut placer, &series, None)?;
+    let dot = |canvas: &mut Canvas, at: [f64; 2], half: f64, fill: &'static str| {
+        canvas.fill(&Rectangle::new(at[0] - half, at[1] - half, at[0] + half, at[1] + half), fill);
+    };
+    let taken = chosen.map(|point| chart.place(point));
+    let style = TextStyle::new(2.4, Anchor::Start).halo();
+    for (k, (lambda, point)) in trials.iter().enumerate() {
+        let at = chart.place(*point);
+        dot(&mut canvas, at, 0.6, "#1f5fa8");
+        let beside = taken.is_some_and(|taken| (taken[0] - at[0]).hypot(taken[1] - at[1]) < 8.0);
+        if k % 2 == 0 && !beside {
+            let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] + 1.6, at[1] + 3.0], [at[0] - 12.0, at[1] + 3.0]];
+            placer.name_point(&mut canvas, &format!("{lambda:.0e}"), &style, &places, &frame);
+        }
+    }
+    if let Some(at) = taken {
+        dot(&mut canvas, at, 1.3, "#c00000");
+        canvas.line([at[0], at[1]], [at[0], frame.bottom], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
+        let style = TextStyle::new(2.8, Anchor::Start).coloured("#c00000").halo();
+        canvas.text([at[0] + 2.2, at[1] - 2.2], "taken", &style);
+    }
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    Ok(Some(Svg { text: canvas.finish("lcurve") }))
+}

@@ -1,0 +1,298 @@
+//! Rules of a fairing for single lines and regions: each is kept where it says so, and its price is told.
+
+use std::path::Path;
+
+use loftsman::exchange::read_table;
+use loftsman::fairing::bends::Line;
+use loftsman::fairing::constraint::{Constraint, FixedLine, Rule, TangentPlace};
+use loftsman::fairing::held::HeldRule;
+use loftsman::fairing::job::{Holding, Job, Outcome, Tolerance};
+use loftsman::fairing::proposals::Accepted;
+use loftsman::fairing::surface::with_half_breadths;
+use loftsman::fairing::{LineCourse, LineKind};
+use loftsman::hull::{
+    Cell, Cut, FitMethod, Hull, OffsetTable, StationOffsets, transverse_inertia, transverse_inertia_gradient,
+};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES, wetted_surface, wetted_surface_gradient};
+use loftsman::qp::Status;
+
+/// The parent of Series 60 with C_B 0.60: 121.92 m between perpendiculars, B 16.256 m, T 6.5024 m.
+fn series60() -> OffsetTable {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
+    read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table
+}
+
+fn faired(rules: Vec<Rule>) -> Outcome {
+    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
+    assert_eq!(outcome.status, Status::Optimal);
+    let gap = outcome.faired.solved.certificate.gap.abs();
+    assert!(gap < 1e-8, "gap {gap:e}");
+    for rule in &outcome.rules {
+        assert!(rule.violation < 1e-9, "{}: {:e}", rule.rule.words(), rule.violation);
+    }
+    outcome
+}
+
+fn only(outcome: &Outcome) -> &HeldRule {
+    assert_eq!(outcome.rules.len(), 1);
+    &outcome.rules[0]
+}
+
+/// Half-breadths of both hulls along a waterline or a station \[m\].
+fn along(outcome: &Outcome, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let at = |hull: &Hull, [x, z]: [f64; 2]| hull.half_breadth(x, z).unwrap();
+    points.iter().map(|&point| [at(&outcome.before, point), at(&outcome.after, point)]).collect()
+}
+
+/// dy/dx or dy/dz by central differences.
+fn slope(hull: &Hull, [x, z]: [f64; 2], station: bool) -> f64 {
+    let h = 1e-4;
+    let step = if station { [0.0, h] } else { [h, 0.0] };
+    let y = |sign: f64| hull.half_breadth(x + sign * step[0], z + sign * step[1]).unwrap();
+    (y(1.0) - y(-1.0)) / (2.0 * h)
+}
+
+#[test]
+fn fixed_lines_do_not_move_and_others_do() {
+    let lines = [FixedLine::Line(Line::Station(30.48)), FixedLine::Line(Line::Waterline(6.5024)), FixedLine::Stem];
+    let outcome = faired(lines.into_iter().map(Rule::Fixed).collect());
+    let heights: Vec<[f64; 2]> = (1..90).map(|k| [30.48, 0.1 * f64::from(k)]).collect();
+    let lengths: Vec<[f64; 2]> = (1..120).map(|k| [f64::from(k), 6.5024]).collect();
+    // The waterline is a line of the net, the station one only where the ends do not lean.
+    for [before, after] in along(&outcome, &lengths) {
+        assert!((before - after).abs() < 1e-8, "{before} {after}");
+    }
+    for [before, after] in along(&outcome, &heights) {
+        assert!((before - after).abs() < 1e-5, "{before} {after}");
+    }
+    let beside: Vec<[f64; 2]> = (1..110).map(|k| [f64::from(k), 4.8]).collect();
+    assert!(along(&outcome, &beside).iter().any(|[before, after]| (before - after).abs() > 1e-3));
+    assert!(outcome.rules.iter().any(|rule| rule.price > 1e-6), "{:?}", outcome.rules);
+}
+
+#[test]
+fn tangents_are_met() {
+    let table = series60();
+    let before = faired(Vec::new()).before;
+    let end_slope = |hull: &Hull| {
+        let end = hull.endings(6.5024).unwrap()[1];
+        let y = |back: f64| hull.half_breadth(end - back, 6.5024).unwrap();
+        // Second order: y = a h + b h^2.
+        let h = 1e-3;
+        (4.0 * (y(h) - y(0.0)) - (y(2.0 * h) - y(0.0))) / (2.0 * h)
+    };
+    // A tenth of a degree off what the surface through the table has, and a wall where it leans.
+    let degree = 1f64.to_radians();
+    let entrance = end_slope(&before).atan() + 0.1 * degree;
+    let (wall, place) = ([60.96, 5.5], [30.48, 6.5024]);
+    let angle = slope(&before, place, false).atan() + 0.05 * degree;
+    let rules = vec![
+        Rule::Tangent(TangentPlace::Entrance(6.5024), entrance),
+        Rule::Tangent(TangentPlace::Station(wall), 0.0),
+        Rule::Tangent(TangentPlace::Waterline(place), angle),
+    ];
+    let outcome =
+        Job { rules, tolerance: Tolerance { table: Some(0.05), ..Job::default().tolerance }, ..Job::default() }
+            .run(&table)
+            .unwrap();
+    assert_eq!(outcome.status, Status::Optimal);
+    assert!(slope(&outcome.after, wall, true).abs() < 1e-6);
+    assert!((slope(&outcome.after, place, false) - angle.tan()).abs() < 1e-6);
+    let first = end_slope(&outcome.after);
+    assert!((first - entrance.tan()).abs() < 1e-5, "{first} {}", entrance.tan());
+    assert!(outcome.rules.iter().all(|rule| rule.rows == 1));
+    assert!(outcome.rules.iter().filter(|rule| rule.binding == 1).count() >= 2, "{:?}", outcome.rules);
+}
+
+#[test]
+fn a_flat_of_side_is_flat() {
+    let outcome = faired(vec![Rule::FlatOfSide { x: [54.864, 67.056], z: [6.0, 9.7536] }]);
+    let half = 0.5 * outcome.after.particulars().breadth;
+    let inside: Vec<[f64; 2]> =
+        (0..20).flat_map(|i| (0..10).map(move |j| [55.0 + 0.6 * f64::from(i), 6.6 + 0.3 * f64::from(j)])).collect();
+    for [_, after] in along(&outcome, &inside) {
+        assert!((after - half).abs() < 1e-9, "{after} {half}");
+    }
+}
+
+#[test]
+fn a_waterline_rises_and_a_part_is_hollow() {
+    let line = Line::Waterline(1.6256);
+    let rising = only(&faired(vec![Rule::Monotone { line, over: [0.0, 50.0], rising: true }])).clone();
+    assert!(rising.rows > 50);
+    let outcome = faired(vec![Rule::Curvature { line, over: [6.0, 20.0], convex: false }]);
+    let y = |x: f64| outcome.after.half_breadth(x, 1.6256).unwrap();
+    for k in 0..28 {
+        let x = 6.2 + 0.5 * f64::from(k) * 0.98;
+        let bend = y(x - 0.1) - 2.0 * y(x) + y(x + 0.1);
+        assert!(bend > -1e-9, "x {x}: {bend:e}");
+    }
+}
+
+#[test]
+fn a_line_has_no_more_inflections_than_it_may() {
+    // Without the guard of inflections, so that only the rule can be what takes one away.
+    let run = |rules: Vec<Rule>| Job { rules, signs: false, ..Job::default() }.run(&series60()).unwrap();
+    let free = run(Vec::new());
+    let turns = |outcome: &Outcome, z: f64| {
+        outcome.turns.iter().find(|turns| matches!(turns.cut, Cut::Waterline { z: other } if other == z)).unwrap().after
+    };
+    let heights = [0.48768, 1.6256, 3.2512, 4.8768, 6.5024, 8.128];
+    let z = heights.into_iter().max_by_key(|&z| turns(&free, z)).unwrap();
+    assert!(turns(&free, z) >= 3, "{}", turns(&free, z));
+    let outcome = run(vec![Rule::Inflections { line: Line::Waterline(z), most: 2 }]);
+    assert_eq!(outcome.status, Status::Optimal);
+    assert!(turns(&outcome, z) <= 2, "z {z}: {} -> {}", turns(&free, z), turns(&outcome, z));
+    let rule = only(&outcome);
+    assert!(rule.binding > 0 && rule.rows > 20 && rule.violation < 1e-9, "{rule:?}");
+}
+
+#[test]
+fn rules_that_name_nothing_are_refused_all_at_once() {
+    let rules = vec![
+        Rule::Fixed(FixedLine::Line(Line::Station(500.0))),
+        Rule::FlatOfSide { x: [200.0, 210.0], z: [1.0, 2.0] },
+        Rule::Tangent(TangentPlace::Entrance(40.0), 0.1),
+    ];
+    let said = Job { rules, ..Job::default() }.run(&series60()).unwrap_err().to_string();
+    for words in ["no station at x = 500", "no cell of the net", "the stem does not reach z = 40"] {
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+#[test]
+fn contradictory_rules_are_infeasible_and_say_which() {
+    let line = Line::Waterline(6.5024);
+    let rules = vec![Rule::Monotone { line, over: [80.0, 115.0], rising: true }, Rule::Fixed(FixedLine::Stern)];
+    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
+    assert_eq!(outcome.status, Status::Infeasible);
+    let found = outcome.faired.diagnosis.as_ref().unwrap();
+    let give = found.rules.iter().map(|(_, give)| give.unwrap_or(f64::INFINITY)).collect::<Vec<_>>();
+    // The waterline falls by metres there: no small slack would do; the stern is no hindrance at all.
+    assert!(give[0] > 1e-3, "{give:?}");
+    assert!(give[1].is_infinite(), "{give:?}");
+}
+
+fn disturbed(hull: &Hull, by: f64) -> Hull {
+    let points = hull.surface().points();
+    let y: Vec<f64> =
+        points.iter().enumerate().map(|(k, p)| p[1] + by * (0.7 * k as f64).sin() * p[1].signum()).collect();
+    with_half_breadths(hull, &y).unwrap()
+}
+
+#[test]
+fn gradients_are_those_of_finite_differences() {
+    let table = series60();
+    let level = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pdstrip_yacht/offsets.csv");
+    let yacht = read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table;
+    let upright = Hull::fit(&yacht, &FitMethod::Graded).unwrap().hull;
+    assert!(level.is_level() && !upright.is_level());
+    for hull in [level, upright] {
+        let draught = hull.particulars().draught;
+        let h = 1e-4;
+        let ends = [disturbed(&hull, -h), disturbed(&hull, h)];
+        let direction: Vec<f64> = ends[1]
+            .surface()
+            .points()
+            .iter()
+            .zip(ends[0].surface().points())
+            .map(|(a, b)| (a[1] - b[1]) / (2.0 * h))
+            .collect();
+        let along = |gradient: Vec<f64>| gradient.iter().zip(&direction).map(|(g, d)| g * d).sum::<f64>();
+        let difference = |value: &dyn Fn(&Hull) -> f64| (value(&ends[1]) - value(&ends[0])) / (2.0 * h);
+        let inertia =
+            [along(transverse_inertia_gradient(&hull, draught)), difference(&|hull| transverse_inertia(hull, draught))];
+        assert!((inertia[0] - inertia[1]).abs() < 1e-6 * inertia[1].abs(), "{inertia:?}");
+        let skin = [along(wetted_surface_gradient(&hull, draught)), difference(&|hull| wetted_surface(hull, draught))];
+        let gradient = wetted_surface_gradient(&hull, draught);
+        let size: f64 = gradient.iter().zip(&direction).map(|(g, d)| (g * d).abs()).sum();
+        assert!((skin[0] - skin[1]).abs() < 1e-5 * size, "{skin:?} {size}");
+        // The metacentre of the constraint is that of the hydrostatics.
+        let rows = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows;
+        let km = Constraint::Metacentre { height: 0.0, gravity: 0.0 }.value(&hull);
+        let of = |name: &str| QUANTITIES.iter().find(|q| q.key == name).and_then(|q| (q.value)(&rows[0])).unwrap();
+        assert!((km / of("KMT") - 1.0).abs() < 1e-9, "{km} {}", of("KMT"));
+    }
+}
+
+#[test]
+fn metacentre_and_wetted_surface_are_held() {
+    let table = series60();
+    let free = faired(Vec::new());
+    let km = Constraint::Metacentre { height: 0.0, gravity: 0.0 };
+    let gm = Constraint::Metacentre { height: 0.0, gravity: 6.0 };
+    let skin = Constraint::WettedSurface(0.0);
+    let values = [km, skin].map(|constraint| constraint.value(&free.before));
+    // The surface through the table, which no fairing has had; then targets of our own, off by parts of a thousand.
+    for (factors, metacentre) in [([1.0, 1.0], km), ([1.0008, 0.9995], gm)] {
+        let shift = if metacentre == gm { 6.0 } else { 0.0 };
+        let given = vec![
+            Constraint::Displacement(Constraint::Displacement(0.0).value(&free.before)),
+            metacentre.with_target(factors[0] * values[0] - shift),
+            skin.with_target(factors[1] * values[1]),
+        ];
+        let outcome = Job { holding: Holding::Given(given.clone()), ..Job::default() }.run(&table).unwrap();
+        assert_eq!(outcome.status, Status::Optimal, "{:?}", outcome.faired.settled);
+        for (held, target) in outcome.held.iter().zip(&given) {
+            let error = (held.after - target.target()) / target.scale(&outcome.after);
+            assert!(error.abs() <= 1e-9, "{}: {error:e}", held.constraint.words());
+        }
+        let errors = outcome.faired.settled.as_ref().unwrap();
+        assert!(errors.last().is_some_and(|error| *error <= 1e-10), "{errors:?}");
+        assert!(outcome.faired.solved.certificate.gap.abs() < 1e-8);
+    }
+}
+
+/// 25 stations and 21 waterlines of a hull with a chine at 6 m from end to end, which the table does not declare; noise of 2 mm from
+/// a sequence of its own (Weyl).
+fn chined() -> OffsetTable {
+    let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
+    let mut count = 0;
+    let mut noise = || {
+        count += 1;
+        let uniform = |by: f64| (f64::from(count) * by).fract();
+        0.002 * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt() * (6.283_185 * uniform(0.569_840_290)).cos()
+    };
+    let mut half = |x: f64, z: f64| {
+        let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + 0.35 * (z - 6.0).max(0.0);
+        Cell::from(Some(((y + noise()) * 1e4).round() / 1e4))
+    };
+    let stations = (0..25)
+        .map(|i| {
+            let x = 4.0 * f64::from(i) + 2.0;
+            StationOffsets {
+                half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
+                ..StationOffsets::new(&format!("{i}"), x)
+            }
+        })
+        .collect();
+    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
+    table.form.decimals = Some(4);
+    table
+}
+
+#[test]
+fn an_undeclared_chine_is_proposed_and_taken() {
+    let table = chined();
+    let run = |accepted: Accepted| Job { accepted, ..Job::default() }.run(&table);
+    let without = run(Accepted::None).unwrap();
+    let [line] = &without.proposals[..] else { panic!("{:?}", without.proposals) };
+    assert_eq!((line.line.kind, line.line.course), (LineKind::Knuckle, LineCourse::Waterline));
+    assert!((line.line.at - 6.0).abs() < 1e-9 && !line.accepted && line.number == 1);
+    let [rms, with] = line.rms.unwrap();
+    assert!(with < 0.8 * rms && line.gain.unwrap() > 100.0, "{line:?}");
+    let taken = run(Accepted::These(vec![1])).unwrap();
+    assert!(taken.proposals[0].accepted && taken.status == Status::Optimal);
+    // The slope of a station breaks at the chine by 0.35 and no longer runs through it as a curve.
+    let bend = |outcome: &Outcome| {
+        let y = |z: f64| outcome.after.half_breadth(50.0, z).unwrap();
+        let (h, away) = (0.02, 0.005);
+        (y(6.0 + away + h) - y(6.0 + away)) / h - (y(6.0 - away) - y(6.0 - away - h)) / h
+    };
+    assert!((bend(&taken) - 0.35).abs() < 0.05, "{} {}", bend(&taken), bend(&without));
+    assert!(bend(&without) < 0.2, "{}", bend(&without));
+    assert!(taken.moves().0 < without.moves().0, "{:?} {:?}", taken.moves().0, without.moves().0);
+    let refused = run(Accepted::These(vec![4])).unwrap_err().to_string();
+    assert_eq!(refused, "L4 is not proposed: there is L1");
+}
