@@ -135,7 +135,12 @@ fn a_line_has_no_more_inflections_than_it_may() {
     let run = |rules: Vec<Rule>| Job { rules, signs: false, ..Job::default() }.run(&series60()).unwrap();
     let free = run(Vec::new());
     let turns = |outcome: &Outcome, z: f64| {
-        outcome.turns.iter().find(|turns| matches!(turns.cut, Cut::Waterline { z: other } if other == z)).unwrap().after
+        outcome
+            .turns
+            .iter()
+            .find(|turns| matches!(turns.cut, Cut::Waterline { z: other } if (other - z).abs() < 1e-9))
+            .unwrap()
+            .after
     };
     let heights = [0.48768, 1.6256, 3.2512, 4.8768, 6.5024, 8.128];
     let z = heights.into_iter().max_by_key(|&z| turns(&free, z)).unwrap();
@@ -252,7 +257,9 @@ fn chined() -> OffsetTable {
     let mut noise = || {
         count += 1;
         let uniform = |by: f64| (f64::from(count) * by).fract();
-        0.002 * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt() * (6.283_185 * uniform(0.569_840_290)).cos()
+        0.002
+            * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
+            * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
     };
     let mut half = |x: f64, z: f64| {
         let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + 0.35 * (z - 6.0).max(0.0);
@@ -263,7 +270,7 @@ fn chined() -> OffsetTable {
             let x = 4.0 * f64::from(i) + 2.0;
             StationOffsets {
                 half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
-                ..StationOffsets::new(&format!("{i}"), x)
+                ..StationOffsets::new(format!("{i}"), x)
             }
         })
         .collect();

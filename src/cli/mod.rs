@@ -51,7 +51,7 @@ enum Command {
     /// Generate a hull from a design file: hull, offsets, hydrostatics, summary, figures
     Generate(generate::Arguments),
     /// Fair a table of offsets: hull, offsets, changes and a certificate, displacement and LCB held
-    Fair(fair::Arguments),
+    Fair(Box<fair::Arguments>),
     /// Fit a hull to a table of offsets: hull, residuals, hydrostatics, figures
     Fit(fit::Arguments),
     /// Fair one curve: a waterline, a sheer line, a curve of section areas

@@ -12,8 +12,11 @@ use std::borrow::Cow;
 /// Most rounds of lines that bend too often.
 const ROUNDS: usize = 4;
 
+/// Rows with the index of their rule.
+type RuleLimits = Vec<(usize, Limit)>;
+
 /// Rows of every rule, or every rule that names what the surface does not have.
-pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<Vec<(usize, Limit)>, Vec<(usize, String)>> {
+pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleLimits, Vec<(usize, String)>> {
     let (mut limits, mut problems) = (Vec::new(), Vec::new());
     for (k, rule) in rules.iter().enumerate() {
         match rule.limits(surface) {

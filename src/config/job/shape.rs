@@ -124,7 +124,8 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     }
     counts(document, job);
     accepted(document, job);
-    let angles: [(&str, fn(String, f64) -> Said); 4] = [
+    type Make = fn(String, f64) -> Said;
+    let angles: [(&str, Make); 4] = [
         ("tangent.entrance", Said::Entrance),
         ("tangent.run", Said::Run),
         ("tangent.waterlines", Said::AlongWaterline),

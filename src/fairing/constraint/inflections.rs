@@ -19,7 +19,7 @@ fn cheapest(curvature: &[f64], share: &[f64], most: usize) -> Vec<i8> {
     let count = curvature.len();
     let states = 2 * (most + 1);
     let cost = |k: usize, state: usize| {
-        let against = if state % 2 == 0 { curvature[k] < 0.0 } else { curvature[k] > 0.0 };
+        let against = if state.is_multiple_of(2) { curvature[k] < 0.0 } else { curvature[k] > 0.0 };
         if against { curvature[k].abs() * share[k] } else { 0.0 }
     };
     // State 2 c + s: c changes so far, s = 0 for +, 1 for -.
