@@ -14,7 +14,10 @@ use loftsman::report::{
 use loftsman::units::Notation;
 
 /// Codes that no input is known to reach: the program is prepared for a fault of its own.
-const UNREACHED: [(&str, &str); 1] = [("E199", "the interpolation of a net of a valid form fails")];
+const UNREACHED: [(&str, &str); 2] = [
+    ("E199", "the interpolation of a net of a valid form fails"),
+    ("E403", "metacentre and wetted surface come to their targets or are refused on every hull that was tried"),
+];
 
 fn root(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)

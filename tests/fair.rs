@@ -198,6 +198,24 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
 }
 
 #[test]
+fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
+    let folder = folder("refused");
+    let table = carried(TABLE).display().to_string();
+    let out = folder.join("out").display().to_string();
+    let output = program(&["fair", &table, "-o", &out, "--accept-lines", "L9", "--no-figures"]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("E180") && stderr(&output).contains("L9 is not proposed"), "{}", stderr(&output));
+    // The parent of Series 60 is rounded at the ends: no flat of bottom in the last metre.
+    let job = folder.join("job.toml");
+    fs::write(&job, format!("schema = 1\n[table]\nfile = {table:?}\n[flat]\nbottom = [\"stations 0 to 1\"]\n"))
+        .unwrap();
+    let output = program(&["fair", job.to_str().unwrap(), "-o", &out, "--no-figures"]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("E176") && stderr(&output).contains("no flat of bottom"), "{}", stderr(&output));
+    assert!(!Path::new(&out).exists());
+}
+
+#[test]
 fn a_misprint_is_left_out_and_listed() {
     let table = carried("reports/suspects/series60-misprinted.csv");
     let (job, outputs) = faired(&table, &[]);

@@ -34,7 +34,7 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::Shell => "{ thickness = \"10 mm\" } or { factor = 1.006 }".into(),
         Kind::Numbers => "a list of numbers, as [0, 0, 1, 2, 2]".into(),
         Kind::Switch => "true or false".into(),
-        Kind::Area => "an area: a plain number, m2".into(),
+        Kind::Area => "an area: a plain number of square metres".into(),
         Kind::OrWord(inner, words) => format!("{}; or one of \"{}\"", expected(*inner), words.join("\", \"")),
         Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
         Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),

@@ -29,7 +29,7 @@ const STRAIGHT: f64 = 1e-5;
 
 /// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and nothing lies strictly
 /// within them all.
-const ROOM: f64 = 0.1;
+const ROOM: f64 = 0.01;
 
 /// A line of the ship's drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -171,7 +171,7 @@ pub fn changes(signs: &[i8]) -> usize {
     told.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a tenth of the band is left open.
+/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the band is left open.
 #[must_use]
 pub fn kept(bends: &[Bend], start: &[f64]) -> Vec<Limit> {
     let (signs, none) = (signs(bends, start), dead(bends, start));

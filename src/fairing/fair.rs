@@ -206,9 +206,10 @@ impl Prepared {
             smoothed = smoother.at(lambda)?;
         }
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
-            let free = settings
-                .tolerance_levels
-                .map(|levels| (levels * sigma / reading.weight.max(1e-12).sqrt()).max(settings.least_tolerance));
+            // A reading of known control values alone weighs nothing; it has the tolerance of the others.
+            let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };
+            let levels = settings.tolerance_levels;
+            let free = levels.map(|levels| (levels * sigma / weight.sqrt()).max(settings.least_tolerance));
             let own = settings.tolerances.get(k).copied().flatten();
             reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
         }

@@ -7,6 +7,7 @@
 
 use super::fair::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
+use super::model::Model;
 use super::smoothing::Smoother;
 use super::surface::{EnergySettings, FairSurface};
 use crate::hull::{Hull, HullError, OffsetTable};
@@ -132,10 +133,11 @@ pub fn proposals(
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
     let of = |hull: &Hull, weight: Option<f64>| -> Result<[f64; 3], FairError> {
         let surface = FairSurface::new(table, hull, energy, None)?;
-        let smoother = Smoother::new(&surface.model);
+        // The start has no say here: it runs smoothly through what a line would break.
+        let smoother = Smoother::new(&Model { start: None, ..surface.model.clone() });
         let lambda = match weight {
             Some(weight) => weight / smoother.unit,
-            None => smoother.for_noise(noise)?,
+            None => smoother.for_discrepancy(noise)?,
         };
         let smoothed = smoother.at(lambda)?;
         let rms = (smoothed.rss / smoother.count().max(1) as f64).sqrt();

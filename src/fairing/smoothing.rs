@@ -91,6 +91,15 @@ impl Smoothed {
         (self.rss / (count as f64 - self.edf).max(1.0)).sqrt()
     }
 
+    /// The noise of a typical reading of weight 1 \[m\].
+    fn typical_noise(&self, weights: &[f64]) -> f64 {
+        let told = self.residuals.iter().zip(&self.leverages).zip(weights).filter(|(_, w)| **w > 0.0);
+        let mut sizes: Vec<f64> = told.map(|((r, h), w)| r.abs() * w.sqrt() / (1.0 - h).max(1e-6).sqrt()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let n = sizes.len();
+        if n == 0 { 0.0 } else { 1.4826 * 0.5 * (sizes[(n - 1) / 2] + sizes[n / 2]) }
+    }
+
     /// Residuals of readings left out one by one, r_k / (1 - h_k) \[m\]; readings of weight 0 are left out as they are.
     #[must_use]
     pub fn left_out(&self) -> Vec<f64> {
@@ -254,6 +263,26 @@ impl Smoother {
             add(&mut tried, best + 0.5);
         }
         least(&tried).map(|(_, power)| 10f64.powf(power)).ok_or(last)
+    }
+
+    /// The greatest weight of the scan at which the noise of a typical reading, 1.4826 times the median of |r_k| sqrt(w_k) / sqrt(1 -
+    /// h_k), is no more than `noise` \[m\] (Morozov 1966); the least one where none is.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when no weight of the scan gives a net.
+    pub fn for_discrepancy(&self, noise: f64) -> Result<f64, SingularMatrix> {
+        let mut last = Err(SingularMatrix { column: 0 });
+        let mut power = SCAN[1];
+        while power >= LEAST {
+            let lambda = 10f64.powf(power);
+            match self.at(lambda) {
+                Ok(smoothed) if smoothed.typical_noise(&self.weights) <= noise => return Ok(lambda),
+                Ok(_) => last = Ok(lambda),
+                Err(error) => last = last.or(Err(error)),
+            }
+            power -= 1.0;
+        }
+        last
     }
 
     /// The weight of least GCV, and every weight that was tried, in rising order.
