@@ -67,7 +67,11 @@ fn fixed_lines_do_not_move_and_others_do() {
     }
     let beside: Vec<[f64; 2]> = (1..110).map(|k| [f64::from(k), 4.8]).collect();
     assert!(along(&outcome, &beside).iter().any(|[before, after]| (before - after).abs() > 1e-3));
-    assert!(outcome.rules.iter().any(|rule| rule.price > 1e-6), "{:?}", outcome.rules);
+    assert!(
+        outcome.rules.iter().all(|rule| rule.multiplier > 1e-4 && rule.binding == rule.rows),
+        "{:?}",
+        outcome.rules
+    );
 }
 
 #[test]

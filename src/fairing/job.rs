@@ -12,7 +12,7 @@ use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::lines::proposed_lines;
 use super::program::RowName;
-use super::proposals::{Accepted, Proposal, proposals, with_line};
+use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::{Suspect, suspects};
@@ -236,7 +236,11 @@ impl Job {
             return Err(JobError::NoLine { number, count: list.len() });
         }
         let proposals = proposals(&clean, &before, &list, self.energy, noise, &self.accepted)?;
-        let mut start = before.clone();
+        let declared = declared(&proposals, &before, &charted);
+        let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
+        let refitted =
+            if lined.lines.len() > charted.lines.len() { Hull::fit(&lined, &FitMethod::Graded).ok() } else { None };
+        let mut start = refitted.map_or_else(|| before.clone(), |fitted| fitted.hull);
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
             start = with_line(&start, &proposal.line)?.unwrap_or(start);
         }

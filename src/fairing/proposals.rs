@@ -9,8 +9,8 @@ use super::fair::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
-use super::surface::{EnergySettings, FairSurface};
-use crate::hull::{Hull, HullError, OffsetTable};
+use super::surface::{EnergySettings, FairSurface, energy as plain_energy};
+use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
 
 /// A line of the net departs by no more than this \[m\] from the line that is proposed.
 const STRAIGHT: f64 = 1e-6;
@@ -93,6 +93,24 @@ pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullE
     broken(hull, line.course, t, line.kind).map(Some)
 }
 
+/// The knuckles along waterlines that were taken, as lines of the table: the fit itself then breaks there, where a fit without them runs
+/// through as a curve.
+pub(super) fn declared(proposals: &[Proposal], hull: &Hull, table: &OffsetTable) -> Vec<FeatureLine> {
+    let taken = proposals.iter().filter(|proposal| {
+        proposal.accepted && proposal.line.kind == LineKind::Knuckle && proposal.line.course == LineCourse::Waterline
+    });
+    taken
+        .map(|proposal| {
+            let ([from, to], z) = (proposal.line.reach, proposal.line.at);
+            let mut places: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
+            places.retain(|x| (from..=to).contains(x));
+            places.sort_by(f64::total_cmp);
+            let points = places.into_iter().filter_map(|x| Some([x, hull.half_breadth(x, z)?, z])).collect();
+            FeatureLine { name: format!("L{}", proposal.number), kind: hull::LineKind::Knuckle, points }
+        })
+        .collect()
+}
+
 /// The same surface with a line of the parameters along which its slope or its curvature may break: a p-fold or a (p-1)-fold knot.
 pub(super) fn broken(hull: &Hull, course: LineCourse, mut t: f64, kind: LineKind) -> Result<Hull, HullError> {
     let surface = hull.surface();
@@ -133,8 +151,10 @@ pub fn proposals(
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
     let of = |hull: &Hull, weight: Option<f64>| -> Result<[f64; 3], FairError> {
         let surface = FairSurface::new(table, hull, energy, None)?;
-        // The start has no say here: it runs smoothly through what a line would break.
-        let smoother = Smoother::new(&Model { start: None, ..surface.model.clone() });
+        // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way there.
+        let net = surface.hull.surface();
+        let plain = plain_energy(net.u(), net.v(), surface.order, energy.anisotropy);
+        let smoother = Smoother::new(&Model { start: None, energy: plain, ..surface.model.clone() });
         let lambda = match weight {
             Some(weight) => weight / smoother.unit,
             None => smoother.for_discrepancy(noise)?,
