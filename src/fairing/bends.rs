@@ -142,7 +142,7 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
 }
 
 /// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make flats of all else,
-/// and at least that of an arc as long as the line that leaves its chord by [`STRAIGHT`].
+/// and at least that of an arc as long as the line that leaves its chord by a hundredth of a millimetre.
 #[must_use]
 pub fn dead(bends: &[Bend], net: &[f64]) -> f64 {
     let length = bends.first().zip(bends.last()).map_or(0.0, |(first, last)| (last.at - first.at).abs());

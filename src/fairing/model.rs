@@ -2,7 +2,7 @@
 //!
 //! Unknown control values c; an energy c'E c; readings a_k c = d_k with weights w_k (one over the square of the noise level relative
 //! to that of the others) and tolerances; control values that are known; and linear limits l <= r c <= u with names. What smooths
-//! ([`super::smoothing`]), what is robust ([`super::robust`]) and what is certified ([`super::solve`]) sees nothing else of a ship.
+//! ([`super::smoothing`]) and what is certified ([`super::program`]) sees nothing else of a ship.
 
 use crate::numeric::SymmetricBand;
 use crate::qp::SparseRows;

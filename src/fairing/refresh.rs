@@ -1,7 +1,7 @@
 //! From the parametric energy to that of true curvature: the metric is frozen at the net, the program solved, and again.
 //!
 //! F(c) = sum w r^2 + mu E_true(c; c), where the first step chooses mu so that the energy weighs at the start what the parametric
-//! one weighed. A step is accepted while F falls by more than [`FALL`]; the tolerances and the signs of the program bound it. Every
+//! one weighed. A step is accepted while F falls by more than `FALL`; the tolerances and the signs of the program bound it. Every
 //! step is a convex program with its certificate; where the first step does not lower F the convex answer stands.
 
 use super::metric::true_energy;

@@ -3,7 +3,7 @@
 //! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with plumb ends
 //! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship, with lines of the net where
 //! straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in which profiles, knuckles and flats are
-//! lines of the net already, and an energy that spares what bends sharply ([`super::adapt`]).
+//! lines of the net already, and an energy that spares what bends sharply (`adapt`).
 //!
 //! Energy of order n over the unit square of the parameters,
 //!
