@@ -231,7 +231,9 @@ proptest! {
         let mut at = 0.0;
         let x: Vec<f64> = steps[..n].iter().map(|&step| { at += f64::from(step); at }).collect();
         let y: Vec<f64> = values.iter().map(|&v| f64::from(v)).collect();
-        let delta: Vec<f64> = widths[..n].iter().map(|&w| 0.3 * f64::from(w)).collect();
+        // No three bands of whole numbers touch one line exactly, where rounding decides what can be certified.
+        let apart = |k: usize| 1e-3 * (k as f64 + 2.0).sqrt();
+        let delta: Vec<f64> = (0..n).map(|k| 0.3 * f64::from(widths[k]) + apart(k)).collect();
         let bands = Bands::new(x.clone(), y.clone(), delta.clone(), vec![]).unwrap();
         let found = minimum_inflections(&bands);
         check(&bands, &found);
