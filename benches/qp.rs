@@ -1,4 +1,4 @@
-//! CPU time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured interior point
+//! Elapsed time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured interior point
 //! against Clarabel in the same run, and a second solve after one lock was moved. `cargo bench --bench qp [-- 336]`.
 
 #[path = "../tests/qp_problems/mod.rs"]
