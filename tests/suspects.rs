@@ -17,6 +17,8 @@
 //! found nor as false alarms; unlike it they are not repaired, since what was meant is not known.
 //! With LOFTSMAN_REPORT set, the study writes reports/suspects/report.md and the example beside it.
 
+mod random;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -24,32 +26,7 @@ use loftsman::exchange::read_table;
 use loftsman::fairing::{Hypothesis, Suspects, suspects};
 use loftsman::hull::{Cell, Entry, Marks, OffsetTable, Written};
 use loftsman::units::Notation;
-
-/// A small generator with its own sequence (splitmix64), so that the study is the same for ever.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn uniform(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (self.uniform().max(1e-300), self.uniform());
-        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
+use random::Random;
 
 fn shared() -> Option<PathBuf> {
     let folder = std::env::var_os("LOFTSMAN_DATA")

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{length, stream};
+use super::{length, positive, stream};
 use crate::exchange::CadUnit;
 use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, write_all};
 
@@ -66,13 +66,6 @@ fn unit(text: &str) -> Result<CadUnit, String> {
         "m" => Ok(CadUnit::Metre),
         "mm" => Ok(CadUnit::Millimetre),
         _ => Err("expected m or mm".to_owned()),
-    }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match length(text)? {
-        value if value > 0.0 => Ok(value),
-        _ => Err("must be more than 0".to_owned()),
     }
 }
 

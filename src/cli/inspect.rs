@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Lengths, length, lengths, section, stream};
+use super::{Lengths, lengths, positive, section, stream};
 use crate::fairing::inspect::{Inspection, Planes, Resolution};
 use crate::hull::Cut;
 use crate::report::{Failure, inspection_json, inspection_page, read_source};
@@ -66,13 +66,6 @@ Not counted are curves whose half-breadth is below B/1000 all along, and ends of
 JSON: curves (kind, at, branch, length, turning, inflections, inflections_at, extrema, extrema_at, max_curvature, \
 max_curvature_at, max_step, bending_energy, variation_energy, flats, knuckles, without_breadth), totals, empty, no_breadth, net (line, index, at, signs, \
 changes, enclosed), surface (area, bending_energy, gaussian, mean, principal_1, principal_2 with least and greatest).";
-
-fn positive(text: &str) -> Result<f64, String> {
-    match length(text)? {
-        value if value > 0.0 => Ok(value),
-        _ => Err("must be more than 0".to_owned()),
-    }
-}
 
 fn scale(text: &str) -> Result<f64, String> {
     let number = text.strip_prefix("1:").unwrap_or(text);

@@ -90,6 +90,14 @@ fn length(text: &str) -> Result<f64, String> {
     crate::units::parse_length(text).map_err(|error| error.to_string())
 }
 
+/// A length that is more than 0 [m].
+fn positive(text: &str) -> Result<f64, String> {
+    match length(text)? {
+        value if value > 0.0 => Ok(value),
+        _ => Err("must be more than 0".to_owned()),
+    }
+}
+
 /// Runs the program on its arguments, the first of which is its name, and returns its exit code.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {

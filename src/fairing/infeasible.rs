@@ -7,7 +7,7 @@
 //!   of its row. The distance from its target to that interval is what it would have to give.
 
 use super::program::{Program, RowName};
-use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+use crate::qp::{LeastFactor, ProblemError, Settings, SparseRows, Status};
 
 /// What one constraint could be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,34 +46,32 @@ impl Diagnosis {
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
 pub fn least_widening(program: &Program, settings: &Settings) -> Result<Option<f64>, ProblemError> {
+    least_factor(program, settings, |k| {
+        let tolerance = program.tolerances[k];
+        (tolerance > 0.0).then_some((tolerance, tolerance))
+    })
+}
+
+/// The least t with which the program can be had; `give` says of a row by how much its limits are narrowed first, and by how much they
+/// give way for each unit of t; none of a row whose limits stay.
+fn least_factor(
+    program: &Program,
+    settings: &Settings,
+    give: impl Fn(usize) -> Option<(f64, f64)>,
+) -> Result<Option<f64>, ProblemError> {
     let problem = &program.problem;
     let n = problem.linear.len();
-    let mut rows = SparseRows::new(n + 1);
-    let (mut lower, mut upper) = (Vec::new(), Vec::new());
-    for (k, &tolerance) in program.tolerances.iter().enumerate() {
+    let mut factor = LeastFactor::new(n);
+    for k in 0..program.names.len() {
         let (columns, values) = problem.rows.row(k);
-        let row = || columns.iter().copied().zip(values.iter().copied());
+        let row = columns.iter().copied().zip(values.iter().copied());
         let (low, high) = (problem.lower[k], problem.upper[k]);
-        if tolerance > 0.0 {
-            rows.push(row().chain([(n, -tolerance)]));
-            lower.push(f64::NEG_INFINITY);
-            upper.push(high - tolerance);
-            rows.push(row().chain([(n, tolerance)]));
-            lower.push(low + tolerance);
-            upper.push(f64::INFINITY);
-        } else {
-            rows.push(row());
-            lower.push(low);
-            upper.push(high);
+        match give(k) {
+            Some((narrowed, give)) => factor.push_giving(row, [low + narrowed, high - narrowed], give),
+            None => factor.push(row, low, high),
         }
     }
-    rows.push([(n, 1.0)]);
-    lower.push(0.0);
-    upper.push(f64::INFINITY);
-    let mut linear = vec![0.0; n + 1];
-    linear[n] = 1.0;
-    let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
-    let solution = problem.solve(settings)?;
+    let solution = factor.into_problem().solve(settings)?;
     Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
 }
 
@@ -102,35 +100,7 @@ fn reach(program: &Program, row: usize, settings: &Settings) -> Result<Option<[f
 
 /// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can be had.
 fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result<Option<f64>, ProblemError> {
-    let problem = &program.problem;
-    let n = problem.linear.len();
-    let mut rows = SparseRows::new(n + 1);
-    let (mut lower, mut upper) = (Vec::new(), Vec::new());
-    for (k, name) in program.names.iter().enumerate() {
-        let (columns, values) = problem.rows.row(k);
-        let row = || columns.iter().copied().zip(values.iter().copied());
-        let (low, high) = (problem.lower[k], problem.upper[k]);
-        for (sign, from, to) in [(1.0, low, f64::INFINITY), (-1.0, f64::NEG_INFINITY, high)] {
-            if *name == these && (from.is_finite() || to.is_finite()) {
-                rows.push(row().chain([(n, sign)]));
-                lower.push(from);
-                upper.push(to);
-            }
-        }
-        if *name != these {
-            rows.push(row());
-            lower.push(low);
-            upper.push(high);
-        }
-    }
-    rows.push([(n, 1.0)]);
-    lower.push(0.0);
-    upper.push(f64::INFINITY);
-    let mut linear = vec![0.0; n + 1];
-    linear[n] = 1.0;
-    let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
-    let solution = problem.solve(settings)?;
-    Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
+    least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))
 }
 
 /// What each constraint alone could be.

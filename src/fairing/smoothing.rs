@@ -13,7 +13,7 @@
 //! Brent's method on log lambda.
 
 use super::model::{Model, Reduced};
-use crate::numeric::{BandedCholesky, SingularMatrix, SymmetricBand};
+use crate::numeric::{BandedCholesky, SingularMatrix, SymmetricBand, median};
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
 
@@ -95,9 +95,7 @@ impl Smoothed {
     fn typical_noise(&self, weights: &[f64]) -> f64 {
         let told = self.residuals.iter().zip(&self.leverages).zip(weights).filter(|(_, w)| **w > 0.0);
         let mut sizes: Vec<f64> = told.map(|((r, h), w)| r.abs() * w.sqrt() / (1.0 - h).max(1e-6).sqrt()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let n = sizes.len();
-        if n == 0 { 0.0 } else { 1.4826 * 0.5 * (sizes[(n - 1) / 2] + sizes[n / 2]) }
+        1.4826 * median(&mut sizes).unwrap_or(0.0)
     }
 
     /// Residuals of readings left out one by one, r_k / (1 - h_k) \[m\]; readings of weight 0 are left out as they are.

@@ -16,6 +16,7 @@
 
 use super::form::Hull;
 use super::functional::Functional;
+use crate::spline::{cross, dot, minus};
 use std::collections::HashMap;
 
 /// Half-breadths below this part of the greatest are on the centreplane.
@@ -86,18 +87,6 @@ pub struct MeshReport {
     pub volume: f64,
     /// Area of all triangles \[m^2\].
     pub area: f64,
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 fn length(a: [f64; 3]) -> f64 {

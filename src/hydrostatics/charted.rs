@@ -15,6 +15,7 @@ use super::volume::{Body, Node, count_along, count_up, node_at, nodes};
 use super::waterplane::{Waterplane, largest};
 use crate::hull::{Hull, Immersion, Piece, UpperEnd, advance};
 use crate::numeric::{bracketed_root, gauss_legendre};
+use crate::spline::cross;
 
 /// Nodes in s between the line u_0 and midship.
 const BAND_NODES: usize = 6;
@@ -63,8 +64,8 @@ impl Point {
 
     /// |S_u x S_v|
     fn skin(&self) -> f64 {
-        let (a, b) = (&self.along, &self.up);
-        let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let (a, b) = (self.along, self.up);
+        let normal = cross(a, b);
         normal.iter().map(|c| c * c).sum::<f64>().sqrt()
     }
 }

@@ -1,13 +1,15 @@
-//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems and least squares.
+//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median.
 
 mod banded;
 mod cholesky;
 mod least_squares;
+mod median;
 mod quadrature;
 mod root;
 
 pub use banded::{BandedLu, SingularMatrix};
 pub use cholesky::{BandedCholesky, SymmetricBand};
 pub use least_squares::BandedLeastSquares;
+pub use median::median;
 pub use quadrature::{GaussRule, gauss_legendre};
 pub use root::{RootError, bracketed_root};

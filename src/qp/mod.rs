@@ -11,12 +11,14 @@
 
 mod certificate;
 mod clarabel;
+mod factor;
 mod problem;
 mod proof;
 mod sparse;
 mod structured;
 
 pub use certificate::Certificate;
+pub use factor::LeastFactor;
 pub use problem::{Engine, Problem, ProblemError, Settings, Solution, Status};
 pub use sparse::SparseRows;
 pub use structured::Solver;

@@ -1,9 +1,9 @@
 //! Why a job did not end well, and what the program returns then.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crate::config::Diagnostic;
+use crate::config::{Diagnostic, Severity};
 
 /// Why a job did not end well.
 #[derive(Debug)]
@@ -29,6 +29,20 @@ pub enum Failure {
     },
     /// A fault of this program.
     Internal(String),
+}
+
+/// What is wrong with a file as a whole.
+pub(super) fn problem(code: &'static str, file: &Path, message: String, help: impl Into<String>) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        code,
+        file: file.display().to_string(),
+        line: None,
+        column: None,
+        key: String::new(),
+        message,
+        help: help.into(),
+    }
 }
 
 impl Failure {

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::check::suspect_json;
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use super::files::OutputFile;
-use super::generate::{json_file, manifest_file};
+use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{read_bytes, read_table_file, utf8};
-use crate::config::{self, Diagnostic, JobFile, RuleMark, Severity};
+use crate::config::{self, JobFile, RuleMark};
 use crate::exchange::{
     ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
     fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
@@ -57,23 +57,6 @@ pub struct FairOutputs {
     table_file: PathBuf,
 }
 
-fn problem(code: &'static str, file: &Path, message: String, help: &str) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        code,
-        file: file.display().to_string(),
-        line: None,
-        column: None,
-        key: String::new(),
-        message,
-        help: help.to_owned(),
-    }
-}
-
-fn entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
-    ManifestEntry::new(&path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(), bytes)
-}
-
 fn is_job(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
@@ -103,7 +86,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let mut said = JobFile::default();
     if is_job(path) {
         let bytes = read_bytes(path)?;
-        inputs.push(entry(path, &bytes));
+        inputs.push(manifest_entry(path, &bytes));
         files.push(path.to_owned());
         match config::read_job(&path.display().to_string(), &utf8(path, bytes)?) {
             Ok(file) => said = file,
@@ -121,12 +104,12 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     }
     let table_file = table_of(path, &said)?;
     let bytes = read_bytes(&table_file)?;
-    inputs.push(entry(&table_file, &bytes));
+    inputs.push(manifest_entry(&table_file, &bytes));
     files.push(table_file.clone());
     let beside_file = table_file.with_extension("toml");
     let beside = if beside_file.is_file() && beside_file != path {
         let bytes = read_bytes(&beside_file)?;
-        inputs.push(entry(&beside_file, &bytes));
+        inputs.push(manifest_entry(&beside_file, &bytes));
         files.push(beside_file.clone());
         Some((beside_file.display().to_string(), utf8(&beside_file, bytes)?))
     } else {

@@ -6,9 +6,9 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use super::files::OutputFile;
-use crate::config::{Diagnostic, Severity};
+use crate::config::Diagnostic;
 use crate::exchange::{curve_csv, curve_json, read_curve};
 use crate::fairing::curve::{CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve};
 use crate::plot::fair_curve_figure;
@@ -62,8 +62,7 @@ pub struct FairedCurve {
 }
 
 fn diagnostic(code: &'static str, path: &Path, line: Option<usize>, message: String, help: String) -> Diagnostic {
-    let file = path.display().to_string();
-    Diagnostic { severity: Severity::Error, code, file, line, column: None, key: String::new(), message, help }
+    Diagnostic { line, ..problem(code, path, message, help) }
 }
 
 /// Reads and fairs.

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::check::{suspects_json, suspects_line};
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use super::files::OutputFile;
-use super::generate::{figure_files, json_file, manifest_file};
+use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::sanity;
 use super::source::{read_bytes, read_table_file, utf8};
@@ -58,30 +58,13 @@ pub struct FitOutputs {
     pub files: Vec<OutputFile>,
 }
 
-fn problem(code: &'static str, file: &Path, message: String, help: String) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        code,
-        file: file.display().to_string(),
-        line: None,
-        column: None,
-        key: String::new(),
-        message,
-        help,
-    }
-}
-
-fn entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
-    ManifestEntry::new(&path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(), bytes)
-}
-
 fn is_method(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
 fn read_method_file(path: &Path, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFile, Failure> {
     let bytes = read_bytes(path)?;
-    inputs.push(entry(path, &bytes));
+    inputs.push(manifest_entry(path, &bytes));
     let text = utf8(path, bytes)?;
     config::read_method(&path.display().to_string(), &text).map_err(Failure::Input)
 }
@@ -126,7 +109,7 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     };
     let bytes = read_bytes(&table_file)?;
     // The file that the command named comes first.
-    inputs.insert(if is_method(path) { inputs.len() } else { 0 }, entry(&table_file, &bytes));
+    inputs.insert(if is_method(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
     let (mut table, notes) = read_table_file(&table_file)?;
     if table.name.trim().is_empty() {
         table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();

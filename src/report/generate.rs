@@ -137,8 +137,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     let rows = [CurvesOfForm { conventions: design.conventions, rows: reference_rows }];
     outputs.files.push(OutputFile::text("report.md", markdown_page(&outputs, &references, &rows)));
     outputs.files.sort_by(|a, b| a.name.cmp(&b.name));
-    let name = input.0.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let manifest = manifest_file(ManifestEntry::new(&name, input.1), &outputs.files)?;
+    let manifest = manifest_file(manifest_entry(input.0, input.1), &outputs.files)?;
     outputs.files.push(manifest);
     Ok(outputs)
 }
@@ -167,6 +166,11 @@ pub(super) fn figure_files(inputs: &FigureInputs<'_>, figures: &[Figure]) -> Res
         })
     };
     figures.iter().map(file).collect()
+}
+
+/// The entry of a file that was read.
+pub(super) fn manifest_entry(path: &Path, bytes: &[u8]) -> ManifestEntry {
+    ManifestEntry::new(&path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(), bytes)
 }
 
 /// The manifest of a run that wrote `files`.

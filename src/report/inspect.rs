@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::page::fixed;
 use crate::fairing::inspect::{CurvatureAt, CurveReport, Inspection, kind};
 use crate::hull::Cut;
+use crate::numeric::median;
 
 /// Share of a sum from which one curve rules it, and the least number of curves of which that is said.
 const RULING: f64 = 0.5;
@@ -48,9 +49,7 @@ fn ruling<'i>(inspection: &'i Inspection, word: &str) -> Option<(&'i CurveReport
 /// The median of the sums of squared curvature of curves, which no single turn rules.
 fn median_bending(curves: &[&CurveReport]) -> f64 {
     let mut list: Vec<f64> = curves.iter().map(|curve| curve.bending).collect();
-    list.sort_by(f64::total_cmp);
-    let n = list.len();
-    if n == 0 { 0.0 } else { 0.5 * (list[(n - 1) / 2] + list[n / 2]) }
+    median(&mut list).unwrap_or(0.0)
 }
 
 /// Four significant digits, with a power of ten.

@@ -5,7 +5,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::check::suspects_line;
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
@@ -46,16 +46,7 @@ fn diagnostic(
     column: Option<usize>,
     message: String,
 ) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        code,
-        file: file.display().to_string(),
-        line,
-        column,
-        key: String::new(),
-        message,
-        help: String::new(),
-    }
+    Diagnostic { line, column, ..problem(code, file, message, "") }
 }
 
 pub(super) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {

@@ -6,6 +6,7 @@
 
 use super::curve::BsplineCurve;
 use super::evaluate::SurfaceJet;
+use super::vector::{cross, dot};
 
 /// Curvatures of a surface at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,14 +19,6 @@ pub struct SurfaceCurvature {
     pub mean: f64,
     /// K, the product of the principal curvatures \[1/length^2\].
     pub gaussian: f64,
-}
-
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 impl BsplineCurve<2> {
@@ -44,9 +37,9 @@ impl BsplineCurve<3> {
     #[must_use]
     pub fn curvature(&self, t: f64) -> Option<f64> {
         let [_, first, second] = self.derivatives::<3>(t);
-        let speed = dot(&first, &first).sqrt();
-        let turn = cross(&first, &second);
-        (speed > 0.0).then(|| dot(&turn, &turn).sqrt() / speed.powi(3))
+        let speed = dot(first, first).sqrt();
+        let turn = cross(first, second);
+        (speed > 0.0).then(|| dot(turn, turn).sqrt() / speed.powi(3))
     }
 }
 
@@ -54,17 +47,17 @@ impl SurfaceJet<3> {
     /// The curvatures; none at a degenerate point, where |S_u x S_v| is at most 1e-14 of |S_u|^2 + |S_v|^2.
     #[must_use]
     pub fn curvature(&self) -> Option<SurfaceCurvature> {
-        let along = cross(&self.du, &self.dv);
-        let area = dot(&along, &along).sqrt();
-        if area <= 1e-14 * (dot(&self.du, &self.du) + dot(&self.dv, &self.dv)) || area.is_nan() {
+        let along = cross(self.du, self.dv);
+        let area = dot(along, along).sqrt();
+        if area <= 1e-14 * (dot(self.du, self.du) + dot(self.dv, self.dv)) || area.is_nan() {
             return None;
         }
         let normal = along.map(|c| c / area);
         // S_u = a e_1 and S_v = b e_1 + c e_2 with e_1, e_2 orthonormal in the tangent plane: the second fundamental form in
         // that frame is the symmetric matrix of the shape operator, whose eigenvalues lose no digits at umbilics.
-        let a = dot(&self.du, &self.du).sqrt();
-        let (b, c) = (dot(&self.du, &self.dv) / a, area / a);
-        let [l, m, n] = [&self.duu, &self.duv, &self.dvv].map(|d| dot(d, &normal));
+        let a = dot(self.du, self.du).sqrt();
+        let (b, c) = (dot(self.du, self.dv) / a, area / a);
+        let [l, m, n] = [self.duu, self.duv, self.dvv].map(|d| dot(d, normal));
         let ratio = b / a;
         let s11 = l / (a * a);
         let s12 = (m - ratio * l) / (a * c);
@@ -136,7 +129,7 @@ mod tests {
             assert!((k.mean + 0.5 * (around + 1.0 / small)).abs() < 1e-14, "{k:?}");
             assert!((k.principal[0] + around).abs() < 1e-14 && (k.principal[1] + 1.0 / small).abs() < 1e-14);
             let outward = mix(u.cos(), 0.0, u.sin());
-            assert!((dot(&k.normal, &outward) - 1.0).abs() < 1e-14);
+            assert!((dot(k.normal, outward) - 1.0).abs() < 1e-14);
         }
     }
 

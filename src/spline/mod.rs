@@ -26,6 +26,7 @@ mod powers;
 mod refine;
 mod surface;
 mod table;
+mod vector;
 mod vertices;
 
 pub use bezier::{BezierCurve, BezierPatch};
@@ -41,6 +42,7 @@ pub use net::{add_product, basis_row, binomial, energy, mixed_energy};
 pub use parametrize::Parametrization;
 pub use periodic::PeriodicCollocation;
 pub use surface::BsplineSurface;
+pub(crate) use vector::{cross, dot, minus};
 
 #[cfg(test)]
 mod tests;

@@ -16,6 +16,8 @@
 #![allow(dead_code, unused_imports, unreachable_pub, reason = "the bench and the test use different parts")]
 
 mod measure;
+#[path = "../random/mod.rs"]
+mod random;
 
 pub use measure::{Summary, page};
 
@@ -30,32 +32,7 @@ use loftsman::hull::{
 use loftsman::parametric::ShipType;
 use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
 use loftsman::units::Notation;
-
-/// A small generator with its own sequence (splitmix64), so that the tables are the same for ever.
-pub struct Random(pub u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn uniform(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (self.uniform().max(1e-300), self.uniform());
-        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
+use random::Random;
 
 /// A half-breadth over x and z \[m\].
 type HalfBreadth = Box<dyn Fn(f64, f64) -> Option<f64>>;

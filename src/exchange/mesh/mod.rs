@@ -9,6 +9,7 @@ pub use obj::write_obj;
 pub use stl::{write_stl, write_stl_ascii};
 
 use crate::hull::{HullMesh, Region};
+use crate::spline::{cross, dot, minus};
 
 /// Regions of a mesh that have triangles, in the order of files, each with its triangles.
 fn regions(mesh: &HullMesh) -> Vec<(Region, Vec<[usize; 3]>)> {
@@ -20,9 +21,8 @@ fn regions(mesh: &HullMesh) -> Vec<(Region, Vec<[usize; 3]>)> {
 
 /// The normal of unit length of a triangle; zero where it has no area.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
-    let (p, q) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
-    let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let n = cross(minus(b, a), minus(c, a));
+    let length = dot(n, n).sqrt();
     if length > 0.0 { n.map(|c| c / length) } else { [0.0; 3] }
 }
 

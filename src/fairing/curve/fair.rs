@@ -9,7 +9,7 @@ use super::given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
 use super::result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind, inflections};
 use super::signs::{Signs, scores};
 use super::space::{CurveSpace, checked};
-use crate::qp::{Problem, SparseRows, Status};
+use crate::qp::{LeastFactor, Status};
 use crate::spline::{BsplineCurve, Condition, Energy, KnotVector};
 
 /// Dearest pattern, in units of sigma^2.
@@ -113,32 +113,20 @@ impl Job<'_> {
         if widest <= 0.0 {
             return Ok(None);
         }
-        let mut rows = SparseRows::new(n + 1);
-        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        let mut factor = LeastFactor::new(n);
         for (index, name) in program.names.iter().enumerate() {
             let (columns, values) = program.problem.rows.row(index);
-            let entries = || columns.iter().copied().zip(values.iter().copied());
+            let row = columns.iter().copied().zip(values.iter().copied());
             let limits = [program.problem.lower[index], program.problem.upper[index]];
             match *name {
                 RowName::Tolerance(k) if tolerance(k) > 0.0 => {
                     let middle = 0.5 * (limits[0] + limits[1]);
-                    for sign in [-1.0, 1.0] {
-                        rows.push(entries().chain([(n, sign * tolerance(k) / widest)]));
-                        lower.push(if sign > 0.0 { middle } else { f64::NEG_INFINITY });
-                        upper.push(if sign > 0.0 { f64::INFINITY } else { middle });
-                    }
+                    factor.push_giving(row, [middle, middle], tolerance(k) / widest);
                 }
-                _ => {
-                    rows.push(entries());
-                    lower.push(limits[0]);
-                    upper.push(limits[1]);
-                }
+                _ => factor.push(row, limits[0], limits[1]),
             }
         }
-        let mut linear = vec![0.0; n + 1];
-        linear[n] = 1.0;
-        let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
-        let solution = problem.solve(&self.settings.solver)?;
+        let solution = factor.into_problem().solve(&self.settings.solver)?;
         self.programs += 1;
         self.iterations += solution.iterations;
         Ok((solution.status == Status::Optimal).then(|| solution.x[n] / widest))

@@ -10,7 +10,7 @@
 
 use super::bands::{Bands, Bend};
 use super::space::Space;
-use crate::qp::{Problem, Settings, SparseRows, Status};
+use crate::qp::{LeastFactor, Problem, Settings, Status};
 
 /// A coefficient of y'' below this part of the largest one is flat, and one whose sag over the whole length is below this part
 /// of the size of the values.
@@ -67,39 +67,23 @@ pub(super) fn least_factor(bands: &Bands, space: &Space, pattern: &Pattern) -> T
     let unit = if widest > 0.0 { widest } else { size };
     // Values from their mean, so that rounding is relative to their range.
     let mean = d.iter().sum::<f64>() / d.len() as f64;
-    let mut rows = SparseRows::new(n + 1);
-    let (mut lower, mut upper) = (Vec::new(), Vec::new());
+    let mut rows = LeastFactor::new(n);
     for k in 0..d.len() {
         let (columns, values) = space.values.row(k);
-        let entries = || columns.iter().copied().zip(values.iter().copied());
+        let entries = columns.iter().copied().zip(values.iter().copied());
         let right = (d[k] - mean) / size;
         if delta[k] > 0.0 {
-            let width = delta[k] / unit;
-            rows.push(entries().chain([(n, -width)]));
-            lower.push(f64::NEG_INFINITY);
-            upper.push(right);
-            rows.push(entries().chain([(n, width)]));
-            lower.push(right);
-            upper.push(f64::INFINITY);
+            rows.push_giving(entries, [right, right], delta[k] / unit);
         } else {
-            rows.push(entries());
-            lower.push(right);
-            upper.push(right);
+            rows.push(entries, right, right);
         }
     }
     let wanted = pattern.bends(space);
     for (index, bend) in wanted.iter().enumerate() {
         let (columns, values) = space.bends.row(index);
-        rows.push(columns.iter().zip(values).map(|(&column, value)| (column, bend.sign() * value)));
-        lower.push(0.0);
-        upper.push(f64::INFINITY);
+        rows.push(columns.iter().zip(values).map(|(&column, value)| (column, bend.sign() * value)), 0.0, f64::INFINITY);
     }
-    rows.push([(n, 1.0)]);
-    lower.push(0.0);
-    upper.push(f64::INFINITY);
-    let mut linear = vec![0.0; n + 1];
-    linear[n] = 1.0;
-    let problem = Problem { quadratic: SparseRows::from_entries(n + 1, n + 1, &[]), linear, rows, lower, upper };
+    let problem = rows.into_problem();
     let none = Tried { factor: f64::INFINITY, at_least: 0.0, coefficients: Vec::new() };
     let Ok(solution) = problem.solve(&Settings::default()) else { return none };
     let at_least = proved(&problem, space, bands, &solution.multipliers, size / unit);

@@ -17,7 +17,7 @@
 
 use super::profile::{Local, Profile};
 use crate::hull::Branch;
-use crate::spline::{BsplineSurface, KnotVector};
+use crate::spline::{BsplineSurface, KnotVector, cross, dot, minus};
 
 type Point = [f64; 3];
 
@@ -27,18 +27,6 @@ const STEPS: usize = 60;
 const SLOWEST: f64 = 1e-6;
 /// Points to a span among which that search may start.
 const STARTS: usize = 3;
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn minus(a: Point, b: Point) -> Point {
-    std::array::from_fn(|d| a[d] - b[d])
-}
 
 /// Finds the parameters of points of a surface.
 #[derive(Debug)]

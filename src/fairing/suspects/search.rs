@@ -15,6 +15,7 @@ use super::judge::{Judge, Verdict};
 use super::posterior::{Reading, readings, student, weighed};
 use super::reading::{Hypothesis, Writing, bare, repairs};
 use crate::hull::OffsetTable;
+use crate::numeric::median;
 
 /// Least score of a suspect, in standard deviations of a normal law.
 const LEAST_SCORE: f64 = 3.0;
@@ -144,12 +145,6 @@ fn gross(grid: &Grid, noise: f64, most: usize) -> Vec<usize> {
     }
     found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     found.into_iter().take(most).map(|(_, cell)| cell).collect()
-}
-
-fn median(list: &mut [f64]) -> Option<f64> {
-    list.sort_by(f64::total_cmp);
-    let n = list.len();
-    (n > 0).then(|| 0.5 * (list[(n - 1) / 2] + list[n / 2]))
 }
 
 struct Search<'a> {
