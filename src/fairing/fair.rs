@@ -171,14 +171,22 @@ impl Prepared {
     /// [`FairError`] when the readings leave a control value open.
     pub fn new(surface: &mut FairSurface, settings: &FairSettings) -> Result<Self, FairError> {
         let smoother = Smoother::new(&surface.model);
-        let search = match settings.weight {
-            Some(weight) => (weight, Vec::new()),
-            None => smoother.cross_validated()?,
+        let (sigma, search) = match (settings.weight, settings.table_noise) {
+            (Some(weight), _) => (None, (weight, Vec::new())),
+            (None, Some(noise)) if !surface.own => {
+                // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of the table.
+                // What is within the tolerance of a designer counts as the roughness of a drawing and gets no more room than he gives.
+                let (noise, most) = (noise.max(settings.least_noise), settings.most_noise.max(settings.least_noise));
+                let sigma = if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12);
+                (Some(sigma), smoother.for_noise(sigma)?)
+            }
+            _ => (None, smoother.cross_validated()?),
         };
-        Self::searched(surface, settings, smoother, search)
+        Self::searched(surface, settings, smoother, search, sigma)
     }
 
-    /// The same from a smoothing problem whose weight is known, with the search that found it.
+    /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is known, the
+    /// weight rises until what is smoothed out is no less than the rounding of the table.
     ///
     /// # Errors
     /// [`FairError`] when the readings leave a control value open.
@@ -187,24 +195,17 @@ impl Prepared {
         settings: &FairSettings,
         smoother: Smoother,
         (mut lambda, trials): (f64, Vec<Trial>),
+        sigma: Option<f64>,
     ) -> Result<Self, FairError> {
         let count = smoother.count();
         let mut smoothed = smoother.at(lambda)?;
-        // The table is at least as noisy as its rounding: not less smoothing than that.
-        while settings.weight.is_none() && smoothed.sigma(count) < settings.least_noise && lambda < 1e3 {
-            lambda *= 2.0;
-            smoothed = smoother.at(lambda)?;
+        if sigma.is_none() && settings.weight.is_none() {
+            while smoothed.sigma(count) < settings.least_noise && lambda < 1e3 {
+                lambda *= 2.0;
+                smoothed = smoother.at(lambda)?;
+            }
         }
-        let mut sigma = smoothed.sigma(count).max(1e-12);
-        let noise = settings.table_noise.map_or(f64::INFINITY, |noise| noise.max(settings.least_noise));
-        if settings.weight.is_none() && !surface.own && noise.is_finite() {
-            // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of the table. What is
-            // within the tolerance of a designer counts as the roughness of a drawing and gets no more room than he gives.
-            let most = settings.most_noise.max(settings.least_noise);
-            sigma = if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12);
-            lambda = smoother.for_noise(sigma)?;
-            smoothed = smoother.at(lambda)?;
-        }
+        let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
             let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };

@@ -297,7 +297,8 @@ impl Job {
         };
         let prepared = match search {
             Some(search) if self.weight.is_none() => {
-                Prepared::searched(&mut surface, &settings, search.smoother, (search.smoothed.lambda, search.trials))?
+                let found = (search.smoothed.lambda, search.trials);
+                Prepared::searched(&mut surface, &settings, search.smoother, found, None)?
             }
             _ => Prepared::new(&mut surface, &settings)?,
         };

@@ -233,34 +233,34 @@ impl Smoother {
         Some(Trial { lambda, gcv, rms: (smoothed.rss / m.max(1.0)).sqrt(), energy: smoothed.energy, edf: smoothed.edf })
     }
 
-    /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten.
-    /// Where features of the hull are cut, RSS pays for it: unlike the weight that leaves residuals of size sigma, this one
-    /// does not smooth until they are.
+    /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten,
+    /// and every weight that was tried, in rising order. Where features of the hull are cut, RSS pays for it: unlike the weight
+    /// that leaves residuals of size sigma, this one does not smooth until they are.
     ///
     /// # Errors
     /// [`SingularMatrix`] when no weight of the scan gives a net.
-    pub fn for_noise(&self, noise: f64) -> Result<f64, SingularMatrix> {
-        let mut tried: Vec<(f64, f64)> = Vec::new();
-        let mut last = SingularMatrix { column: 0 };
-        let least = |tried: &[(f64, f64)]| tried.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0));
-        let mut add = |tried: &mut Vec<(f64, f64)>, power: f64| match self.at(10f64.powf(power)) {
-            Ok(smoothed) => tried.push((smoothed.rss + 2.0 * noise * noise * smoothed.edf, power)),
-            Err(error) => last = error,
-        };
+    pub fn for_noise(&self, noise: f64) -> Result<(f64, Vec<Trial>), SingularMatrix> {
+        let m = self.count as f64;
+        let cost = |trial: &Trial| m * trial.rms * trial.rms + 2.0 * noise * noise * trial.edf;
+        let mut trials: Vec<Trial> = Vec::new();
         let mut power = SCAN[1];
         while power >= LEAST {
-            add(&mut tried, power);
+            trials.extend(self.trial(10f64.powf(power)));
             // Beyond its least the criterion rises by what the degrees of freedom cost, no more.
-            if tried.len() > 2 && tried[tried.len() - 3..].windows(2).all(|w| w[1].0 > w[0].0) {
+            if trials.len() > 2 && trials[trials.len() - 3..].windows(2).all(|w| cost(&w[1]) > cost(&w[0])) {
                 break;
             }
             power -= 1.0;
         }
-        if let Some((_, best)) = least(&tried) {
-            add(&mut tried, best - 0.5);
-            add(&mut tried, best + 0.5);
+        let least = |trials: &[Trial]| trials.iter().copied().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        if let Some(best) = least(&trials) {
+            trials.extend([-0.5, 0.5].iter().filter_map(|step| self.trial(best.lambda * 10f64.powf(*step))));
         }
-        least(&tried).map(|(_, power)| 10f64.powf(power)).ok_or(last)
+        trials.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
+        match least(&trials) {
+            Some(best) => Ok((best.lambda, trials)),
+            None => self.at(10f64.powf(LEAST)).map(|smoothed| (smoothed.lambda, trials)),
+        }
     }
 
     /// The greatest weight of the scan at which the noise of a typical reading, 1.4826 times the median of |r_k| sqrt(w_k) / sqrt(1 -
