@@ -156,16 +156,14 @@ impl Lines {
                 }
             }
         }
-        let right: Vec<Vec<f64>> = lines
-            .iter()
-            .map(|values| {
-                let mut right = vec![0.0; n];
-                for ((first, basis), value) in rows.iter().zip(*values) {
-                    (0..=p).for_each(|a| right[first + a] += basis[a] * value);
-                }
-                right
-            })
-            .collect();
+        // A column a line.
+        let mut right = vec![0.0; n * lines.len()];
+        for (site, (first, basis)) in rows.iter().enumerate() {
+            for a in 0..=p {
+                let row = &mut right[(first + a) * lines.len()..(first + a + 1) * lines.len()];
+                row.iter_mut().zip(&lines).for_each(|(sum, values)| *sum += basis[a] * values[site]);
+            }
+        }
         let unit = normal.trace() / energy.trace().max(f64::MIN_POSITIVE);
         if let Some(parts) = course.stiffness(&knots) {
             let mut stiff = SymmetricBand::zeros(n, width);
@@ -186,20 +184,20 @@ impl Lines {
             let edf: f64 = rows
                 .iter()
                 .map(|(first, basis)| {
-                    let pairs = (0..=p).flat_map(|a| (0..=p).map(move |b| (a, b)));
-                    pairs.map(|(a, b)| basis[a] * basis[b] * inverse.get(first + a, first + b)).sum::<f64>()
+                    inverse.quadratic_form(basis[..=p].iter().enumerate().map(|(a, b)| (first + a, *b)))
                 })
                 .sum();
             let freedom = count - GAMMA * edf * lines.len() as f64;
             if freedom <= 0.0 {
                 break;
             }
+            let mut c = right.clone();
+            factor.solve_columns(&mut c, lines.len());
             let mut rss = 0.0;
-            for (right, values) in right.iter().zip(&lines) {
-                let mut c = right.clone();
-                factor.solve(&mut c);
-                for ((first, basis), value) in rows.iter().zip(*values) {
-                    rss += ((0..=p).map(|a| basis[a] * c[first + a]).sum::<f64>() - value).powi(2);
+            for (site, (first, basis)) in rows.iter().enumerate() {
+                for (line, values) in lines.iter().enumerate() {
+                    let at: f64 = (0..=p).map(|a| basis[a] * c[(first + a) * lines.len() + line]).sum();
+                    rss += (at - values[site]).powi(2);
                 }
             }
             let gcv = count * rss / (freedom * freedom);
@@ -303,16 +301,20 @@ impl Lines {
                 let mut found = vec![at(self.sites[k])];
                 let golden = 0.5 * (5f64.sqrt() - 1.0);
                 let [mut a, mut b] = [self.sites[k - 1], self.sites[k + 1]];
-                let (mut p, mut q) = (b - golden * (b - a), a + golden * (b - a));
+                let [mut p, mut q] = [b - golden * (b - a), a + golden * (b - a)].map(|t| (t, at(t)));
+                found.extend([p.1, q.1]);
                 for _ in 0..STEPS {
-                    let pair = [at(p), at(q)];
-                    if pair[0].0 <= pair[1].0 {
-                        b = q
+                    if p.1.0 <= q.1.0 {
+                        (b, q) = (q.0, p);
+                        let t = b - golden * (b - a);
+                        p = (t, at(t));
+                        found.push(p.1);
                     } else {
-                        a = p
+                        (a, p) = (p.0, q);
+                        let t = a + golden * (b - a);
+                        q = (t, at(t));
+                        found.push(q.1);
                     }
-                    (p, q) = (b - golden * (b - a), a + golden * (b - a));
-                    found.extend(pair);
                 }
                 for (value, other) in found {
                     if value < gcv * (1.0 - 1e-3) {

@@ -158,13 +158,7 @@ fn judge(forms: &SignForms, smoother: &Smoother, smoothed: &Smoothed) -> Judged 
     let mut judged = Judged { values: Vec::new(), deviations: Vec::new(), rows: Vec::new() };
     for form in &forms.rows {
         let (row, _) = smoother.reduced.row(form);
-        let mut variance = 0.0;
-        for (a, &(i, x)) in row.iter().enumerate() {
-            variance += x * x * inverse.get(i, i);
-            for &(j, y) in &row[..a] {
-                variance += 2.0 * x * y * inverse.get(i, j);
-            }
-        }
+        let variance = inverse.quadratic_form(row.iter().copied());
         judged.values.push(super::model::value(form, &all));
         judged.deviations.push(variance.max(0.0).sqrt());
         judged.rows.push(row);

@@ -208,13 +208,7 @@ impl Smoother {
                 continue;
             }
             let (columns, values) = data.row(k);
-            let mut leverage = 0.0;
-            for (a, &i) in columns.iter().enumerate() {
-                leverage += values[a] * values[a] * inverse.get(i, i);
-                for (b, &j) in columns[..a].iter().enumerate() {
-                    leverage += 2.0 * values[a] * values[b] * inverse.get(i, j);
-                }
-            }
+            let leverage = inverse.quadratic_form(columns.iter().copied().zip(values.iter().copied()));
             leverages.push(weight * leverage);
             edf += weight * leverage;
             rss += weight * residual * residual;

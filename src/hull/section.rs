@@ -159,8 +159,8 @@ impl Hull {
     /// surface and from the plane at most `tolerance` \[m\], which is taken as 1e-11 m at least. No branch when the plane
     /// misses the hull or is no plane.
     ///
-    /// * A waterline of a level hull is the isoparametric curve itself, of the degree of the surface. Other branches on the side are
-    ///   chains of quintics. Branches on flats are exact.
+    /// * A waterline of a level hull and a station of an upright one are the isoparametric curves themselves, of the degree of the
+    ///   surface. Other branches on the side are chains of quintics. Branches on flats are exact.
     /// * Where the surface lies in the plane, the branch is the boundary of that part of the surface. The edges of the
     ///   surface count as such: the station at the end of a hull with a transom across is the outline of the transom, the
     ///   buttock at y = 0 the profile.
@@ -177,11 +177,9 @@ impl Hull {
                 branches.push(oriented(Branch { face, curve, closed }, station));
             }
         };
-        if let Cut::Waterline { z } = cut
-            && self.is_level()
-        {
-            if let Some(v) = self.height_parameter(z) {
-                add(Face::Side, self.surface().curve_at_v(v), false);
+        if self.follows_net(cut) {
+            if let Some(curve) = self.net_line(cut) {
+                add(Face::Side, curve, false);
             }
         } else {
             // The side on which a plane through an edge of the surface leaves the surface.
@@ -230,6 +228,28 @@ impl Hull {
             order.then(by_place.unwrap_or(std::cmp::Ordering::Equal))
         });
         Section { cut: asked, branches }
+    }
+
+    /// Whether a plane cuts the side along a line of the net: a waterline of a level hull, a station of an upright one.
+    #[must_use]
+    pub fn follows_net(&self, cut: Cut) -> bool {
+        match cut {
+            Cut::Waterline { .. } => self.is_level(),
+            Cut::Station { .. } => self.is_upright(),
+            _ => false,
+        }
+    }
+
+    /// That line; none beyond the ends of the surface.
+    fn net_line(&self, cut: Cut) -> Option<BsplineCurve<3>> {
+        match cut {
+            Cut::Waterline { z } => self.height_parameter(z).map(|v| self.surface().curve_at_v(v)),
+            Cut::Station { x } => {
+                let lowest = self.surface().v().domain().0;
+                self.length_parameter(x, lowest).map(|u| self.surface().curve_at_u(u))
+            }
+            _ => None,
+        }
     }
 }
 

@@ -94,6 +94,18 @@ impl SymmetricBand {
         product
     }
 
+    /// a'M a for a row a of rising columns, all within the band of each other.
+    #[must_use]
+    pub fn quadratic_form(&self, row: impl Iterator<Item = (usize, f64)> + Clone) -> f64 {
+        let (w, mut sum) = (self.width, 0.0);
+        for (count, (i, value)) in row.clone().enumerate() {
+            let own = &self.rows[i * (w + 1)..(i + 1) * (w + 1)];
+            let before: f64 = row.clone().take(count).map(|(j, other)| other * own[w + j - i]).sum();
+            sum += value * (2.0 * before + value * own[w]);
+        }
+        sum
+    }
+
     /// Factors the matrix.
     ///
     /// # Errors
@@ -193,10 +205,14 @@ impl Panels {
         self.values[place] = value;
     }
 
-    /// Column j from its diagonal down.
-    fn column(&self, j: usize) -> &[f64] {
-        let (from, last) = (self.place(j, j), (j + self.width).min(self.size - 1));
-        &self.values[from..=from + last - j]
+    /// Columns, each from its diagonal down.
+    fn columns_down(&self) -> impl DoubleEndedIterator<Item = (usize, &[f64])> {
+        let (height, block, size, width) = (self.height(), self.block, self.size, self.width);
+        let panels = self.values.chunks_exact(block * height).enumerate();
+        let columns = panels.flat_map(move |(p, panel)| {
+            panel.chunks_exact(height).enumerate().map(move |(k, column)| (p * block + k, &column[k..]))
+        });
+        columns.filter(move |(j, _)| *j < size).map(move |(j, column)| (j, &column[..=width.min(size - 1 - j)]))
     }
 
     /// A panel: its diagonal block and the rows below.
@@ -212,17 +228,35 @@ impl BandedCholesky {
     /// Solves M x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
         self.forward(b);
-        for j in (0..self.panels.size).rev() {
-            let column = self.panels.column(j);
+        for (j, column) in self.panels.columns_down().rev() {
             let (known, own) = (&b[j + 1..j + column.len()], b[j]);
             b[j] = (own - dot(&column[1..], known)) / column[0];
         }
     }
 
+    /// Solves M X = B in place for `count` right-hand sides, which are the columns of B; B is given row by row.
+    pub fn solve_columns(&self, b: &mut [f64], count: usize) {
+        for (j, column) in self.panels.columns_down() {
+            let (done, rest) = b.split_at_mut((j + 1) * count);
+            let own = &mut done[j * count..];
+            own.iter_mut().for_each(|value| *value /= column[0]);
+            for (row, entry) in rest.chunks_exact_mut(count).zip(&column[1..]) {
+                row.iter_mut().zip(&*own).for_each(|(b, value)| *b -= entry * value);
+            }
+        }
+        for (j, column) in self.panels.columns_down().rev() {
+            let (open, known) = b.split_at_mut((j + 1) * count);
+            let own = &mut open[j * count..];
+            for (row, entry) in known.chunks_exact(count).zip(&column[1..]) {
+                own.iter_mut().zip(row).for_each(|(b, value)| *b -= entry * value);
+            }
+            own.iter_mut().for_each(|value| *value /= column[0]);
+        }
+    }
+
     /// Solves L y = b in place; |y|^2 = b'M^-1 b.
     pub fn forward(&self, b: &mut [f64]) {
-        for j in 0..self.panels.size {
-            let column = self.panels.column(j);
+        for (j, column) in self.panels.columns_down() {
             let value = b[j] / column[0];
             b[j] = value;
             b[j + 1..j + column.len()].iter_mut().zip(&column[1..]).for_each(|(b, entry)| *b -= entry * value);
@@ -278,8 +312,8 @@ impl BandedCholesky {
             }
         }
         let mut band = SymmetricBand::zeros(n, w);
-        for j in 0..n {
-            for (i, value) in (j..).zip(inverse.column(j)) {
+        for (j, column) in inverse.columns_down() {
+            for (i, value) in (j..).zip(column) {
                 band.rows[i * (w + 1) + w + j - i] = *value;
             }
         }
@@ -320,8 +354,17 @@ mod tests {
         let matrix = example(40, 6);
         let x: Vec<f64> = (0..40).map(|i| (i as f64 * 0.7).sin()).collect();
         let mut b = matrix.apply(&x);
-        matrix.factor().unwrap().solve(&mut b);
+        let mut pairs: Vec<f64> = b.iter().flat_map(|value| [*value, -2.0 * value]).collect();
+        let factor = matrix.factor().unwrap();
+        factor.solve(&mut b);
         assert!(x.iter().zip(&b).all(|(x, b)| (x - b).abs() < 1e-14), "{b:?}");
+        factor.solve_columns(&mut pairs, 2);
+        assert!(x.iter().zip(pairs.chunks(2)).all(|(x, b)| (x - b[0]).abs().max((-2.0 * x - b[1]).abs()) < 1e-14));
+        let form = matrix.quadratic_form([(3, 1.0), (5, -2.0), (8, 0.5)].into_iter());
+        let spread: Vec<f64> =
+            (0..40).map(|i| [(3, 1.0), (5, -2.0), (8, 0.5)].iter().find(|e| e.0 == i).map_or(0.0, |e| e.1)).collect();
+        let product: f64 = matrix.apply(&spread).iter().zip(&spread).map(|(m, a)| m * a).sum();
+        assert!((form - product).abs() < 1e-14);
     }
 
     #[test]

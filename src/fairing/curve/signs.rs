@@ -24,13 +24,7 @@ pub(super) fn scores(forms: &SignForms, smoother: &Smoother, smoothed: &Smoothed
         .iter()
         .map(|form| {
             let (row, _) = smoother.reduced.row(form);
-            let mut variance = 0.0;
-            for (a, &(i, x)) in row.iter().enumerate() {
-                variance += x * x * inverse.get(i, i);
-                for &(j, y) in &row[..a] {
-                    variance += 2.0 * x * y * inverse.get(i, j);
-                }
-            }
+            let variance = inverse.quadratic_form(row.iter().copied());
             let deviation = variance.max(0.0).sqrt();
             let value = super::super::model::value(form, net);
             if deviation > 0.0 { value / deviation } else { 0.0 }

@@ -38,7 +38,10 @@ pub fn combs(hull: &Hull, cuts: &[Cut], count: usize, tolerance: f64) -> Vec<Com
         let section = hull.section(cut, close);
         for branch in section.branches.iter().filter(|branch| branch.face == Face::Side) {
             let breadth = (!matches!(cut, Cut::Buttock { .. })).then_some(breadth);
-            let Some(trace) = Trace::new(&locator, branch, normal, 100.0 * close, breadth) else { continue };
+            let Some(trace) = Trace::new(&locator, branch, normal, 100.0 * close, breadth, hull.follows_net(cut))
+            else {
+                continue;
+            };
             let samples = trace.profile.even(count);
             // The surface says how much the curve bends, the curve itself to which side.
             let turns = samples.windows(2).map(|pair| {

@@ -17,7 +17,7 @@
 
 use super::profile::{Local, Profile};
 use crate::hull::Branch;
-use crate::spline::{BsplineSurface, KnotVector, cross, dot, minus};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, cross, dot, minus};
 
 type Point = [f64; 3];
 
@@ -124,7 +124,7 @@ impl<'a> Locator<'a> {
         Some((at, dot(gap, gap).sqrt()))
     }
 
-    /// Direction along the section, kappa and d(kappa)/ds of the section through (u, v) by the plane with unit normal `n`.
+    /// Motion along the section, kappa and d(kappa)/ds of the section through (u, v) by the plane with unit normal `n`.
     fn curvature(&self, [u, v]: [f64; 2], n: Point) -> Option<(Point, f64, f64)> {
         let s = self.surface.derivatives::<4>(u, v);
         let g = |i: usize, j: usize| dot(n, s[i][j]);
@@ -154,14 +154,35 @@ impl<'a> Locator<'a> {
             let squares = 3.0 * (s[2][0][d] * a * a1 + s[1][1][d] * (a1 * b + a * b1) + s[0][2][d] * b * b1);
             cubes + squares + s[1][0][d] * a2 + s[0][1][d] * b2
         });
-        let speed = dot(first, first).sqrt();
-        if speed.is_nan() || speed <= SLOWEST * regular {
-            return None;
-        }
-        let kappa = dot(n, cross(first, second)) / speed.powi(3);
-        let slope = dot(n, cross(first, third)) / speed.powi(4) - 3.0 * kappa * dot(first, second) / speed.powi(3);
-        (kappa.is_finite() && slope.is_finite()).then(|| (first.map(|c| c / speed), kappa, slope))
+        let (kappa, slope) = bending(n, [first, second, third], SLOWEST * regular)?;
+        Some((first, kappa, slope))
     }
+
+    /// Speed along a line of a regular net, the lesser one \[m\].
+    fn slowest(&self) -> f64 {
+        self.speeds[0].min(self.speeds[1])
+    }
+
+    /// 1 where a line of the net runs as the motion along the section does, -1 where it runs against it; none where the motion
+    /// stands still everywhere.
+    fn sense(&self, line: &BsplineCurve<3>, pieces: &[[f64; 2]], n: Point, tolerance: f64) -> Option<f64> {
+        pieces.iter().find_map(|[from, to]| {
+            let [point, velocity] = line.derivatives::<2>(0.5 * (from + to));
+            let (direction, _, _) = self.curvature(self.locate(point, None, tolerance)?, n)?;
+            Some(1f64.copysign(dot(direction, velocity)))
+        })
+    }
+}
+
+/// kappa and d(kappa)/ds of a motion with these derivatives in the plane with unit normal `n`; none where it stands still.
+fn bending(n: Point, [first, second, third]: [Point; 3], least: f64) -> Option<(f64, f64)> {
+    let speed = dot(first, first).sqrt();
+    if speed.is_nan() || speed <= least {
+        return None;
+    }
+    let kappa = dot(n, cross(first, second)) / speed.powi(3);
+    let slope = dot(n, cross(first, third)) / speed.powi(4) - 3.0 * kappa * dot(first, second) / speed.powi(3);
+    (kappa.is_finite() && slope.is_finite()).then_some((kappa, slope))
 }
 
 /// Points of a piece at which the half-breadth is looked at.
@@ -245,14 +266,15 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    /// The branch of the section by the plane with unit normal `n`, which it keeps to within `tolerance` \[m\]. None for a
-    /// branch that has no curvature, or no `breadth`, anywhere.
+    /// The branch of the section by the plane with unit normal `n`, which it keeps to within `tolerance` \[m\]; a line of the net
+    /// is the section itself. None for a branch that has no curvature, or no `breadth`, anywhere.
     pub(super) fn new(
         locator: &Locator,
         branch: &Branch,
         n: Point,
         tolerance: f64,
         breadth: Option<Breadth>,
+        on_net: bool,
     ) -> Option<Self> {
         // The axis forward, or outboard where the plane is across the ship.
         let along: Point = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
@@ -268,8 +290,15 @@ impl Trace {
             Some(breadth) => breadth.clip(pieces, branch.closed, |t| branch.curve.derivatives::<1>(t)[0]),
             None => (pieces, 0.0),
         };
+        let along_net = on_net.then(|| locator.sense(&branch.curve, &pieces, n, tolerance));
         let mut near: Option<[f64; 2]> = None;
         let profile = Profile::sample(&pieces, branch.closed, |t| {
+            if let Some(sense) = along_net {
+                let [point, first, second, third] = branch.curve.derivatives::<4>(t);
+                let (kappa, slope) = bending(n, [first, second, third], SLOWEST * locator.slowest())?;
+                let point = flat(minus(point, origin));
+                return Some(Local { point, velocity: flat(first), curvature: sense? * kappa, slope: sense? * slope });
+            }
             let [point, velocity] = branch.curve.derivatives::<2>(t);
             let at = locator.locate(point, near, tolerance)?;
             near = Some(at);

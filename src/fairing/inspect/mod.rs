@@ -30,6 +30,8 @@ use contour::{Breadth, Locator, Trace};
 
 /// Deviation of the section curves from surface and plane \[m\], in lengths between perpendiculars.
 const SECTION: f64 = 1e-11;
+/// The same where inflections are counted and no curvature is told.
+const COUNTED: f64 = 1e-8;
 
 /// Half-breadths below this are none, in moulded breadths.
 const NO_BREADTH: f64 = 1e-3;
@@ -181,7 +183,7 @@ impl Inspection {
     /// Inspects a hull; `tolerance` is the departure that can just be seen \[m\].
     #[must_use]
     pub fn new(hull: &Hull, planes: &Planes, tolerance: f64) -> Self {
-        let (curves, empty, narrow) = curves(hull, planes, tolerance);
+        let (curves, empty, narrow) = curves(hull, planes, tolerance, SECTION);
         let net = net_signs(hull.surface(), ON_CHORD * tolerance);
         Self { tolerance, curves, empty, narrow, net, surface: SurfaceMeasures::of(hull) }
     }
@@ -191,7 +193,7 @@ impl Inspection {
 #[must_use]
 pub fn inflections(hull: &Hull, planes: &Planes, tolerance: f64) -> Vec<(Cut, usize)> {
     let mut list: Vec<(Cut, usize)> = Vec::new();
-    for curve in curves(hull, planes, tolerance).0 {
+    for curve in curves(hull, planes, tolerance, COUNTED).0 {
         match list.last_mut() {
             Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
             _ => list.push((curve.cut, curve.inflections.len())),
@@ -201,11 +203,11 @@ pub fn inflections(hull: &Hull, planes: &Planes, tolerance: f64) -> Vec<(Cut, us
 }
 
 /// Curves; planes that have none; planes of which one was not counted.
-fn curves(hull: &Hull, planes: &Planes, tolerance: f64) -> (Vec<CurveReport>, Vec<Cut>, Vec<Cut>) {
+fn curves(hull: &Hull, planes: &Planes, tolerance: f64, close: f64) -> (Vec<CurveReport>, Vec<Cut>, Vec<Cut>) {
     let locator = Locator::new(hull.surface());
     let (mut curves, mut empty, mut narrow) = (Vec::new(), Vec::new(), Vec::new());
     for cut in planes.cuts() {
-        let (found, thin) = inspect_plane(hull, &locator, cut, planes, tolerance);
+        let (found, thin) = inspect_plane(hull, &locator, cut, planes, [tolerance, close]);
         if thin {
             narrow.push(cut);
         } else if found.is_empty() {
@@ -222,10 +224,10 @@ fn inspect_plane(
     locator: &Locator,
     cut: Cut,
     planes: &Planes,
-    tolerance: f64,
+    [tolerance, close]: [f64; 2],
 ) -> (Vec<CurveReport>, bool) {
     let Some((normal, _)) = cut.plane() else { return (Vec::new(), false) };
-    let close = SECTION * hull.particulars().length_between_perpendiculars;
+    let close = close * hull.particulars().length_between_perpendiculars;
     let section = hull.section(cut, close);
     let across = matches!(cut, Cut::Station { .. });
     // What lies on the side; the flats of the body are flat.
@@ -238,7 +240,7 @@ fn inspect_plane(
     let mut thin = false;
     for (index, branch) in branches.enumerate() {
         // The traced curve may stand off the surface by its tolerance; a hundred of them is another place.
-        let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close, breadth) else {
+        let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close, breadth, hull.follows_net(cut)) else {
             let narrow = |b: Breadth| branch.curve.points().iter().all(|point| point[1].abs() < b.least);
             thin |= breadth.is_some_and(narrow);
             continue;
