@@ -1,5 +1,7 @@
 //! The command `fair`: files, certificate, notation, locks, job files and their messages.
 
+mod random;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -215,6 +217,48 @@ fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
     assert!(!Path::new(&out).exists());
 }
 
+/// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the half-breadths.
+#[test]
+fn sections_given_as_points_are_faired() {
+    use std::fmt::Write;
+    let mut random = random::Random(5);
+    let truth = |x: f64, z: f64| 5.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - (1.0 - z / 6.0).powi(2));
+    let mut text = "station,x [m],point,y [m],z [m]\n".to_owned();
+    for station in 1..20 {
+        let x = 5.0 * f64::from(station);
+        for point in 0..12 {
+            let z = 6.0
+                * (f64::from(point) / 11.0 + 0.002 * f64::from(station % 3) * f64::from(point * (11 - point)) / 11.0);
+            let y = if point == 0 { 0.0 } else { truth(x, z) + 0.005 * random.normal() };
+            writeln!(text, "{station},{x},{point},{y:.5},{z:.5}").unwrap();
+        }
+    }
+    let table = folder("points").join("sections.csv");
+    fs::write(&table, text).unwrap();
+    let (job, outputs) = faired(&table, &[]);
+    let changes = &outputs.outcome.changes;
+    assert_eq!(changes.len(), 19 * 12);
+    assert!(
+        changes.iter().all(|change| (change.after - change.before).abs() <= change.tolerance.unwrap_or(0.0) + 1e-9)
+    );
+    let rms = |of: &dyn Fn(usize) -> f64| {
+        let squares: f64 = (0..changes.len()).map(|k| (of(k) - truth(changes[k].x, changes[k].z)).powi(2)).sum();
+        (squares / changes.len() as f64).sqrt()
+    };
+    let errors = [rms(&|k| changes[k].before), rms(&|k| changes[k].after)];
+    assert!(errors[1] < 0.99 * errors[0], "{errors:?}");
+    let held = &outputs.certificate["constraints"][0];
+    assert!((number(&held["after"]) / number(&held["target"]) - 1.0).abs() < 1e-10, "{held}");
+    // The points are written back where they were, with their new half-breadths.
+    let written = &outputs.outcome.table;
+    for (old, new) in job.table.stations.iter().zip(&written.stations) {
+        let pairs = old.outlines.iter().flatten().zip(new.outlines.iter().flatten());
+        assert!(pairs.clone().all(|(a, b)| a.z.to_bits() == b.z.to_bits() && (a.y - b.y).abs() < 0.05));
+        assert!(pairs.clone().any(|(a, b)| a.y.to_bits() != b.y.to_bits()));
+    }
+    assert!(file(&outputs, "changes.csv").contains(",point 1.12,"));
+}
+
 #[test]
 fn a_misprint_is_left_out_and_listed() {
     let table = carried("reports/suspects/series60-misprinted.csv");
@@ -228,7 +272,7 @@ fn a_misprint_is_left_out_and_listed() {
             .outcome
             .suspects
             .iter()
-            .find(|s| (s.station, Some(s.waterline)) == (change.station, change.waterline))
+            .find(|s| (s.station, Some(s.waterline)) == (change.station, change.origin.waterline()))
             .unwrap();
         assert!(page.contains(&format!("{} station", suspect.id)), "{page}");
     }

@@ -9,6 +9,7 @@ use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
 use crate::fairing::proposals::Proposal;
+use crate::fairing::surface::Origin;
 use crate::hull::{Cut, OffsetTable, SideKind};
 use crate::qp::Status;
 
@@ -170,7 +171,7 @@ fn proposed(proposal: &Proposal) -> Value {
 fn place(table: &OffsetTable, change: &Change) -> Value {
     let station = table.stations.get(change.station).map(|station| &station.station.name);
     json!({
-        "station": station, "waterline": change.waterline.and_then(|j| table.waterlines.get(j)),
+        "station": station, "waterline": change.origin.waterline().and_then(|j| table.waterlines.get(j)),
         "x": number(change.x), "z": number(change.z),
         "before": number(change.before), "after": number(change.after), "move": number(change.after - change.before),
     })
@@ -281,18 +282,20 @@ pub fn reached(outcome: &Outcome) -> impl Iterator<Item = &Change> {
 /// The text of an offset in a table; empty where none is kept.
 fn text(table: &OffsetTable, change: &Change) -> String {
     let station = table.stations.get(change.station);
-    let cell = change.waterline.and_then(|j| station?.half_breadths.get(j)).and_then(|cell| cell.written.as_ref());
+    let cell =
+        change.origin.waterline().and_then(|j| station?.half_breadths.get(j)).and_then(|cell| cell.written.as_ref());
     let side = || {
         let lines = table.form.side_columns.iter().find(|side| side.kind == SideKind::DeckHalfBreadth)?;
         lines.texts.get(change.station)?.as_ref().map(|kept| kept.text.clone())
     };
-    match change.waterline {
-        Some(_) => cell.map(|written| written.text.clone()).unwrap_or_default(),
-        None => side().unwrap_or_default(),
+    match change.origin {
+        Origin::HalfBreadth { .. } => cell.map(|written| written.text.clone()).unwrap_or_default(),
+        Origin::Deck { .. } => side().unwrap_or_default(),
+        Origin::Point { .. } => String::new(),
     }
 }
 
-/// One row an offset: station, waterline (`deck` for the deck at side), place, before, after, move (outward positive), tolerance,
+/// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first outline), place, before, after, move (outward positive), tolerance,
 /// the share of it that is used, whether it is locked or was left out as a suspect, and its text in the old table and in
 /// `written`, the new one as it is read back.
 #[must_use]
@@ -317,9 +320,10 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
     for change in &outcome.changes {
         let Some(station) = table.stations.get(change.station) else { continue };
         let moved = change.after - change.before;
-        let waterline = match change.waterline {
-            Some(j) => cell(table.waterlines.get(j).copied()),
-            None => "deck".to_owned(),
+        let waterline = match change.origin {
+            Origin::HalfBreadth { waterline, .. } => cell(table.waterlines.get(waterline).copied()),
+            Origin::Deck { .. } => "deck".to_owned(),
+            Origin::Point { outline, point, .. } => format!("point {}.{}", outline + 1, point + 1),
         };
         let used = change.tolerance.filter(|t| *t > 0.0).map(|tolerance| moved.abs() / tolerance);
         csv.push_str(&line(&[

@@ -15,9 +15,9 @@ use super::program::RowName;
 use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{EnergySettings, FairSurface, Origin};
-use super::suspects::{Suspect, suspects};
+use super::suspects::{Suspect, point_suspects, suspects};
 use super::told::{changes, turns, written};
-use crate::hull::{Cut, Entry, FitError, FitMethod, Hull, HullError, OffsetTable};
+use crate::hull::{Cut, Entry, FitError, FitMethod, Hull, HullError, OffsetTable, default_waterlines};
 use crate::qp::{Settings, Status};
 
 /// Least tolerance over the breadth: below it a difference is rounding.
@@ -133,8 +133,8 @@ pub enum JobError {
 pub struct Change {
     /// Index of the station.
     pub station: usize,
-    /// Index of the waterline; none for the deck at side.
-    pub waterline: Option<usize>,
+    /// What it is of the station.
+    pub origin: Origin,
     /// Position forward of AP \[m\].
     pub x: f64,
     /// Height above the base line \[m\].
@@ -206,7 +206,7 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let found = suspects(table);
+        let mut found = suspects(table);
         let mut clean = table.clone();
         let excluded: Vec<(usize, usize)> = if self.exclude_suspects {
             let certain = found.suspects.iter().filter(|suspect| suspect.probability > 0.5);
@@ -224,8 +224,23 @@ impl Job {
                     Entry::Given(suspect.verdict.expected.max(0.0));
             }
         }
+        // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in its place.
+        let mut doubtful = 0;
+        if table.stations.iter().any(|station| !station.outlines.is_empty()) {
+            let points = point_suspects(table);
+            found.noise = found.noise.max(points.noise);
+            for suspect in points.suspects.iter().filter(|s| self.exclude_suspects && s.probability > 0.5) {
+                clean.stations[suspect.station].outlines[suspect.branch][suspect.point].marks.doubtful = true;
+                doubtful += 1;
+            }
+        }
         let fitted = Hull::fit(&charted, &FitMethod::Graded)?;
         let mut notes = fitted.notes;
+        if doubtful > 0 {
+            notes.push(format!(
+                "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"
+            ));
+        }
         let before = fitted.hull;
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
@@ -259,7 +274,7 @@ impl Job {
         }
         let locked = |place: &super::surface::Place| match place.origin {
             Origin::HalfBreadth { station, waterline } => self.locked.contains(&(station, waterline)),
-            Origin::Deck { .. } => false,
+            Origin::Deck { .. } | Origin::Point { .. } => false,
         };
         surface.places.iter_mut().for_each(|place| place.locked |= locked(place));
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
@@ -275,7 +290,8 @@ impl Job {
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
         let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
-        let waterlines = table.waterlines.iter().map(|&z| Line::Waterline(z));
+        let heights = if table.waterlines.is_empty() { default_waterlines(&before) } else { table.waterlines.clone() };
+        let waterlines = heights.iter().map(|&z| Line::Waterline(z));
         // What a rule says of the inflections of a line stands over the guard of them.
         let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
         let guarded = |line: &Line| !ruled.contains(line);
@@ -391,7 +407,9 @@ impl Job {
                         .or_else(|| of(&self.tolerance.stations, station))
                         .or(self.tolerance.table)
                 }
-                Origin::Deck { station } => of(&self.tolerance.stations, station).or(self.tolerance.table),
+                Origin::Deck { station } | Origin::Point { station, .. } => {
+                    of(&self.tolerance.stations, station).or(self.tolerance.table)
+                }
             })
             .collect()
     }
@@ -427,6 +445,16 @@ impl Search {
 }
 
 impl Outcome {
+    /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a drawing.
+    #[must_use]
+    pub fn waterlines(&self) -> Vec<f64> {
+        let heights = self.turns.iter().filter_map(|turns| match turns.cut {
+            Cut::Waterline { z } => Some(z),
+            _ => None,
+        });
+        heights.collect()
+    }
+
     /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
     #[must_use]
     pub fn moves(&self) -> (f64, f64, Option<&Change>) {

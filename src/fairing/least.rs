@@ -15,7 +15,7 @@
 use super::bends::{Bend, Line, bends, changes, dead, signs};
 use super::inflections::{Bands, Inflections, minimum_inflections};
 use super::model::{Limit, value};
-use super::surface::FairSurface;
+use super::surface::{FairSurface, Origin};
 
 /// y'' below this part of its largest value has no sign.
 const STRAIGHT: f64 = 1e-6;
@@ -36,6 +36,10 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
     let same = 1e-9 * surface.hull.particulars().length_between_perpendiculars;
     let mut points: Vec<(f64, f64, f64)> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
+        // Points of a section need not rise: they are no function of the height.
+        if matches!(place.origin, Origin::Point { .. }) {
+            continue;
+        }
         let site = match line {
             Line::Station(x) if (place.x - x).abs() < same => place.z,
             Line::Waterline(z) if (place.z - z).abs() < same => place.x,

@@ -64,6 +64,44 @@ pub enum Origin {
         /// Index of the station.
         station: usize,
     },
+    /// A point of a section that is given as outlines. Its height stays; only its half-breadth is read.
+    Point {
+        /// Index of the station.
+        station: usize,
+        /// Index of the outline.
+        outline: usize,
+        /// Index of the point.
+        point: usize,
+    },
+}
+
+impl Origin {
+    /// Index of the station.
+    #[must_use]
+    pub fn station(self) -> usize {
+        match self {
+            Self::HalfBreadth { station, .. } | Self::Deck { station } | Self::Point { station, .. } => station,
+        }
+    }
+
+    /// Index of the waterline, of a cell.
+    #[must_use]
+    pub fn waterline(self) -> Option<usize> {
+        match self {
+            Self::HalfBreadth { waterline, .. } => Some(waterline),
+            Self::Deck { .. } | Self::Point { .. } => None,
+        }
+    }
+
+    /// What it is of a station, in words: "waterline 2.000 m", "deck at side", "point 7 at 2.000 m".
+    #[must_use]
+    pub fn words(self, z: f64) -> String {
+        match self {
+            Self::HalfBreadth { .. } => format!("waterline {z:.3} m"),
+            Self::Deck { .. } => "deck at side".to_owned(),
+            Self::Point { point, .. } => format!("point {} at {z:.3} m", point + 1),
+        }
+    }
 }
 
 /// A reading with its place on the ship.
@@ -338,14 +376,30 @@ fn greville_values(fitted: &Hull, hull: &Hull) -> Vec<f64> {
     hull.surface().points().iter().map(|p| fitted.half_breadth(p[0], p[2]).unwrap_or(0.0)).collect()
 }
 
-/// Every given half-breadth and deck at side that lies on the surface.
+/// Every given half-breadth, deck at side and point of a section that lies on the surface.
 fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
     let (mut readings, mut places) = (Vec::new(), Vec::new());
-    let mut add = |origin: Origin, x: f64, z: f64, value: f64, doubtful: bool, locked: bool| {
-        let Some(at) = hull.parameters(x, z) else { return };
+    let mut put = |origin: Origin, at: [f64; 2], [x, value, z]: [f64; 3], doubtful: bool, locked: bool| {
         let weight = if doubtful { DOUBTFUL } else { 1.0 };
         readings.push(Reading { row: basis_row(hull.surface(), at, [0, 0]), value, weight, tolerance: None });
         places.push(Place { origin, x, z, at, locked });
+    };
+    for (station, column) in table.stations.iter().enumerate() {
+        let x = column.station.x;
+        let line = if column.outlines.is_empty() { Vec::new() } else { StationLine::sampled(hull, x) };
+        let line = StationLine { hull, x, line };
+        for (outline, points) in column.outlines.iter().enumerate() {
+            for (point, p) in points.iter().enumerate() {
+                if let Some(at) = line.nearest([p.y, p.z]) {
+                    let origin = Origin::Point { station, outline, point };
+                    put(origin, at, [x, p.y, p.z], p.marks.doubtful, p.marks.locked);
+                }
+            }
+        }
+    }
+    let mut add = |origin: Origin, x: f64, z: f64, value: f64, doubtful: bool, locked: bool| {
+        let Some(at) = hull.parameters(x, z) else { return };
+        put(origin, at, [x, value, z], doubtful, locked);
     };
     for (station, column) in table.stations.iter().enumerate() {
         for (waterline, (cell, &z)) in column.half_breadths.iter().zip(&table.waterlines).enumerate() {
@@ -354,11 +408,66 @@ fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
                 add(origin, column.station.x, z, value, cell.marks.doubtful, cell.marks.locked);
             }
         }
-        if let (Some(z), Some(y)) = (column.deck_height, column.deck_half_breadth) {
+        if let (Some(z), Some(y), true) = (column.deck_height, column.deck_half_breadth, column.outlines.is_empty()) {
             add(Origin::Deck { station }, column.station.x, z, y, false, false);
         }
     }
     (readings, places)
+}
+
+/// A station of the surface as points.
+struct StationLine<'a> {
+    hull: &'a Hull,
+    x: f64,
+    /// v and the point (y, z) there.
+    line: Vec<(f64, [f64; 2])>,
+}
+
+impl StationLine<'_> {
+    /// Points to a span of the knots.
+    const POINTS: usize = 8;
+    /// Farthest a point of a section may lie from the surface, in breadths: what the fit left out does.
+    const FAR: f64 = 1e-3;
+
+    fn sampled(hull: &Hull, x: f64) -> Vec<(f64, [f64; 2])> {
+        let breaks = hull.surface().v().breakpoints();
+        let inside = breaks.windows(2).flat_map(|w| {
+            (0..Self::POINTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / Self::POINTS as f64).collect::<Vec<_>>()
+        });
+        let all = inside.chain(breaks.last().copied());
+        all.filter_map(|v| {
+            let [_, y, z] = hull.surface().eval(hull.length_parameter(x, v)?, v);
+            Some((v, [y, z]))
+        })
+        .collect()
+    }
+
+    /// Parameters of the point of the station next to (y, z); none where it is far.
+    fn nearest(&self, [y, z]: [f64; 2]) -> Option<[f64; 2]> {
+        let square = |p: [f64; 2]| (p[0] - y).powi(2) + (p[1] - z).powi(2);
+        let (mut v, from) = *self.line.iter().min_by(|a, b| square(a.1).total_cmp(&square(b.1)))?;
+        let mut best = (square(from), self.hull.length_parameter(self.x, v)?, v);
+        let (low, high) = self.hull.surface().v().domain();
+        // Gauss and Newton's steps along the station.
+        for _ in 0..30 {
+            let u = self.hull.length_parameter(self.x, v)?;
+            let at = self.hull.surface().tangents(u, v);
+            let gap = square([at.point[1], at.point[2]]);
+            if gap < best.0 {
+                best = (gap, u, v);
+            }
+            let slide = if at.du[0].abs() > 0.0 { -at.dv[0] / at.du[0] } else { 0.0 };
+            let [dy, dz] = [1, 2].map(|d| at.dv[d] + slide * at.du[d]);
+            let size = dy * dy + dz * dz;
+            let step = ((y - at.point[1]) * dy + (z - at.point[2]) * dz) / size;
+            if !step.is_finite() || step.abs() <= 1e-14 * (high - low) {
+                break;
+            }
+            v = (v + step).clamp(low, high);
+        }
+        let far = Self::FAR * self.hull.particulars().breadth;
+        (best.0 <= far * far).then_some([best.1, best.2])
+    }
 }
 
 /// Control values that do not move: those of the edges of the net that lie on the centreplane in the fit.

@@ -14,13 +14,9 @@ pub(super) fn changes(
 ) -> Vec<Change> {
     let mut changes: Vec<Change> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
-        let (station, waterline) = match place.origin {
-            Origin::HalfBreadth { station, waterline } => (station, Some(waterline)),
-            Origin::Deck { station } => (station, None),
-        };
         changes.push(Change {
-            station,
-            waterline,
+            station: place.origin.station(),
+            origin: place.origin,
             x: place.x,
             z: place.z,
             before: reading.value,
@@ -34,10 +30,9 @@ pub(super) fn changes(
         let (column, z) = (&table.stations[station], table.waterlines[waterline]);
         let x = column.station.x;
         if let (Some(before), Some(after)) = (column.half_breadths[waterline].value(), after.half_breadth(x, z)) {
-            let waterline = Some(waterline);
             changes.push(Change {
                 station,
-                waterline,
+                origin: Origin::HalfBreadth { station, waterline },
                 x,
                 z,
                 before,
@@ -48,7 +43,11 @@ pub(super) fn changes(
             });
         }
     }
-    changes.sort_by_key(|change| (change.station, change.waterline.unwrap_or(usize::MAX)));
+    changes.sort_by_key(|change| match change.origin {
+        Origin::HalfBreadth { station, waterline } => (station, 0, waterline),
+        Origin::Deck { station } => (station, usize::MAX, 0),
+        Origin::Point { station, outline, point } => (station, outline + 1, point),
+    });
     changes
 }
 
@@ -57,13 +56,14 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
     let mut table = table.clone();
     for change in changes {
         let station = &mut table.stations[change.station];
-        match change.waterline {
-            Some(waterline) => {
+        match change.origin {
+            Origin::HalfBreadth { waterline, .. } => {
                 let cell = &mut station.half_breadths[waterline];
                 cell.entry = Entry::Given(change.after);
                 cell.written = None;
             }
-            None => station.deck_half_breadth = Some(change.after),
+            Origin::Deck { .. } => station.deck_half_breadth = Some(change.after),
+            Origin::Point { outline, point, .. } => station.outlines[outline][point].y = change.after,
         }
     }
     table
@@ -73,7 +73,9 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
 pub(super) fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Vec<Turns> {
     let mut planes = Planes::with_defaults(before);
     planes.stations = table.stations.iter().map(|station| station.station.x).collect();
-    planes.waterlines.clone_from(&table.waterlines);
+    if !table.waterlines.is_empty() {
+        planes.waterlines.clone_from(&table.waterlines);
+    }
     let count = |hull: &Hull| inflections(hull, &planes, tolerance);
     let (old, new) = (count(before), count(after));
     let cuts = old.iter().filter_map(|(cut, before)| {

@@ -52,7 +52,7 @@ pub fn fairing_body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, 
 /// Half-breadth plan before and after, bow on the right.
 ///
 /// # Errors
-/// [`PlotError::Chart`] for a table without waterlines.
+/// [`PlotError::Chart`] for a table without offsets.
 pub fn fairing_half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, PlotError> {
     Ok(Svg { text: half_breadth_plan(table, outcome)?.finish("fairing-half-breadth-plan") })
 }
@@ -112,7 +112,8 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let frame = |half: f64, height: f64| at(half)([0.0, breadth, height]);
-    for &height in &table.waterlines {
+    let waterlines = outcome.waterlines();
+    for &height in &waterlines {
         canvas.line(frame(-1.0, height), frame(1.0, height), &GRID);
     }
     canvas.line(frame(-1.0, z[0]), frame(1.0, z[0]), &BASE);
@@ -139,7 +140,7 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
         placer.name_off_curves(&mut canvas, &name, &style, &places, &window, (end, &THREAD));
     }
     let style = TextStyle::new(2.4, Anchor::End);
-    for &height in &table.waterlines {
+    for &height in &waterlines {
         let [x, y] = frame(-1.0, height);
         let places = [[x - 2.0, y], [x - 9.0, y]];
         placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
@@ -151,8 +152,9 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
 }
 
 fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
-    let Some((x, breadth, _)) = extent(table, outcome).filter(|_| !table.waterlines.is_empty()) else {
-        return Err(PlotError::Chart("the table has no waterlines".to_owned()));
+    let waterlines = outcome.waterlines();
+    let Some((x, breadth, _)) = extent(table, outcome).filter(|_| !waterlines.is_empty()) else {
+        return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
     let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT - 20.0];
     let n = drawing_scale(x[1] - x[0], room[0]);
@@ -170,7 +172,7 @@ fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, P
         canvas.line(at([x, 0.0, 0.0]), at([x, breadth, 0.0]), &GRID);
     }
     canvas.line(at([x[0], 0.0, 0.0]), at([x[1], 0.0, 0.0]), &BASE);
-    let cuts: Vec<Cut> = table.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
+    let cuts: Vec<Cut> = waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
     let drawn = draw(&mut canvas, &plan, &cuts, CHORD / (stretch * millimetres), &|_| at);
     title(&mut canvas, &plan, &drawn.scale);
     let mut placer = drawn.placer();
@@ -183,8 +185,8 @@ fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, P
         placer.name_point(&mut canvas, &name, &style, &[[px, py + 3.0], [px, py + 6.4]], &window);
     }
     let style = TextStyle::new(2.5, Anchor::Middle);
-    let count = table.waterlines.len();
-    for (k, z) in table.waterlines.iter().enumerate() {
+    let count = waterlines.len();
+    for (k, z) in waterlines.iter().enumerate() {
         let Some(curve) = drawn.curves.iter().position(|(cut, _)| *cut == k) else { continue };
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };

@@ -7,6 +7,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::{PlotError, Svg, caption};
 use crate::fairing::job::{Change, Outcome};
+use crate::fairing::surface::Origin;
 use crate::hull::OffsetTable;
 
 /// Width of the sheet \[mm\].
@@ -47,9 +48,15 @@ struct Map {
 }
 
 impl Map {
-    /// The cell of an offset; the deck at side is the row above the waterlines.
-    fn place(&self, change: &Change) -> Rectangle {
-        let row = change.waterline.unwrap_or(self.rows - 1);
+    /// The cell of an offset; the deck at side is the row above the waterlines, points of a section follow each other upwards.
+    fn place(&self, table: &OffsetTable, change: &Change) -> Rectangle {
+        let row = match change.origin {
+            Origin::HalfBreadth { waterline, .. } => waterline,
+            Origin::Deck { .. } => self.rows - 1,
+            Origin::Point { station, outline, point } => {
+                point + table.stations[station].outlines[..outline].iter().map(Vec::len).sum::<usize>()
+            }
+        };
         let left = self.frame.left + self.cell[0] * change.station as f64;
         let bottom = self.frame.bottom - self.cell[1] * row as f64;
         Rectangle::new(left, bottom - self.cell[1], left + self.cell[0], bottom)
@@ -76,8 +83,9 @@ fn colour(share: f64) -> String {
 
 fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
     let columns = table.stations.len();
-    let deck = outcome.changes.iter().any(|change| change.waterline.is_none());
-    let rows = table.waterlines.len() + usize::from(deck);
+    let deck = outcome.changes.iter().any(|change| matches!(change.origin, Origin::Deck { .. }));
+    let points = table.stations.iter().map(|station| station.outlines.iter().map(Vec::len).sum()).max().unwrap_or(0);
+    let rows = (table.waterlines.len() + usize::from(deck)).max(points);
     if outcome.changes.is_empty() || columns == 0 || rows == 0 {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     }
@@ -95,7 +103,7 @@ fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> 
     };
     let map = Map { frame, cell, rows, full, digits };
     let mut canvas = Canvas::new(WIDTH, bottom + FOOT);
-    draw_cells(&mut canvas, outcome, &map);
+    draw_cells(&mut canvas, table, outcome, &map);
     draw_names(&mut canvas, table, deck, &map);
     head(&mut canvas, table, outcome);
     key(&mut canvas, &map, bottom + 26.0);
@@ -103,23 +111,23 @@ fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> 
     Ok(canvas)
 }
 
-fn draw_cells(canvas: &mut Canvas, outcome: &Outcome, map: &Map) {
+fn draw_cells(canvas: &mut Canvas, table: &OffsetTable, outcome: &Outcome, map: &Map) {
     let frame = &map.frame;
     canvas.fill(frame, "#e4e4e4");
     for change in &outcome.changes {
         let share = if map.full > 0.0 && !change.suspect { moved(change) / map.full } else { 0.0 };
-        canvas.fill(&map.place(change), &colour(share));
+        canvas.fill(&map.place(table, change), &colour(share));
     }
     let thin = Pen::new(0.08, "#b0b0b0");
     for change in &outcome.changes {
-        canvas.rectangle(&map.place(change), &thin);
+        canvas.rectangle(&map.place(table, change), &thin);
     }
     canvas.rectangle(frame, &Pen::new(0.25, "#000000"));
     let longest = outcome.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
     let size = (map.cell[0] / (0.68 * longest as f64)).min(2.6);
     let (_, _, largest) = outcome.moves();
     for change in &outcome.changes {
-        let place = map.place(change);
+        let place = map.place(table, change);
         let middle = [0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)];
         if map.cell[0] >= LEAST {
             canvas.text(middle, &map.number(change), &TextStyle::new(size, Anchor::Middle));
@@ -159,6 +167,12 @@ fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
         let y = frame.bottom - map.cell[1] * (j as f64 + 0.5);
         canvas.text([frame.left - 1.5, y], &format!("{z:.3}"), &style);
     }
+    if table.waterlines.is_empty() {
+        for j in 0..map.rows {
+            let y = frame.bottom - map.cell[1] * (j as f64 + 0.5);
+            canvas.text([frame.left - 1.5, y], &format!("{}", j + 1), &style);
+        }
+    }
     if deck {
         canvas.text([frame.left - 1.5, frame.top + 0.5 * map.cell[1]], "deck", &style);
     }
@@ -171,7 +185,11 @@ fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
     }
     canvas.text(
         [frame.left, frame.top - 3.0],
-        "waterline [m] over station, aft on the left",
+        if table.waterlines.is_empty() {
+            "point of the section, from the keel up, over station, aft on the left"
+        } else {
+            "waterline [m] over station, aft on the left"
+        },
         &TextStyle::new(2.6, Anchor::Start),
     );
 }
@@ -183,10 +201,7 @@ fn head(canvas: &mut Canvas, table: &OffsetTable, outcome: &Outcome) {
     let (rms, _, largest) = outcome.moves();
     let called = largest.map(|change| {
         let station = table.stations.get(change.station).map_or("", |s| s.station.name.as_str());
-        let line = match change.waterline {
-            Some(_) => format!("waterline {:.3} m", change.z),
-            None => "deck at side".to_owned(),
-        };
+        let line = change.origin.words(change.z);
         format!("largest move {:+.2} mm at station {}, {line}", 1000.0 * moved(change), caption::plain(station))
     });
     let second = format!(
@@ -216,7 +231,7 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
         canvas.rectangle(&place, &Pen::new(0.08, "#b0b0b0"));
         let change = Change {
             station: 0,
-            waterline: None,
+            origin: Origin::Deck { station: 0 },
             x: 0.0,
             z: 0.0,
             before: 0.0,

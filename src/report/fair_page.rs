@@ -56,10 +56,7 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 /// "station 5, waterline 2.000 m".
 fn place(job: &FairJob, change: &Change) -> String {
     let name = job.table.stations.get(change.station).map_or("", |station| station.station.name.as_str());
-    match change.waterline {
-        Some(_) => format!("station {name}, waterline {} m", fixed(change.z, 3)),
-        None => format!("station {name}, deck at side"),
-    }
+    format!("station {name}, {}", change.origin.words(change.z))
 }
 
 /// The offsets: how many stayed, how many moved more, how many are suspected.
@@ -96,8 +93,10 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
         page.push_str(&format!("  {} more: changes.csv\n", more.len() - MOST_LINES));
     }
     for change in &excluded {
-        let found =
-            outcome.suspects.iter().find(|s| (s.station, Some(s.waterline)) == (change.station, change.waterline));
+        let found = outcome
+            .suspects
+            .iter()
+            .find(|s| (s.station, Some(s.waterline)) == (change.station, change.origin.waterline()));
         let (id, written, why) = match found {
             Some(s) => (s.id.as_str(), s.written.as_str(), s.hypothesis().as_str()),
             None => ("", "", ""),
