@@ -4,24 +4,23 @@
 //! [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
-use super::constraint::{Constraint, Rule, edged};
-use super::fair::{FairError, FairSettings, Faired, MISFIT, Prepared, fair_prepared};
+use super::constraint::{Constraint, Rule};
+use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::held::{self, Held, HeldRule};
 use super::infeasible::Reach;
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
-use super::lines::proposed_lines;
 use super::program::RowName;
-use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
-use super::smoothing::{Smoothed, Smoother, Trial};
+use super::proposals::{Accepted, Proposal};
+use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
-use super::suspects::{Suspect, point_suspects, suspects};
+use super::suspects::Suspect;
 use super::told::{changes, turns, written};
-use crate::hull::{Cut, Entry, FitError, FitMethod, Hull, HullError, OffsetTable, default_waterlines};
+use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable, default_waterlines};
 use crate::qp::{Settings, Status};
 
 /// Least tolerance over the breadth: below it a difference is rounding.
-const LEAST_TOLERANCE: f64 = 1e-6;
+pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
@@ -206,77 +205,8 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let mut found = suspects(table);
-        let mut clean = table.clone();
-        let excluded: Vec<(usize, usize)> = if self.exclude_suspects {
-            let certain = found.suspects.iter().filter(|suspect| suspect.probability > 0.5);
-            certain.map(|suspect| (suspect.station, suspect.waterline)).collect()
-        } else {
-            Vec::new()
-        };
-        // The start needs a value in every cell that was left out: the expected one stands in.
-        let mut charted = table.clone();
-        for suspect in &found.suspects {
-            let (station, waterline) = (suspect.station, suspect.waterline);
-            if excluded.contains(&(station, waterline)) {
-                clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
-                charted.stations[station].half_breadths[waterline].entry =
-                    Entry::Given(suspect.verdict.expected.max(0.0));
-            }
-        }
-        // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in its place.
-        let mut doubtful = 0;
-        if table.stations.iter().any(|station| !station.outlines.is_empty()) {
-            let points = point_suspects(table);
-            found.noise = found.noise.max(points.noise);
-            for suspect in points.suspects.iter().filter(|s| self.exclude_suspects && s.probability > 0.5) {
-                clean.stations[suspect.station].outlines[suspect.branch][suspect.point].marks.doubtful = true;
-                doubtful += 1;
-            }
-        }
-        let fitted = Hull::fit(&charted, &FitMethod::Graded)?;
-        let mut notes = fitted.notes;
-        if doubtful > 0 {
-            notes.push(format!(
-                "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"
-            ));
-        }
-        let before = fitted.hull;
-        let quantum = table.form.quantum().unwrap_or(0.0);
-        let noise = found.noise.max(quantum / 12f64.sqrt());
-        let list = proposed_lines(table, &found);
-        if let Accepted::These(numbers) = &self.accepted
-            && let Some(&number) = numbers.iter().find(|number| !(1..=list.len()).contains(number))
-        {
-            return Err(JobError::NoLine { number, count: list.len() });
-        }
-        let proposals = proposals(&clean, &before, &list, self.energy, noise, &self.accepted)?;
-        let declared = declared(&proposals, &before, &charted);
-        let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
-        let refitted =
-            if lined.lines.len() > charted.lines.len() { Hull::fit(&lined, &FitMethod::Graded).ok() } else { None };
-        let mut start = refitted.map_or_else(|| before.clone(), |fitted| fitted.hull);
-        for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
-            start = with_line(&start, &proposal.line)?.unwrap_or(start);
-        }
-        for rule in &self.rules {
-            if let Rule::FlatOfSide { x, z } = rule {
-                start = edged(&start, *x, *z)?;
-            }
-        }
-        let own = !self.rules.iter().any(Rule::keeps_the_fit);
-        let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
-        let mut surface = FairSurface::new(&clean, &start, self.energy, own.then_some(least))?;
-        let mut search = surface.own.then(|| Search::new(&surface)).transpose()?;
-        if search.as_ref().is_some_and(|search| !search.follows(&before, noise)) {
-            surface = FairSurface::new(&clean, &start, self.energy, None)?;
-            search = None;
-        }
-        let locked = |place: &super::surface::Place| match place.origin {
-            Origin::HalfBreadth { station, waterline } => self.locked.contains(&(station, waterline)),
-            Origin::Deck { .. } | Origin::Point { .. } => false,
-        };
-        surface.places.iter_mut().for_each(|place| place.locked |= locked(place));
+        let Started { found, before, mut notes, noise, quantum, proposals, mut surface, search, excluded } =
+            Started::new(self, table)?;
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
             Holding::Given(list) => list.clone(),
@@ -412,35 +342,6 @@ impl Job {
                 }
             })
             .collect()
-    }
-}
-
-/// The smoothing problem of the quintic net and the weight that cross-validation finds for it.
-struct Search {
-    smoother: Smoother,
-    smoothed: Smoothed,
-    trials: Vec<Trial>,
-}
-
-impl Search {
-    fn new(surface: &FairSurface) -> Result<Self, FairError> {
-        let smoother = Smoother::new(&surface.model);
-        let (lambda, trials) = smoother.cross_validated()?;
-        Ok(Self { smoothed: smoother.at(lambda)?, smoother, trials })
-    }
-
-    /// Whether the net follows the table: what remains is the noise of the table.
-    fn follows(&self, before: &Hull, noise: f64) -> bool {
-        let least = LEAST_TOLERANCE * before.particulars().breadth;
-        self.smoothed.sigma(self.smoother.count()) <= MISFIT * noise.max(least)
-    }
-
-    /// Half the mean distance \[m\] between two surfaces whose displaced volumes differ.
-    fn gap(&self, surface: &FairSurface, before: &Hull) -> Result<f64, JobError> {
-        let own = surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))?;
-        let volume = Constraint::Displacement(0.0);
-        let p = before.particulars();
-        Ok((volume.value(&own) - volume.value(before)).abs() / (2.0 * p.length_between_perpendiculars * p.draught))
     }
 }
 

@@ -64,9 +64,20 @@ pub enum Errors {
     Eighths,
     /// Normal with 2 mm, written in millimetres, and in three cells two neighbouring digits swapped.
     Typing,
-    /// Normal with 2 mm, and 100, 150 and 300 mm too much or too little in three cells.
-    Outliers,
+    /// Normal with `noise`, and as much too much or too little in single cells \[m\].
+    Outliers { noise: f64, sizes: &'static [f64] },
+    /// Normal with 2 mm, and 30 mm too much in three neighbouring cells of a waterline.
+    Adjacent,
 }
+
+/// Three gross errors.
+pub const LARGE: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.1, 0.15, 0.3] };
+/// Three errors of ten to fifteen noise levels.
+pub const SMALL: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.02, 0.02, 0.03] };
+/// One of six noise levels.
+pub const SIX_SIGMA: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.012] };
+/// Gross errors among noise of 25 mm.
+pub const ROUGH: Errors = Errors::Outliers { noise: 0.025, sizes: &[0.25, 0.3, 0.5] };
 
 impl Errors {
     /// Whether seeds matter.
@@ -80,7 +91,11 @@ impl Errors {
             Self::Rounded(quantum) => format!("rounded to {:.0} mm", quantum * 1e3),
             Self::Eighths => "rounded to 1/8 in".to_owned(),
             Self::Typing => "2 mm and 3 swaps".to_owned(),
-            Self::Outliers => "2 mm and 3 outliers".to_owned(),
+            Self::Outliers { noise, sizes } => {
+                let list: Vec<String> = sizes.iter().map(|size| format!("{:.0}", size * 1e3)).collect();
+                format!("{:.0} mm and {} mm once", noise * 1e3, list.join(", "))
+            }
+            Self::Adjacent => "2 mm and 30 mm in 3 neighbours".to_owned(),
         }
     }
 }
@@ -273,7 +288,8 @@ impl Truth {
                     Errors::Rounded(quantum) => (rounded(y, quantum), true),
                     Errors::Eighths => (rounded(y, 0.0254 / 8.0), true),
                     Errors::Typing => (rounded(y + 0.002 * random.normal(), 0.001), y > 1.0),
-                    Errors::Outliers => (y + 0.002 * random.normal(), y > 0.5),
+                    Errors::Outliers { noise, .. } => (y + noise * random.normal(), y > 0.5),
+                    Errors::Adjacent => (y + 0.002 * random.normal(), y > 0.5),
                 };
                 cell.entry = Entry::Given(other.max(0.0));
                 if far {
@@ -291,12 +307,21 @@ impl Truth {
                 table.form.decimals = Some(3);
                 swaps(&mut table, &cells, &mut random);
             }
-            Errors::Outliers => {
-                for size in [0.1, 0.15, 0.3] {
+            Errors::Outliers { sizes, .. } => {
+                for size in sizes {
                     let (i, j) = cells.swap_remove(random.below(cells.len()));
                     let cell = &mut table.stations[i].half_breadths[j];
                     let y = cell.value().unwrap_or(0.0);
-                    cell.entry = Entry::Given(if random.below(2) == 0 { y + size } else { y - size });
+                    cell.entry = Entry::Given((if random.below(2) == 0 { y + size } else { y - size }).max(0.0));
+                }
+            }
+            Errors::Adjacent => {
+                let inside = |i: usize, j: usize| (0..3).all(|k| cells.contains(&(i + k, j)));
+                let starts: Vec<(usize, usize)> = cells.iter().copied().filter(|&(i, j)| inside(i, j)).collect();
+                let (i, j) = starts[random.below(starts.len())];
+                for station in &mut table.stations[i..i + 3] {
+                    let cell = &mut station.half_breadths[j];
+                    cell.entry = Entry::Given(cell.value().unwrap_or(0.0) + 0.03);
                 }
             }
             Errors::Normal(_) => {}
@@ -393,9 +418,14 @@ pub fn cases() -> Vec<Case> {
             Errors::Rounded(0.05),
             Errors::Eighths,
             Errors::Typing,
-            Errors::Outliers,
+            LARGE,
         ];
         list.extend(kinds.map(|errors| Case { name, truth, errors }));
     }
+    list.extend([SMALL, SIX_SIGMA, ROUGH, Errors::Adjacent].map(|errors| Case {
+        name: "Wigley",
+        truth: wigley,
+        errors,
+    }));
     list
 }

@@ -1,0 +1,188 @@
+//! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
+
+use super::constraint::{Constraint, Rule, edged};
+use super::fair::{FairError, MISFIT};
+use super::job::{Job, JobError, LEAST_TOLERANCE};
+use super::lines::proposed_lines;
+use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
+use super::robust::gross_errors;
+use super::smoothing::{Smoothed, Smoother, Trial};
+use super::surface::{FairSurface, Origin, Place};
+use super::suspects::{Suspects, point_suspects, suspects};
+use crate::hull::{Entry, FitMethod, Hull, OffsetTable};
+
+/// What a job starts from.
+pub(super) struct Started {
+    /// Suspects of the table.
+    pub(super) found: Suspects,
+    /// The surface through the table.
+    pub(super) before: Hull,
+    pub(super) notes: Vec<String>,
+    /// Noise of the table, not below its rounding \[m\].
+    pub(super) noise: f64,
+    /// Step of its writing \[m\].
+    pub(super) quantum: f64,
+    pub(super) proposals: Vec<Proposal>,
+    pub(super) surface: FairSurface,
+    /// The search for the weight, on a net of its own.
+    pub(super) search: Option<Search>,
+    /// Cells that are left out: (station, waterline).
+    pub(super) excluded: Vec<(usize, usize)>,
+}
+
+/// The table as it is faired.
+#[derive(Clone)]
+struct Cleaned {
+    /// Without the cells that are left out.
+    clean: OffsetTable,
+    /// With the expected values in their place: the surface through it needs some.
+    charted: OffsetTable,
+    excluded: Vec<(usize, usize)>,
+}
+
+impl Cleaned {
+    fn leave_out(&mut self, (station, waterline): (usize, usize), expected: f64) {
+        self.clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
+        self.charted.stations[station].half_breadths[waterline].entry = Entry::Given(expected.max(0.0));
+        self.excluded.push((station, waterline));
+    }
+}
+
+/// The net with what is known about it.
+struct Modelled {
+    before: Hull,
+    notes: Vec<String>,
+    proposals: Vec<Proposal>,
+    /// The surface with accepted lines and edges of flats.
+    start: Hull,
+    surface: FairSurface,
+    search: Option<Search>,
+}
+
+impl Started {
+    /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors ([`super::robust`]), where the
+    /// net follows what is left.
+    pub(super) fn new(job: &Job, table: &OffsetTable) -> Result<Self, JobError> {
+        let mut found = suspects(table);
+        let mut cleaned = Cleaned { clean: table.clone(), charted: table.clone(), excluded: Vec::new() };
+        for suspect in found.suspects.iter().filter(|suspect| job.exclude_suspects && suspect.probability > 0.5) {
+            cleaned.leave_out((suspect.station, suspect.waterline), suspect.verdict.expected);
+        }
+        // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in its place.
+        let mut doubtful = 0;
+        if table.stations.iter().any(|station| !station.outlines.is_empty()) {
+            let points = point_suspects(table);
+            found.noise = found.noise.max(points.noise);
+            for suspect in points.suspects.iter().filter(|s| job.exclude_suspects && s.probability > 0.5) {
+                cleaned.clean.stations[suspect.station].outlines[suspect.branch][suspect.point].marks.doubtful = true;
+                doubtful += 1;
+            }
+        }
+        let quantum = table.form.quantum().unwrap_or(0.0);
+        let noise = found.noise.max(quantum / 12f64.sqrt());
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise)?;
+        if job.exclude_suspects && modelled.surface.own {
+            let mut without = cleaned.clone();
+            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.locked.contains(cell))
+            {
+                without.leave_out(cell, expected);
+            }
+            if without.excluded.len() > cleaned.excluded.len() {
+                let again = Modelled::new(job, &without, &found, noise)?;
+                if again.follows(noise) {
+                    (modelled, cleaned) = (again, without);
+                }
+            }
+        }
+        if modelled.surface.own && !modelled.follows(noise) {
+            modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;
+            modelled.search = None;
+        }
+        let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
+        modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
+        let Modelled { before, mut notes, proposals, surface, search, .. } = modelled;
+        if doubtful > 0 {
+            notes.push(format!(
+                "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"
+            ));
+        }
+        let excluded = cleaned.excluded;
+        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, excluded })
+    }
+}
+
+impl Modelled {
+    fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64) -> Result<Self, JobError> {
+        let Cleaned { clean, charted, .. } = table;
+        let fitted = Hull::fit(charted, &FitMethod::Graded)?;
+        let before = fitted.hull;
+        let list = proposed_lines(charted, found);
+        if let Accepted::These(numbers) = &job.accepted
+            && let Some(&number) = numbers.iter().find(|number| !(1..=list.len()).contains(number))
+        {
+            return Err(JobError::NoLine { number, count: list.len() });
+        }
+        let proposals = proposals(clean, &before, &list, job.energy, noise, &job.accepted)?;
+        let declared = declared(&proposals, &before, charted);
+        let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
+        let refitted =
+            if lined.lines.len() > charted.lines.len() { Hull::fit(&lined, &FitMethod::Graded).ok() } else { None };
+        let mut start = refitted.map_or_else(|| before.clone(), |fitted| fitted.hull);
+        for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
+            start = with_line(&start, &proposal.line)?.unwrap_or(start);
+        }
+        for rule in &job.rules {
+            if let Rule::FlatOfSide { x, z } = rule {
+                start = edged(&start, *x, *z)?;
+            }
+        }
+        let own = !job.rules.iter().any(Rule::keeps_the_fit);
+        let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
+        let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
+        let search = surface.own.then(|| Search::new(&surface)).transpose()?;
+        Ok(Self { before, notes: fitted.notes, proposals, start, surface, search })
+    }
+
+    /// Whether a net of its own follows the table: what remains is the noise of the table.
+    fn follows(&self, noise: f64) -> bool {
+        let least = LEAST_TOLERANCE * self.before.particulars().breadth;
+        let remains = self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()));
+        remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
+    }
+
+    /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.
+    fn gross_errors(&self) -> Result<Vec<((usize, usize), f64)>, FairError> {
+        let Some(search) = &self.search else { return Ok(Vec::new()) };
+        let found = gross_errors(&search.smoother, &search.smoothed)?.into_iter();
+        let cells = found.filter_map(|(k, more)| match self.surface.places[k] {
+            Place { origin: Origin::HalfBreadth { station, waterline }, locked: false, .. } => {
+                Some(((station, waterline), self.surface.model.readings[k].value + more))
+            }
+            _ => None,
+        });
+        Ok(cells.collect())
+    }
+}
+
+/// The smoothing problem of the quintic net and the weight that cross-validation finds for it.
+pub(super) struct Search {
+    pub(super) smoother: Smoother,
+    pub(super) smoothed: Smoothed,
+    pub(super) trials: Vec<Trial>,
+}
+
+impl Search {
+    fn new(surface: &FairSurface) -> Result<Self, FairError> {
+        let smoother = Smoother::new(&surface.model);
+        let (lambda, trials) = smoother.cross_validated()?;
+        Ok(Self { smoothed: smoother.at(lambda)?, smoother, trials })
+    }
+
+    /// Half the mean distance \[m\] between two surfaces whose displaced volumes differ.
+    pub(super) fn gap(&self, surface: &FairSurface, before: &Hull) -> Result<f64, JobError> {
+        let own = surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))?;
+        let volume = Constraint::Displacement(0.0);
+        let p = before.particulars();
+        Ok((volume.value(&own) - volume.value(before)).abs() / (2.0 * p.length_between_perpendiculars * p.draught))
+    }
+}
