@@ -15,7 +15,7 @@ use super::proposals::{Accepted, Proposal};
 use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
-use super::told::{changes, turns, written};
+use super::told::{Watched, changes, written};
 use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable, default_waterlines};
 use crate::qp::{Settings, Status};
 
@@ -199,6 +199,15 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
+/// Two things at once, whose results do not depend on each other.
+fn beside<A: Send, B>(first: impl FnOnce() -> A + Send, second: impl FnOnce() -> B) -> (A, B) {
+    std::thread::scope(|scope| {
+        let first = scope.spawn(first);
+        let second = second();
+        (first.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), second)
+    })
+}
+
 impl Job {
     /// Fairs a table.
     ///
@@ -248,10 +257,21 @@ impl Job {
             }
             _ => Prepared::new(&mut surface, &settings)?,
         };
-        let mut faired = fair_prepared(&mut surface, &settings, &prepared)?;
+        let resolution = quantum.max(0.1 * prepared.sigma);
+        let (watched, faired) =
+            beside(|| Watched::new(table, &before, resolution), || fair_prepared(&mut surface, &settings, &prepared));
+        let mut faired = faired?;
         let mut after = surface.hull_of(&faired.net)?;
-        let resolution = quantum.max(0.1 * faired.sigma);
-        let mut lines = turns(table, &before, &after, resolution);
+        let mut held = None;
+        let mut lines = if surface.own {
+            // Nothing is repeated on a net of its own: the prices are final.
+            let (lines, prices) =
+                beside(|| watched.turns(&after), || held::constraints(&surface, &settings, &faired, [&before, &after]));
+            held = Some(prices);
+            lines
+        } else {
+            watched.turns(&after)
+        };
         for _ in 0..REPEATS {
             let worse = lines.iter().filter(|turns| turns.after > turns.before).filter_map(|turns| match turns.cut {
                 Cut::Station { x } => Some(Line::Station(x)),
@@ -266,7 +286,7 @@ impl Job {
             settings.kept.extend(worse);
             faired = fair_prepared(&mut surface, &settings, &prepared)?;
             after = surface.hull_of(&faired.net)?;
-            lines = turns(table, &before, &after, resolution);
+            lines = watched.turns(&after);
         }
         let changes = changes(table, &surface, &after, &excluded);
         for turns in &mut lines {
@@ -284,7 +304,7 @@ impl Job {
                 None => None,
             };
         }
-        let held = held::constraints(&surface, &settings, &faired, [&before, &after]);
+        let held = held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after]));
         let rules = held::rules(&surface, &settings, &faired);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());

@@ -3,7 +3,7 @@
 use super::inspect::{Planes, inflections};
 use super::job::{Change, Turns};
 use super::surface::{FairSurface, Origin};
-use crate::hull::{Entry, Hull, OffsetTable};
+use crate::hull::{Cut, Entry, Hull, OffsetTable};
 
 /// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
 pub(super) fn changes(
@@ -69,18 +69,31 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
     table
 }
 
-/// Inflections of the lines of the table, of buttocks and of diagonals.
-pub(super) fn turns(table: &OffsetTable, before: &Hull, after: &Hull, tolerance: f64) -> Vec<Turns> {
-    let mut planes = Planes::with_defaults(before);
-    planes.stations = table.stations.iter().map(|station| station.station.x).collect();
-    if !table.waterlines.is_empty() {
-        planes.waterlines.clone_from(&table.waterlines);
+/// The lines of the table, buttocks and diagonals, with the inflections of the surface before.
+pub(super) struct Watched {
+    planes: Planes,
+    tolerance: f64,
+    before: Vec<(Cut, usize)>,
+}
+
+impl Watched {
+    pub(super) fn new(table: &OffsetTable, before: &Hull, tolerance: f64) -> Self {
+        let mut planes = Planes::with_defaults(before);
+        planes.stations = table.stations.iter().map(|station| station.station.x).collect();
+        if !table.waterlines.is_empty() {
+            planes.waterlines.clone_from(&table.waterlines);
+        }
+        let before = inflections(before, &planes, tolerance);
+        Self { planes, tolerance, before }
     }
-    let count = |hull: &Hull| inflections(hull, &planes, tolerance);
-    let (old, new) = (count(before), count(after));
-    let cuts = old.iter().filter_map(|(cut, before)| {
-        let after = new.iter().find(|(other, _)| other == cut)?.1;
-        Some(Turns { cut: *cut, before: *before, after, minimum: None })
-    });
-    cuts.collect()
+
+    /// Inflections before and after.
+    pub(super) fn turns(&self, after: &Hull) -> Vec<Turns> {
+        let new = inflections(after, &self.planes, self.tolerance);
+        let cuts = self.before.iter().filter_map(|(cut, before)| {
+            let after = new.iter().find(|(other, _)| other == cut)?.1;
+            Some(Turns { cut: *cut, before: *before, after, minimum: None })
+        });
+        cuts.collect()
+    }
 }
