@@ -176,6 +176,17 @@ fn place(table: &OffsetTable, change: &Change) -> Value {
     })
 }
 
+/// The lines of a table, which `changes.csv` names.
+fn lines(table: &OffsetTable) -> Value {
+    let stations: Vec<Value> =
+        table.stations.iter().map(|s| json!({ "name": s.station.name, "x": number(s.station.x) })).collect();
+    let endings: Vec<[Value; 2]> = table.endings.iter().map(|ends| ends.map(json_number)).collect();
+    json!({
+        "notation": table.form.notation.as_str(), "quantum": json_number(table.form.quantum()), "stations": stations,
+        "waterlines": table.waterlines.iter().map(|z| number(*z)).collect::<Vec<_>>(), "endings": endings,
+    })
+}
+
 /// The certificate. `suspects` are the suspects as `check` writes them; `table` is the table as it was read.
 #[must_use]
 pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingEffect, suspects: &[Value]) -> Value {
@@ -227,6 +238,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
     });
     json!({
         "name": table.name,
+        "table": lines(table),
         "status": status_word(outcome.status),
         "energy": {
             "before": number(outcome.energy[0]), "after": number(outcome.energy[1]), "order": outcome.order,

@@ -6,8 +6,8 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::{PlotError, Svg, caption};
-use crate::fairing::job::{Change, Outcome};
-use crate::hull::OffsetTable;
+use crate::fairing::job::Change;
+use crate::fairing::record::FairRecord;
 
 /// Width of the sheet \[mm\].
 const WIDTH: f64 = 420.0;
@@ -31,8 +31,8 @@ const INWARD: [f64; 3] = [33.0, 102.0, 172.0];
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_moves(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(table, outcome)?.finish("fairing-moves") })
+pub fn fairing_moves(record: &FairRecord) -> Result<Svg, PlotError> {
+    Ok(Svg { text: compose(record)?.finish("fairing-moves") })
 }
 
 /// The map on the sheet.
@@ -74,11 +74,11 @@ fn colour(share: f64) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
-    let columns = table.stations.len();
-    let deck = outcome.changes.iter().any(|change| change.waterline.is_none());
-    let rows = table.waterlines.len() + usize::from(deck);
-    if outcome.changes.is_empty() || columns == 0 || rows == 0 {
+fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
+    let columns = record.lines.stations.len();
+    let deck = record.changes.iter().any(|change| change.waterline.is_none());
+    let rows = record.lines.waterlines.len() + usize::from(deck);
+    if record.changes.is_empty() || columns == 0 || rows == 0 {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     }
     let room = WIDTH - 2.0 * MARGIN - NAMES;
@@ -86,7 +86,7 @@ fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> 
     let left = MARGIN + NAMES + 0.5 * (room - cell[0] * columns as f64);
     let bottom = HEAD + cell[1] * rows as f64;
     let frame = Rectangle::new(left, HEAD, left + cell[0] * columns as f64, bottom);
-    let kept = outcome.changes.iter().filter(|change| !change.suspect);
+    let kept = record.changes.iter().filter(|change| !change.suspect);
     let full = kept.map(|change| moved(change).abs()).fold(0.0, f64::max);
     let digits = match 1000.0 * full {
         most if most >= 100.0 => 0,
@@ -95,30 +95,30 @@ fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> 
     };
     let map = Map { frame, cell, rows, full, digits };
     let mut canvas = Canvas::new(WIDTH, bottom + FOOT);
-    draw_cells(&mut canvas, outcome, &map);
-    draw_names(&mut canvas, table, deck, &map);
-    head(&mut canvas, table, outcome);
+    draw_cells(&mut canvas, record, &map);
+    draw_names(&mut canvas, record, deck, &map);
+    head(&mut canvas, record);
     key(&mut canvas, &map, bottom + 26.0);
     canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)
 }
 
-fn draw_cells(canvas: &mut Canvas, outcome: &Outcome, map: &Map) {
+fn draw_cells(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
     let frame = &map.frame;
     canvas.fill(frame, "#e4e4e4");
-    for change in &outcome.changes {
+    for change in &record.changes {
         let share = if map.full > 0.0 && !change.suspect { moved(change) / map.full } else { 0.0 };
         canvas.fill(&map.place(change), &colour(share));
     }
     let thin = Pen::new(0.08, "#b0b0b0");
-    for change in &outcome.changes {
+    for change in &record.changes {
         canvas.rectangle(&map.place(change), &thin);
     }
     canvas.rectangle(frame, &Pen::new(0.25, "#000000"));
-    let longest = outcome.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
+    let longest = record.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
     let size = (map.cell[0] / (0.68 * longest as f64)).min(2.6);
-    let (_, _, largest) = outcome.moves();
-    for change in &outcome.changes {
+    let (_, _, largest) = record.moves();
+    for change in &record.changes {
         let place = map.place(change);
         let middle = [0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)];
         if map.cell[0] >= LEAST {
@@ -152,10 +152,10 @@ fn marks(canvas: &mut Canvas, change: &Change, place: &Rectangle) {
     }
 }
 
-fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
+fn draw_names(canvas: &mut Canvas, record: &FairRecord, deck: bool, map: &Map) {
     let frame = &map.frame;
     let style = TextStyle::new(2.5, Anchor::End);
-    for (j, z) in table.waterlines.iter().enumerate() {
+    for (j, z) in record.lines.waterlines.iter().enumerate() {
         let y = frame.bottom - map.cell[1] * (j as f64 + 0.5);
         canvas.text([frame.left - 1.5, y], &format!("{z:.3}"), &style);
     }
@@ -164,8 +164,8 @@ fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
     }
     let size = (0.7 * map.cell[0]).clamp(1.5, 2.5);
     let stride = (1.3 * size / map.cell[0]).ceil().max(1.0) as usize;
-    for (i, station) in table.stations.iter().enumerate().step_by(stride) {
-        let name: String = caption::plain(&station.station.name).chars().take(9).collect();
+    for (i, station) in record.lines.stations.iter().enumerate().step_by(stride) {
+        let name: String = caption::plain(&station.name).chars().take(9).collect();
         let x = frame.left + map.cell[0] * (i as f64 + 0.5);
         canvas.text([x, frame.bottom + 1.5], &name, &TextStyle::new(size, Anchor::End).upward());
     }
@@ -176,13 +176,13 @@ fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
     );
 }
 
-fn head(canvas: &mut Canvas, table: &OffsetTable, outcome: &Outcome) {
-    let name: String = caption::plain(&table.name).chars().take(60).collect();
+fn head(canvas: &mut Canvas, record: &FairRecord) {
+    let name: String = caption::plain(&record.name).chars().take(60).collect();
     let words = format!("WHAT MOVED – {name}");
     canvas.text([0.5 * WIDTH, 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
-    let (rms, _, largest) = outcome.moves();
+    let (rms, _, largest) = record.moves();
     let called = largest.map(|change| {
-        let station = table.stations.get(change.station).map_or("", |s| s.station.name.as_str());
+        let station = record.lines.stations.get(change.station).map_or("", |s| s.name.as_str());
         let line = match change.waterline {
             Some(_) => format!("waterline {:.3} m", change.z),
             None => "deck at side".to_owned(),

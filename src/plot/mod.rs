@@ -35,6 +35,9 @@ pub use fair_curve::fair_curve_figure;
 pub use fairing::{fairing_body_plan, fairing_half_breadth_plan};
 pub use fairing_moves::fairing_moves;
 pub use figure::{Figure, FigureInputs, PlotError, Svg};
+/// The embedded typeface, DejaVu Sans, as the file of its font.
+pub const FONT: &[u8] = font::DEJAVU_SANS;
+
 pub use scale::{DRAWING_SCALES, sheet_scale};
 pub use smoothing::smoothing_figure;
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};

@@ -1,0 +1,46 @@
+//! The job of `report`: a result in, its figures and pages out. Nothing is written here.
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::generate::manifest_file;
+use super::result::JobResult;
+use super::result_figures::report_figures;
+use super::result_page::report_page;
+use crate::hydrostatics::CurvesOfForm;
+use crate::plot::FigureInputs;
+
+/// What a report is made with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReportSettings {
+    /// Resolution of the pictures \[dots per inch\].
+    pub dots_per_inch: f64,
+}
+
+/// The files of a report, in the order of their names; the manifest is the last.
+///
+/// # Errors
+/// [`Failure::Usage`] for a resolution that makes no picture; [`Failure::Internal`] when a figure cannot be drawn.
+pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<Vec<OutputFile>, Failure> {
+    let hull = &result.hull;
+    let mut draughts = result.draughts.clone();
+    draughts.push(hull.particulars().draught);
+    let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
+    let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
+    let inputs = FigureInputs { hull, design: &design, curves: &curves };
+    let figures = report_figures(result, &inputs, settings.dots_per_inch)?;
+    let before = result
+        .fairing
+        .as_ref()
+        .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
+    let page = report_page(result, &design, before.as_ref(), &curves, &figures);
+    let mut files = vec![OutputFile::text("report.html", page)];
+    for figure in figures {
+        files.push(OutputFile::text(&format!("{}.svg", figure.key), figure.svg.as_str().to_owned()));
+        files.push(OutputFile { name: format!("{}.png", figure.key), contents: figure.png });
+    }
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    let input = result.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
+    let manifest = manifest_file(input, &files)?;
+    files.push(manifest);
+    Ok(files)
+}
