@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::stream;
+use crate::plot::Sheet;
 use crate::report::{Failure, ReportSettings, read_result, report_outputs, write_run};
 
 #[derive(Debug, Args)]
@@ -19,6 +20,9 @@ pub(super) struct Arguments {
     /// Resolution of the pictures, dots per inch; 300 for print
     #[arg(long, value_parser = dpi, value_name = "DPI", default_value = "150")]
     dpi: f64,
+    /// Sheet of the lines plan in report.pdf: A3 or A1; the other figures stand on A3
+    #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
+    sheet: Sheet,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not
     #[arg(long)]
     force: bool,
@@ -28,7 +32,8 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-Every figure is written as PNG and as SVG in millimetres. Of `fair`: the moves, body plan and half-breadth plan before and after \
+Every figure is written as PNG and as SVG in millimetres; report.html holds all of them, tables that can be sorted and the hull in \
+space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm. Of `fair`: the moves, body plan and half-breadth plan before and after \
 with combs at one scale, the search for the smoothing weight; of every hull: lines plan, body plan, sectional areas, hydrostatic \
 curves and diagram sheet.";
 
@@ -37,6 +42,11 @@ fn dpi(text: &str) -> Result<f64, String> {
         Ok(value) if (20.0..=1200.0).contains(&value) => Ok(value),
         _ => Err("expected 20 to 1200 dots per inch".to_owned()),
     }
+}
+
+fn sheet(text: &str) -> Result<Sheet, String> {
+    let found = Sheet::ALL.into_iter().find(|sheet| sheet.as_str().eq_ignore_ascii_case(text));
+    found.ok_or_else(|| "expected A3 or A1".to_owned())
 }
 
 /// Whether two paths are one folder.
@@ -57,7 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder.display()
         )));
     }
-    let files = report_outputs(&result, &ReportSettings { dots_per_inch: arguments.dpi })?;
+    let files = report_outputs(&result, &ReportSettings { dots_per_inch: arguments.dpi, sheet: arguments.sheet })?;
     write_run(&folder, &files, arguments.force)?;
     if arguments.quiet {
         return Ok(());

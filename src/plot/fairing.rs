@@ -8,6 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale};
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
+use super::sheet::ROOM;
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{Comb, combs};
@@ -15,8 +16,8 @@ use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Face, Hull};
 use crate::qp::Status;
 
-/// The sheet, A3 \[mm\].
-const SHEET: [f64; 2] = [420.0, 297.0];
+/// What the frame leaves of A3 \[mm\].
+pub(super) const SHEET: [f64; 2] = ROOM;
 /// Room at the sides, above and below the drawing \[mm\].
 const SIDE: f64 = 38.0;
 const HEAD: f64 = 50.0;
@@ -25,6 +26,8 @@ const FOOT: f64 = 34.0;
 const CHORD: f64 = 0.01;
 /// Teeth of a comb.
 const TEETH: usize = 121;
+/// Most lines of a plan that bear combs; beyond it every second, third, ... does, and the last.
+const MOST_COMBS: usize = 12;
 
 const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
 const AFTER: Pen = Pen::new(0.22, "#000000");
@@ -34,10 +37,10 @@ const AFTER_COMB: CombPens =
     CombPens { teeth: Pen::new(0.1, "#a9c0e2"), tips: Pen::new(0.2, "#1f5fa8"), ring: Pen::new(0.4, "#c00000") };
 
 /// A plan: which lines, where points of the ship stand.
-struct Plan<'a> {
-    record: &'a FairRecord,
-    title: &'static str,
-    scale: String,
+pub(super) struct Plan<'a> {
+    pub(super) record: &'a FairRecord,
+    pub(super) title: &'static str,
+    pub(super) scale: String,
 }
 
 /// Body plan before and after, aft sections on the left.
@@ -57,14 +60,14 @@ pub fn fairing_half_breadth_plan(record: &FairRecord) -> Result<Svg, PlotError> 
 }
 
 /// The curves of a plane on the side of a hull.
-fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
+pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
     let section = hull.section(cut, 1e-6);
     let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
-fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
+pub(super) fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
     let points = record.changes.iter().map(|change| [change.x, change.before.max(change.after), change.z]);
     let mut x = [f64::INFINITY, f64::NEG_INFINITY];
     let mut z = x;
@@ -84,7 +87,7 @@ fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
 }
 
 /// Amidships \[m\]: L_PP/2, or the middle of the offsets where a table has its stations from elsewhere than AP.
-fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
+pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     let half = 0.5 * record.after.particulars().length_between_perpendiculars;
     let middle = 0.5 * (x[0] + x[1]);
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
@@ -192,17 +195,17 @@ fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
 }
 
 /// What was drawn.
-struct Drawn {
+pub(super) struct Drawn {
     /// The fair curves with the number of their plane.
-    curves: Vec<(usize, Vec<[f64; 2]>)>,
+    pub(super) curves: Vec<(usize, Vec<[f64; 2]>)>,
     /// Inflections.
     rings: Vec<[f64; 2]>,
-    scale: CombScale,
+    pub(super) scale: CombScale,
 }
 
 impl Drawn {
     /// Keeps names off the curves and the rings.
-    fn placer(&self) -> LabelPlacer {
+    pub(super) fn placer(&self) -> LabelPlacer {
         let mut placer = LabelPlacer::default();
         self.curves.iter().for_each(|(_, line)| placer.add_curve(line));
         for [x, y] in &self.rings {
@@ -213,7 +216,7 @@ impl Drawn {
 }
 
 /// Draws combs and curves.
-fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
+pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     canvas: &mut Canvas,
     plan: &Plan<'_>,
     cuts: &[Cut],
@@ -221,7 +224,11 @@ fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
     let tolerance = plan.record.tolerance();
-    let [before, after] = [&plan.record.before, &plan.record.after].map(|hull| combs(hull, cuts, TEETH, tolerance));
+    let stride = cuts.len().div_ceil(MOST_COMBS).max(1);
+    let last = cuts.len().saturating_sub(1);
+    let chosen: Vec<Cut> =
+        cuts.iter().enumerate().filter(|(k, _)| k % stride == 0 || *k == last).map(|(_, cut)| *cut).collect();
+    let [before, after] = [&plan.record.before, &plan.record.after].map(|hull| combs(hull, &chosen, TEETH, tolerance));
     let scale = CombScale::fitting(&after);
     before.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &BEFORE_COMB));
     after.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &AFTER_COMB));
@@ -245,7 +252,7 @@ fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
 }
 
 /// Title, scales and key.
-fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
+pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
     let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
     canvas.text([0.5 * SHEET[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));

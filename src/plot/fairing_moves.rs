@@ -5,12 +5,13 @@
 //! largest move is framed and called out.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::sheet::ROOM;
 use super::{PlotError, Svg, caption};
 use crate::fairing::job::Change;
 use crate::fairing::record::FairRecord;
 
 /// Width of the sheet \[mm\].
-const WIDTH: f64 = 420.0;
+const WIDTH: f64 = ROOM[0];
 /// Room left and right \[mm\].
 const MARGIN: f64 = 14.0;
 /// Height over the map \[mm\].
@@ -82,7 +83,7 @@ fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     }
     let room = WIDTH - 2.0 * MARGIN - NAMES;
-    let cell = [(room / columns as f64).min(LARGEST[0]), LARGEST[1]];
+    let cell = [(room / columns as f64).min(LARGEST[0]), LARGEST[1].min((ROOM[1] - HEAD - FOOT) / rows as f64)];
     let left = MARGIN + NAMES + 0.5 * (room - cell[0] * columns as f64);
     let bottom = HEAD + cell[1] * rows as f64;
     let frame = Rectangle::new(left, HEAD, left + cell[0] * columns as f64, bottom);

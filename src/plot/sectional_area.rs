@@ -1,11 +1,12 @@
-//! The sectional-area curve at the design draught.
+//! The sectional-area curve at the design draught, that before fairing under it.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
 use super::{FigureInputs, PlotError, caption, outline};
-use crate::hull::SectionalAreaCurve;
+use crate::hull::{Hull, SectionalAreaCurve};
+use crate::hydrostatics::CurvesOfForm;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [300.0, 170.0];
@@ -61,11 +62,27 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.take(Canvas::text_place(place, name, &style).grown(0.4));
         canvas.text(place, name, &style);
     }
-    let series = [Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    let mut series =
+        vec![Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    if let Some(before) = inputs.before {
+        series.insert(0, before_fairing(before, design.draught, &stations));
+        let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
+        if let Some(x) = lcb.and_then(|row| row.lcb) {
+            mark_centre(&mut canvas, &mut placer, &chart, "LCB before", x, 2.0);
+        }
+    }
     chart.draw(&mut canvas, &mut placer, &series, None)?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)
+}
+
+/// The curve of the hull before fairing.
+fn before_fairing(before: &Hull, draught: f64, stations: &[f64]) -> Series {
+    let curve = SectionalAreaCurve::new(before, draught, stations);
+    let points = curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]).collect();
+    let dash = Some([2.4, 1.2]);
+    Series { name: "before", points, secondary: false, colour: colour::VERMILION, dash, name_at: 0.8 }
 }
 
 /// The parallel middle body, shaded from keel to curve.

@@ -4,10 +4,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
+use serde_json::Value;
+
 use super::failure::Failure;
 use super::result::JobResult;
+use super::result_page::constraints;
+use crate::fairing::record::FairRecord;
 use crate::plot::{
-    Figure, FigureInputs, PlotError, Svg, fairing_body_plan, fairing_half_breadth_plan, fairing_moves, smoothing_figure,
+    Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, deviation_figure, fairing_arrows,
+    fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves, smoothing_figure,
+    surface_map, table_figure,
 };
 
 /// A figure of a report.
@@ -65,52 +71,146 @@ fn words(figure: Figure) -> [&'static str; 3] {
     }
 }
 
-/// What is drawn of a result.
-fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
-    let mut jobs: Vec<Job<'a>> = Vec::new();
-    let standard = |figure: Figure| Job {
-        words: words(figure),
-        draw: Box::new(move || figure.draw(inputs).map(Some)) as Draw<'a>,
-    };
-    if let Some((record, _)) = &result.fairing {
-        let mut add = |words: [&'static str; 3], draw: Draw<'a>| jobs.push(Job { words, draw });
-        add(
+/// What is drawn of a faired table, before the hull.
+fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> {
+    let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw };
+    vec![
+        job(
+            [
+                "constraints",
+                "What is held, and at which price",
+                "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
+            ],
+            Box::new(|| Ok(constraints_figure(fairing))),
+        ),
+        job(
             [
                 "fairing-moves",
                 "What moved",
-                "Every offset with its move in millimetres, outward positive. Look for runs of one sign along a line: they \
-                 are a change of shape, not noise. Locked cells are framed, cells at their tolerance underlined.",
+                "Every offset with its move in millimetres, outward positive. Look for runs of one sign along a line: they are a \
+                 change of shape, not noise. Locked cells are framed, cells at their tolerance underlined.",
             ],
             Box::new(|| fairing_moves(record).map(Some)),
-        );
-        add(
+        ),
+        job(
+            [
+                "fairing-arrows",
+                "Where the offsets moved",
+                "Before in grey, after in black; an arrow for every offset, exaggerated as the sheet says. Arrows that turn from \
+                 point to point take noise out; a field of one direction is a change of form.",
+            ],
+            Box::new(|| fairing_arrows(record).map(Some)),
+        ),
+        job(
             [
                 "fairing-body-plan",
                 "Body plan before and after",
-                "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. \
-                 Rings mark inflections: those that are left should be meant.",
+                "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
+                 mark inflections: those that are left should be meant.",
             ],
             Box::new(|| fairing_body_plan(record).map(Some)),
-        );
-        add(
+        ),
+        job(
             [
                 "fairing-half-breadth-plan",
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
             ],
             Box::new(|| fairing_half_breadth_plan(record).map(Some)),
-        );
-        add(
+        ),
+        job(
+            [
+                "fairing-buttocks",
+                "Buttocks before and after",
+                "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
+            ],
+            Box::new(|| some(fairing_buttocks(record))),
+        ),
+        job(
+            [
+                "fairing-diagonals",
+                "Diagonals before and after",
+                "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
+            ],
+            Box::new(|| some(fairing_diagonals(record))),
+        ),
+        job(
+            [
+                "deviation",
+                "Moves against the assumed noise",
+                "If the moves are the noise of the table the steps follow the bell. Long tails are wrong readings; a middle off zero \
+                 is a change of shape.",
+            ],
+            Box::new(|| deviation_figure(record)),
+        ),
+        job(
             [
                 "lcurve",
-                "Search for the smoothing weight",
-                "Deviation from the offsets against energy, a point for each weight. The weight taken stands at the bend: to \
-                 its left energy is bought dearly, to its right the offsets are given away.",
+                "Deviation against energy",
+                "A point for each smoothing weight, none of which can be bettered in both: the Pareto front of closeness and \
+                 fairness. The weight taken stands at the bend: to its left energy is bought dearly, to its right the offsets are given \
+                 away.",
             ],
             Box::new(|| smoothing_figure(record)),
-        );
+        ),
+    ]
+}
+
+/// A figure that hulls without such planes do not have.
+fn some(drawn: Result<Svg, PlotError>) -> Result<Option<Svg>, PlotError> {
+    match drawn {
+        Err(PlotError::Chart(_)) => Ok(None),
+        drawn => drawn.map(Some),
     }
+}
+
+/// The table of what is held; none where nothing is.
+fn constraints_figure(fairing: &Value) -> Option<Svg> {
+    let table = constraints(fairing);
+    let heads: Vec<&str> = table.heads.iter().map(String::as_str).collect();
+    let rows: Vec<Vec<String>> = table.rows.into_iter().map(|(_, cells)| cells).collect();
+    let note = "price: RMS of the moves that dropping the wish would save";
+    (!rows.is_empty()).then(|| table_figure("CONSTRAINTS AND PRICES", note, &heads, table.words, &rows))
+}
+
+/// What is drawn of a result.
+fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
+    let mut jobs: Vec<Job<'a>> =
+        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
+    let standard = |figure: Figure| Job {
+        words: words(figure),
+        draw: Box::new(move || figure.draw(inputs).map(Some)) as Draw<'a>,
+    };
     jobs.extend(Figure::ALL.map(standard));
+    jobs.push(Job {
+        words: [
+            "bonjean",
+            "Bonjean curves",
+            "At each station the area below a waterline is drawn forward of its line: draw a waterline at any trim and read the areas \
+             that it cuts off.",
+        ],
+        draw: Box::new(|| bonjean_figure(inputs).map(Some)),
+    });
+    jobs.extend(SurfaceMapKind::ALL.map(|kind| {
+        let words = match kind {
+            SurfaceMapKind::Gaussian => [
+                kind.key(),
+                "Gaussian curvature",
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable. Black lines are 0.",
+            ],
+            SurfaceMapKind::Mean => [
+                kind.key(),
+                "Mean curvature",
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0.",
+            ],
+            SurfaceMapKind::Zebra => [
+                kind.key(),
+                "Zebra stripes",
+                "Stripes swing evenly over a fair surface. A kink is a break of curvature, a step a break of the tangent plane.",
+            ],
+        };
+        Job { words, draw: Box::new(move || surface_map(inputs.hull, inputs.before, kind).map(Some)) as Draw<'a> }
+    }));
     jobs
 }
 

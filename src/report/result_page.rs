@@ -36,10 +36,10 @@ fn inline(figure: &ReportFigure) -> String {
 }
 
 /// A table; the first `words` columns are text.
-struct Table {
-    heads: Vec<String>,
-    words: usize,
-    rows: Vec<(bool, Vec<String>)>,
+pub(super) struct Table {
+    pub(super) heads: Vec<String>,
+    pub(super) words: usize,
+    pub(super) rows: Vec<(bool, Vec<String>)>,
 }
 
 impl Table {
@@ -119,6 +119,11 @@ fn figures(value: &Value, digits: usize) -> String {
     }
 }
 
+/// A value that is held; what is rounding is 0.
+fn value(value: &Value) -> String {
+    if value.as_f64().is_some_and(|number| number.abs() < 1e-9) { "0".to_owned() } else { figures(value, 8) }
+}
+
 fn millimetres(value: &Value, decimals: usize) -> String {
     value.as_f64().map_or(String::new(), |metres| fixed(1e3 * metres, decimals))
 }
@@ -127,7 +132,7 @@ fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
 
-fn constraints(fairing: &Value) -> Table {
+pub(super) fn constraints(fairing: &Value) -> Table {
     let heads = ["held", "unit", "target", "before", "after", "residual", "multiplier", "price [mm RMS]"];
     let mut table = Table::new(&heads, 2);
     for held in list(&fairing["constraints"]) {
@@ -136,9 +141,9 @@ fn constraints(fairing: &Value) -> Table {
             vec![
                 text(&held["name"]),
                 text(&held["unit"]),
-                figures(&held["target"], 8),
-                figures(&held["before"], 8),
-                figures(&held["after"], 8),
+                value(&held["target"]),
+                value(&held["before"]),
+                value(&held["after"]),
                 figures(&held["residual"], 2),
                 figures(&held["multiplier"], 3),
                 millimetres(&held["price"], 3),
@@ -349,8 +354,8 @@ pub(super) fn report_page(
     if let Some((_, fairing)) = &result.fairing {
         sections.push(("suspects", "Suspects", suspects(fairing).html()));
         sections.push((
-            "constraints",
-            "What is held, and at which price",
+            "held",
+            "Constraints and certificate", 
             format!(
                 "<p>The price is the RMS of the moves that dropping the wish would save. Duality gap {}, largest violation {}.</p>\n{}",
                 figures(&fairing["certificate"]["gap"], 2),

@@ -1,14 +1,19 @@
 //! The side of a hull as a grid that is even to the eye, with curvature and girth: what maps and viewers show.
 //!
-//! Columns are lines of the surface from keel to deck at side, at equal steps of length along its middle; where the surface is
-//! upright they are stations, elsewhere they rake with the ends. Rows are equal steps of the girth of each column, taken along
-//! chords of 1/[`STEPS`] of the column (error of the girth below 1e-4 of it on round sections).
+//! Columns are lines of the surface from keel to deck at side, at equal steps of length along its middle ([`SurfaceMap::new`]), or
+//! stations at equal steps along the ship ([`SurfaceMap::at_stations`]). Rows are equal steps of the girth of each column, taken along
+//! chords: of 1/[`STEPS`] of the column, or within [`DEVIATION`] of B of a station.
 
 use super::curvature::deck_parameter;
-use crate::hull::Hull;
+use crate::hull::{Cut, Face, Hull};
 
 /// Chords of a column or row while its length is measured.
 const STEPS: usize = 240;
+
+/// How far chords leave a station, in B.
+const DEVIATION: f64 = 1e-4;
+/// How far the first and the last station stand inside the ends, in lengths of the hull.
+const INSIDE: f64 = 1e-4;
 
 /// A point of the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +64,48 @@ fn even(from: f64, to: f64, count: usize, point: impl Fn(f64) -> [f64; 3]) -> Ve
     (0..count).map(parameter).collect()
 }
 
+/// A point of the surface.
+fn point(hull: &Hull, [u, v]: [f64; 2], girth: f64) -> MapPoint {
+    let jet = hull.surface().jet(u, v);
+    let found = jet.curvature().filter(|c| c.gaussian.is_finite() && c.mean.is_finite());
+    MapPoint {
+        at: jet.point,
+        // With u forward and v upward the normal of the spline points inboard.
+        normal: found.map(|c| c.normal.map(|n| -n)),
+        girth,
+        curvature: found.map(|c| [c.gaussian, c.mean]),
+    }
+}
+
+/// Points of a station at equal steps of its girth.
+fn station(hull: &Hull, x: f64, rows: usize) -> Vec<MapPoint> {
+    let nothing = |girth| MapPoint { at: [x, 0.0, 0.0], normal: None, girth, curvature: None };
+    let section = hull.section(Cut::Station { x }, 1e-6);
+    let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
+    let mut line: Vec<[f64; 3]> = Vec::new();
+    for branch in side {
+        line.extend(branch.polyline(DEVIATION * hull.particulars().breadth));
+    }
+    let Some(first) = line.first() else { return vec![nothing(0.0); rows] };
+    let mut girths = vec![first[1].max(0.0)];
+    for pair in line.windows(2) {
+        girths.push(girths[girths.len() - 1] + distance(pair[0], pair[1]));
+    }
+    let (from, to) = (girths[0], girths[girths.len() - 1]);
+    let along = |k: usize| {
+        let girth = from + (to - from) * k as f64 / (rows - 1) as f64;
+        if line.len() < 2 {
+            return nothing(girth);
+        }
+        let i = girths.partition_point(|&g| g < girth).clamp(1, line.len() - 1);
+        let step = girths[i] - girths[i - 1];
+        let t = if step > 0.0 { ((girth - girths[i - 1]) / step).clamp(0.0, 1.0) } else { 0.0 };
+        let z = line[i - 1][2] + t * (line[i][2] - line[i - 1][2]);
+        hull.parameters(x, z).map_or(nothing(girth), |at| point(hull, at, girth))
+    };
+    (0..rows).map(along).collect()
+}
+
 impl SurfaceMap {
     /// The map of the side of a hull; two columns and two rows at least.
     #[must_use]
@@ -71,16 +118,24 @@ impl SurfaceMap {
         for [u, _] in even(u0, u1, columns, |u| surface.eval(u, middle)) {
             let deck = deck_parameter(hull, u);
             for [v, girth] in even(v0, deck, rows, |v| surface.eval(u, v)) {
-                let jet = surface.jet(u, v);
-                let found = jet.curvature().filter(|c| c.gaussian.is_finite() && c.mean.is_finite());
-                points.push(MapPoint {
-                    at: jet.point,
-                    // With u forward and v upward the normal of the spline points inboard.
-                    normal: found.map(|c| c.normal.map(|n| -n)),
-                    girth,
-                    curvature: found.map(|c| [c.gaussian, c.mean]),
-                });
+                points.push(point(hull, [u, v], girth));
             }
+        }
+        Self { rows, points }
+    }
+
+    /// The map over stations, aft to forward; girths start at the centreplane, a flat of bottom counts. Stations without a curve on the
+    /// side have points without normal and curvature.
+    #[must_use]
+    pub fn at_stations(hull: &Hull, columns: usize, rows: usize) -> Self {
+        let (columns, rows) = (columns.max(2), rows.max(2));
+        let xs = hull.surface().points().iter().map(|p| p[0]);
+        let (low, high) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let inside = INSIDE * (high - low);
+        let mut points = Vec::with_capacity(columns * rows);
+        for i in 0..columns {
+            let x = low + inside + (high - low - 2.0 * inside) * i as f64 / (columns - 1) as f64;
+            points.extend(station(hull, x, rows));
         }
         Self { rows, points }
     }
