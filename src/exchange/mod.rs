@@ -12,6 +12,7 @@ mod manifest;
 mod mesh;
 mod number;
 mod offsets;
+mod report_tables;
 mod residuals;
 mod scene;
 mod section;
@@ -28,6 +29,7 @@ pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, ro
 pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use mesh::{write_glb, write_obj, write_stl, write_stl_ascii};
 pub use offsets::{heights_csv, offsets_csv};
+pub use report_tables::{diagonals_csv, hydrostatics_workbook, section_areas_csv};
 pub use residuals::residuals_csv;
 pub use scene::scene_json;
 pub use section::{section_csv, section_json};

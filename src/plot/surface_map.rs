@@ -148,9 +148,11 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
             draw_zeros(&mut canvas, &chart, &side.map, which, 1e-3 * full);
         }
         let columns = side.map.columns();
-        let edge = (0..columns).map(|i| side.map.point(i, side.map.rows - 1));
-        let edge: Vec<[f64; 2]> = edge.map(|p| chart.place([p.at[0], p.girth])).collect();
-        canvas.polyline(&edge, &Pen::new(0.35, "#000000"));
+        for row in [0, side.map.rows - 1] {
+            let edge = (0..columns).map(|i| side.map.point(i, row));
+            let edge: Vec<[f64; 2]> = edge.map(|p| chart.place([p.at[0], p.girth])).collect();
+            canvas.polyline(&edge, &Pen::new(0.35, "#000000"));
+        }
         chart.draw(&mut canvas, &mut LabelPlacer::default(), &[], None)?;
         let style = TextStyle::new(3.2, Anchor::Start);
         canvas.text([26.0, top - 3.4], side.heading, &style);
@@ -173,6 +175,7 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
             level if level < 0.0 => level - value,
             level => value - level,
         };
+        let mut areas: Vec<Vec<[f64; 2]>> = Vec::new();
         for j in 0..map.rows - 1 {
             let mut run: Option<usize> = None;
             for i in 0..columns {
@@ -189,16 +192,17 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
                 if let Some(from) = run.take() {
                     let below = (from..=i).map(|i| places[i * map.rows + j]);
                     let above = (from..=i).rev().map(|i| places[i * map.rows + j + 1]);
-                    canvas.edged_area(&below.chain(above).collect::<Vec<_>>(), &colour);
+                    areas.push(below.chain(above).collect());
                 }
                 if let (Some(cell), Some(signs)) = (cell, signs) {
                     let part = clipped(cell.map(|k| places[k]), signs);
                     if part.len() > 2 {
-                        canvas.edged_area(&part, &colour);
+                        areas.push(part);
                     }
                 }
             }
         }
+        canvas.edged_areas(&areas, &colour);
     }
 }
 

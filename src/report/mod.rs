@@ -18,6 +18,7 @@ mod result;
 mod result_figures;
 mod result_files;
 mod result_page;
+mod result_tables;
 mod sanity;
 mod self_test;
 mod source;

@@ -26,8 +26,8 @@ pub struct JobResult {
     pub draughts: Vec<f64>,
     /// The faired table, and `fairing.json`.
     pub fairing: Option<(FairRecord, Value)>,
-    /// `summary.json`, where there is one.
-    pub summary: Option<Value>,
+    /// `changes.csv`, where there is one.
+    pub changes: Option<String>,
     /// What should be known about the files.
     pub notes: Vec<String>,
     /// The files that were read.
@@ -153,7 +153,7 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
         conventions,
         draughts: Vec::new(),
         fairing: None,
-        summary: None,
+        changes: None,
         notes: Vec::new(),
         inputs,
         folder: None,
@@ -163,25 +163,24 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
 fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
     let HullFile { hull, conventions } = reader.hull("hull.json", "`generate`, `fit` or `fair`")?;
     let folder = reader.folder.clone();
+    let mut changes = None;
     let fairing = match reader.there("fairing.json")? {
         None => None,
         Some(text) => {
             let path = folder.join("fairing.json");
             let file = read_fairing(&text).map_err(|error| unread(&path, &error.to_string()))?;
             let FairingFile { name, status, lines, sigma, edf, chosen, trials, whole } = file;
-            let changes = reader.needed("changes.csv", "`fair`")?;
-            let changes = read_changes(&changes, &lines)
-                .map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
+            let text = reader.needed("changes.csv", "`fair`")?;
+            let moved =
+                read_changes(&text, &lines).map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
             let before = reader.hull("start.json", "`fair`")?.hull;
             let after = hull.clone();
             let lambda = chosen.lambda;
-            let record = FairRecord { name, status, before, after, lines, changes, sigma, lambda, edf, chosen, trials };
+            let record =
+                FairRecord { name, status, before, after, lines, changes: moved, sigma, lambda, edf, chosen, trials };
+            changes = Some(text);
             Some((record, whole))
         }
-    };
-    let summary = match reader.there("summary.json")? {
-        Some(text) => Some(json(&folder.join("summary.json"), &text)?),
-        None => None,
     };
     let p = *hull.particulars();
     let draughts = match reader.there("hydrostatics.csv")? {
@@ -197,7 +196,7 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
         }));
     }
-    Ok(JobResult { draughts, fairing, summary, notes, folder: Some(folder), ..bare(hull, conventions, reader.inputs) })
+    Ok(JobResult { draughts, fairing, changes, notes, folder: Some(folder), ..bare(hull, conventions, reader.inputs) })
 }
 
 /// The draughts of `hydrostatics.csv`.

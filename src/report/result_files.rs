@@ -6,6 +6,7 @@ use super::generate::manifest_file;
 use super::result::JobResult;
 use super::result_figures::report_figures;
 use super::result_page::report_page;
+use super::result_tables::report_tables;
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{Figure, FigureInputs, PlotError, Sheet, Svg, write_pdf};
 
@@ -48,6 +49,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let pdf = write_pdf(hull.name(), &pages).map_err(internal)?;
     let mut files =
         vec![OutputFile::text("report.html", page), OutputFile { name: "report.pdf".to_owned(), contents: pdf }];
+    files.extend(report_tables(result, &curves)?);
     for figure in figures {
         files.push(OutputFile::text(&format!("{}.svg", figure.key), figure.svg.as_str().to_owned()));
         files.push(OutputFile { name: format!("{}.png", figure.key), contents: figure.png });

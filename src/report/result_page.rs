@@ -263,7 +263,6 @@ fn verdict(result: &JobResult) -> Vec<(bool, String)> {
     if !prices.is_empty() {
         lines.push((false, format!("Prices: {}.", prices.join("; "))));
     }
-    lines.extend(list(&fairing["notes"]).map(|note| (false, text(note))));
     lines
 }
 
@@ -389,6 +388,13 @@ pub(super) fn report_page(
     }
     for note in &result.notes {
         html.push_str(&format!("<p class=\"bad\">{}</p>\n", escape(note)));
+    }
+    let assumed: Vec<String> =
+        result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text)).collect();
+    if !assumed.is_empty() {
+        html.push_str("<details><summary>What was found and assumed</summary>\n");
+        assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", escape(note))));
+        html.push_str("</details>\n");
     }
     html.push_str("</header>\n<nav><a href=\"#viewer\">The hull in space</a>");
     let links = drawn.iter().map(|figure| (figure.key, figure.title));

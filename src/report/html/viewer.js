@@ -301,7 +301,7 @@
   function redraw() {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => { waiting = false; draw(); done("drawn"); });
+    setTimeout(() => { waiting = false; draw(); done("drawn"); }, 16);
   }
 
   const VIEWS = { space: [-0.6, 0.35], ahead: [Math.PI / 2, 0], profile: [0, 0], plan: [0, Math.PI / 2] };
