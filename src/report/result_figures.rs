@@ -214,6 +214,9 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
     jobs
 }
 
+/// A figure with its place in the order; none where there is nothing to draw.
+type Drawn = (usize, Result<Option<ReportFigure>, Failure>);
+
 /// Draws the figures of a result, pictures at `dots_per_inch`; on as many threads as there are cores, in one order.
 pub(super) fn report_figures(
     result: &JobResult,
@@ -222,7 +225,7 @@ pub(super) fn report_figures(
 ) -> Result<Vec<ReportFigure>, Failure> {
     let jobs = jobs(result, inputs);
     let next = AtomicUsize::new(0);
-    let drawn: Mutex<Vec<(usize, Result<Option<ReportFigure>, Failure>)>> = Mutex::new(Vec::new());
+    let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
     let work = || {
         while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
         {
