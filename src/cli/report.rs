@@ -33,9 +33,13 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 Every figure is written as PNG and as SVG in millimetres; report.html holds all of them, tables that can be sorted and the hull in \
-space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm. Of `fair`: the moves, body plan and half-breadth plan before and after \
-with combs at one scale, the search for the smoothing weight; of every hull: lines plan, body plan, sectional areas, hydrostatic \
-curves and diagram sheet.";
+space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm.
+Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
+curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, moves as a map and as arrows, \
+stations, waterlines, buttocks and diagonals before and after with combs at one scale, moves against the assumed noise, deviation against \
+energy.
+Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
+conventions; Bonjean areas; changes.";
 
 fn dpi(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

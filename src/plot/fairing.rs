@@ -93,7 +93,7 @@ pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
 }
 
-fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+pub(super) fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
@@ -147,7 +147,7 @@ fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
     Ok(canvas)
 }
 
-fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+pub(super) fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };

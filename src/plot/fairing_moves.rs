@@ -75,7 +75,7 @@ fn colour(share: f64) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
+pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
     let columns = record.lines.stations.len();
     let deck = record.changes.iter().any(|change| change.waterline.is_none());
     let rows = record.lines.waterlines.len() + usize::from(deck);

@@ -26,6 +26,8 @@ mod outline;
 mod pdf;
 mod png;
 mod profile;
+#[cfg(test)]
+mod report_tests;
 mod scale;
 mod sectional_area;
 mod sections;

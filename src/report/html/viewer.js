@@ -53,7 +53,7 @@
   const surfaceProgram = program(PLACE + `
     attribute vec3 normal; attribute vec3 tint; varying vec3 facing, colour;
     void main() { gl_Position = placed(); facing = turn * vec3(normal.x, side * normal.y, normal.z); colour = tint; }`, `
-    precision mediump float; varying vec3 facing, colour; uniform float zebra;
+    precision highp float; varying vec3 facing, colour; uniform float zebra;
     void main() {
       vec3 n = normalize(facing); if (n.z < 0.0) n = -n;
       float light = 0.68 + 0.34 * max(dot(n, normalize(vec3(-0.3, 0.6, 0.75))), 0.0);
@@ -144,7 +144,7 @@
         for (let d = -3; d < 3; d++) out.push(list[k + d]);
       }
     }
-    return { buffer: buffer(new Float32Array(out)), count: out.length / 3 };
+    return { buffer: buffer(new Float32Array(out)), count: out.length / 3, curves: lists.length };
   }
   const hulls = scene.hulls.map((hull) => {
     const lines = {};
@@ -154,44 +154,52 @@
     return { lines, surface: surface(hull), combs: hull.combs };
   });
 
-  // The usual tooth is an eighth of the half-breadth long; the slider multiplies.
-  const sizes = [];
-  for (const hull of scene.hulls) {
-    for (const kind of KINDS) {
+  // The usual tooth of a kind is a quarter of the half-breadth long, before and after alike; the slider multiplies.
+  const usual = {};
+  for (const kind of KINDS) {
+    const sizes = [];
+    for (const hull of scene.hulls) {
       for (const comb of hull.combs[kind] || []) {
         for (let k = 0; k < comb.teeth.length; k += 3) sizes.push(Math.hypot(comb.teeth[k], comb.teeth[k + 1], comb.teeth[k + 2]));
       }
     }
+    sizes.sort((a, b) => a - b);
+    usual[kind] = sizes[Math.floor(0.8 * sizes.length)] || 1;
   }
-  sizes.sort((a, b) => a - b);
-  const usual = sizes[Math.floor(0.75 * sizes.length)] || 1;
   let combs = null;
   function combLines() {
-    const scale = 0.125 * breadth / usual * Math.pow(10, Number(input("comb-scale").value));
-    const longest = breadth;
+    const longest = 0.6 * breadth, words = [];
+    const scales = {};
+    for (const kind of KINDS) {
+      scales[kind] = 0.25 * breadth / usual[kind] * Math.pow(10, Number(input("comb-scale").value));
+      words.push(kind + "s " + (1 / scales[kind]).toPrecision(2));
+    }
+    const lines = (list, scale) => {
+      const out = [];
+      for (const comb of list) {
+        let last = null;
+        for (let k = 0; k < comb.feet.length; k += 3) {
+          const foot = comb.feet.slice(k, k + 3);
+          let tooth = comb.teeth.slice(k, k + 3).map((t) => t * scale);
+          const size = Math.hypot(tooth[0], tooth[1], tooth[2]);
+          if (size > longest) tooth = tooth.map((t) => t * longest / size);
+          const tip = foot.map((f, d) => f + tooth[d]);
+          out.push(...foot, ...tip);
+          if (last) out.push(...last, ...tip);
+          last = tip;
+        }
+      }
+      return { buffer: buffer(new Float32Array(out)), count: out.length / 3 };
+    };
     combs = hulls.map((hull) => {
       const result = {};
-      for (const kind of KINDS) {
-        const out = [];
-        for (const comb of hull.combs[kind] || []) {
-          let last = null;
-          for (let k = 0; k < comb.feet.length; k += 3) {
-            const foot = comb.feet.slice(k, k + 3);
-            let tooth = comb.teeth.slice(k, k + 3).map((t) => t * scale);
-            const size = Math.hypot(tooth[0], tooth[1], tooth[2]);
-            if (size > longest) tooth = tooth.map((t) => t * longest / size);
-            const tip = foot.map((f, d) => f + tooth[d]);
-            out.push(...foot, ...tip);
-            if (last) out.push(...last, ...tip);
-            last = tip;
-          }
-        }
-        result[kind] = { buffer: buffer(new Float32Array(out)), count: out.length / 3 };
-      }
+      for (const kind of KINDS) result[kind] = lines(hull.combs[kind] || [], scales[kind]);
+      const stations = hull.combs.station || [];
+      result.aft = lines(stations.filter((comb) => comb.feet[0] <= middle), scales.station);
+      result.fore = lines(stations.filter((comb) => comb.feet[0] >= middle), scales.station);
       return result;
     });
-    const words = input("comb-words");
-    words.textContent = "combs: 1 m = " + (1 / scale).toPrecision(2) + " 1/m";
+    input("comb-words").textContent = "1 m of comb in 1/m: " + words.join(", ");
   }
 
   function turn() {
@@ -281,12 +289,17 @@
         drawLines(hull.lines.fore, COLOURS.station, 1, true);
         continue;
       }
-      for (const side of sides) drawLines(hull.lines[kind], COLOURS[kind], side, true);
+      for (const side of sides) drawLines(hull.lines[kind], COLOURS[kind], side, hull.lines[kind].curves < 16);
     }
     if (on("combs") && combs) {
       const set = combs[Math.min(which, combs.length - 1)];
+      const ink = which ? [0.55, 0.55, 0.55] : [0.75, 0.37, 0];
+      if (plan && on("station")) {
+        drawLines(set.aft, ink, -1, false);
+        drawLines(set.fore, ink, 1, false);
+      }
       for (const kind of KINDS) {
-        if (on(kind)) drawLines(set[kind], which ? [0.55, 0.55, 0.55] : [0.75, 0.37, 0], 1, false);
+        if (!plan && on(kind)) drawLines(set[kind], ink, 1, false);
       }
     }
     const legend = input("legend");
