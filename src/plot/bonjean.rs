@@ -85,18 +85,24 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (low, high) = (ends[0].min(0.0), ends[1].max(length));
     let (bottom, top) = (hull.bottom().min(0.0), hull.top());
     let spacing = length / INTERVALS as f64;
-    // The last curve needs room forward of FP.
-    let across = (ROOM[0] - 2.0 * SIDE) / (high - low + spacing);
     let n = drawing_scale(top - bottom, HEIGHT);
     let upward = 1000.0 / f64::from(n);
     let floor = TOP + upward * (top - bottom);
-    let at = |x: f64, z: f64| [SIDE + across * (x - low), floor - upward * (z - bottom)];
     let levels: Vec<f64> = (0..=LEVELS).map(|k| bottom + (top - bottom) * k as f64 / LEVELS as f64).collect();
     let dense = BonjeanTable::new(hull, &table.stations, &levels);
     let largest = dense.areas.iter().flatten().flatten().copied().fold(0.0, f64::max);
     if largest <= 0.0 {
         return Err(PlotError::Chart("the hull has no section areas".to_owned()));
     }
+    // The last curves need room forward of the stem.
+    let reach = dense
+        .areas
+        .iter()
+        .flat_map(|row| row.iter().zip(&table.stations))
+        .filter_map(|(area, x)| Some(x + WIDEST * spacing * (*area)? / largest));
+    let end = reach.fold(high, f64::max) + 0.2 * spacing;
+    let across = (ROOM[0] - 2.0 * SIDE) / (end - low);
+    let at = |x: f64, z: f64| [SIDE + across * (x - low), floor - upward * (z - bottom)];
     let scale = sheet_scale(largest, WIDEST * spacing * across);
     let height = floor + 26.0 + ROW * (table.heights.len() + 2) as f64 + 10.0;
     let mut canvas = Canvas::new(ROOM[0], height);
@@ -110,7 +116,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let names = TextStyle::new(2.6, Anchor::End);
     for &z in &table.heights {
         let design = (z - p.draught).abs() < 1e-9;
-        canvas.line(at(low, z), at(high + spacing, z), if design { &DESIGN } else { &GRID });
+        canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
     }
     let mut last = f64::INFINITY;
     for &z in &table.heights {

@@ -21,6 +21,8 @@ const GRID: [usize; 2] = [161, 49];
 const STEPS: i32 = 7;
 /// Part of the surface that the full colours hold.
 const SHARE: f64 = 0.95;
+/// Curvature that is none, in 1/B (mean) and 1/B^2 (Gaussian).
+const FLAT: f64 = 1e-9;
 /// Height of a chart \[mm\].
 const HEIGHT: f64 = 78.0;
 /// Height of a chart with its head and axis \[mm\].
@@ -125,6 +127,9 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
     sides.push(side(if before.is_some() { "after fairing" } else { "" }, hull));
     let which = usize::from(kind == SurfaceMapKind::Mean);
     let full = sides.iter().map(|side| side.map.size(which, SHARE)).fold(0.0, f64::max);
+    // What is rounding on a hull of this size is flat.
+    let rounding = FLAT / hull.particulars().breadth.powi(2 - which as i32);
+    let full = if full > rounding { full } else { 0.0 };
     let points = || sides.iter().flat_map(|side| &side.map.points);
     let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.at[0]), b.max(p.at[0])));
     let girth = points().map(|p| p.girth).fold(0.0, f64::max);
@@ -144,8 +149,8 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
             text_size: 2.8,
         };
         draw_cells(&mut canvas, &chart, &side.map, kind, full);
-        if kind != SurfaceMapKind::Zebra {
-            draw_zeros(&mut canvas, &chart, &side.map, which, 1e-3 * full);
+        if kind != SurfaceMapKind::Zebra && full > 0.0 {
+            draw_zeros(&mut canvas, &chart, &side.map, which, 1e-2 * full);
         }
         let columns = side.map.columns();
         for row in [0, side.map.rows - 1] {
@@ -258,6 +263,10 @@ fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
     if kind == SurfaceMapKind::Zebra {
         let words = "reflections of lamps along the ship, seen from abeam: a kink is a break of curvature, a step a break of the tangent plane";
         canvas.text([x, y], words, &style);
+        return;
+    }
+    if full <= 0.0 {
+        canvas.text([x, y], "0 all over the side", &style);
         return;
     }
     for step in -STEPS..=STEPS {
