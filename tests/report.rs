@@ -73,8 +73,9 @@ const HULL: [&str; 9] = [
     "sections",
     "zebra-map",
 ];
-const FAIRED: [&str; 9] = [
+const FAIRED: [&str; 10] = [
     "constraints",
+    "convergence",
     "deviation",
     "fairing-arrows",
     "fairing-body-plan",

@@ -37,7 +37,7 @@ space, and opens without a network; report.pdf holds them at true size, each she
 Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
 curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, moves as a map and as arrows, \
 stations, waterlines, buttocks and diagonals before and after with combs at one scale, moves against the assumed noise, deviation against \
-energy.
+energy, convergence.
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 

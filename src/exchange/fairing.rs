@@ -231,6 +231,9 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             })
         })
         .collect();
+    let iterates = faired.solved.solution.progress.iter();
+    let convergence: Vec<Value> =
+        iterates.map(|p| json!({ "primal": number(p.primal), "dual": number(p.dual), "gap": number(p.gap) })).collect();
     let signs = faired.patterns.as_ref().map(|patterns| {
         let rows = faired.program.names.iter().filter(|name| matches!(name, RowName::Sign(..))).count();
         let lobes: usize = patterns.iter().map(|pattern| pattern.flipped.len()).sum();
@@ -278,6 +281,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "suspects": suspects,
         "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
         "notes": outcome.notes,
+        "convergence": convergence,
         "work": { "qps": faired.programs, "iterations": faired.iterations },
     })
 }

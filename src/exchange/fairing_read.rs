@@ -8,7 +8,7 @@ use crate::fairing::job::Change;
 use crate::fairing::record::TableLines;
 use crate::fairing::smoothing::Trial;
 use crate::hull::OffsetStation;
-use crate::qp::Status;
+use crate::qp::{Progress, Status};
 use crate::units::Notation;
 
 /// Why a text is no file of `fair`.
@@ -68,6 +68,8 @@ pub struct FairingFile {
     pub chosen: Trial,
     /// The search for the weight.
     pub trials: Vec<Trial>,
+    /// The iterates of the last program.
+    pub progress: Vec<Progress>,
     /// All of it.
     pub whole: Value,
 }
@@ -79,6 +81,15 @@ struct Record {
     table: LinesRecord,
     noise: Noise,
     smoothing: Smoothing,
+    #[serde(default)]
+    convergence: Vec<Iterate>,
+}
+
+#[derive(Deserialize)]
+struct Iterate {
+    primal: f64,
+    dual: f64,
+    gap: f64,
 }
 
 #[derive(Deserialize)]
@@ -168,6 +179,11 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
                 energy: t.energy,
                 edf: t.edf,
             })
+            .collect(),
+        progress: record
+            .convergence
+            .into_iter()
+            .map(|p| Progress { primal: p.primal, dual: p.dual, gap: p.gap })
             .collect(),
         whole,
     })

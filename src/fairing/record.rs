@@ -4,7 +4,7 @@
 use super::job::{Change, Outcome};
 use super::smoothing::Trial;
 use crate::hull::{Hull, OffsetStation, OffsetTable};
-use crate::qp::Status;
+use crate::qp::{Progress, Status};
 use crate::units::Notation;
 
 /// The lines of a table and the steps of its writing.
@@ -47,6 +47,8 @@ pub struct FairRecord {
     pub chosen: Trial,
     /// The search for the weight.
     pub trials: Vec<Trial>,
+    /// The iterates of the last program.
+    pub progress: Vec<Progress>,
 }
 
 impl From<&OffsetTable> for TableLines {
@@ -78,6 +80,7 @@ impl FairRecord {
             edf: faired.edf,
             chosen: faired.chosen,
             trials: faired.trials.clone(),
+            progress: faired.solved.solution.progress.clone(),
         }
     }
 

@@ -9,6 +9,7 @@ mod canvas;
 mod caption;
 mod chart;
 mod comb;
+mod convergence;
 mod deviation;
 mod diagram_sheet;
 mod fair_curve;
@@ -42,6 +43,7 @@ mod title_block;
 mod view;
 
 pub use bonjean::{BonjeanTable, bonjean_figure};
+pub use convergence::convergence_figure;
 pub use deviation::deviation_figure;
 pub use fair_curve::fair_curve_figure;
 pub use fairing::{fairing_body_plan, fairing_half_breadth_plan};

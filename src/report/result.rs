@@ -169,15 +169,27 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         Some(text) => {
             let path = folder.join("fairing.json");
             let file = read_fairing(&text).map_err(|error| unread(&path, &error.to_string()))?;
-            let FairingFile { name, status, lines, sigma, edf, chosen, trials, whole } = file;
+            let FairingFile { name, status, lines, sigma, edf, chosen, trials, progress, whole } = file;
             let text = reader.needed("changes.csv", "`fair`")?;
             let moved =
                 read_changes(&text, &lines).map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
             let before = reader.hull("start.json", "`fair`")?.hull;
             let after = hull.clone();
             let lambda = chosen.lambda;
-            let record =
-                FairRecord { name, status, before, after, lines, changes: moved, sigma, lambda, edf, chosen, trials };
+            let record = FairRecord {
+                name,
+                status,
+                before,
+                after,
+                lines,
+                changes: moved,
+                sigma,
+                lambda,
+                edf,
+                chosen,
+                trials,
+                progress,
+            };
             changes = Some(text);
             Some((record, whole))
         }

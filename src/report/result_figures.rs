@@ -11,9 +11,9 @@ use super::result::JobResult;
 use super::result_page::constraints;
 use crate::fairing::record::FairRecord;
 use crate::plot::{
-    Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, deviation_figure, fairing_arrows,
-    fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves, smoothing_figure,
-    surface_map, table_figure,
+    Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
+    fairing_arrows, fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves,
+    smoothing_figure, surface_map, table_figure,
 };
 
 /// A figure of a report.
@@ -152,6 +152,15 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                  away.",
             ],
             Box::new(|| smoothing_figure(record)),
+        ),
+        job(
+            [
+                "convergence",
+                "Convergence",
+                "All three lines fall to rounding where the program was solved; lines that level off above it are a program that \
+                 was not.",
+            ],
+            Box::new(|| convergence_figure(record)),
         ),
     ]
 }
