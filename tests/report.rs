@@ -62,8 +62,9 @@ fn text(files: &[OutputFile], name: &str) -> String {
 }
 
 /// The figures of a hull, and those of a faired table before them.
-const HULL: [&str; 9] = [
+const HULL: [&str; 10] = [
     "bonjean",
+    "design-condition",
     "diagram-sheet",
     "gaussian-map",
     "hydrostatics",
@@ -73,7 +74,7 @@ const HULL: [&str; 9] = [
     "sections",
     "zebra-map",
 ];
-const FAIRED: [&str; 10] = [
+const FAIRED: [&str; 11] = [
     "constraints",
     "convergence",
     "deviation",
@@ -84,6 +85,7 @@ const FAIRED: [&str; 10] = [
     "fairing-half-breadth-plan",
     "fairing-moves",
     "lcurve",
+    "verdict",
 ];
 
 const TABLES: [&str; 13] = [

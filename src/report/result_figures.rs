@@ -7,9 +7,11 @@ use std::thread;
 use serde_json::Value;
 
 use super::failure::Failure;
+use super::page::conventions_line;
 use super::result::JobResult;
-use super::result_page::constraints;
+use super::result_page::{Table, condition, constraints, verdict};
 use crate::fairing::record::FairRecord;
+use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{
     Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
     fairing_arrows, fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves,
@@ -81,7 +83,10 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "What is held, and at which price",
                 "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
             ],
-            Box::new(|| Ok(constraints_figure(fairing))),
+            Box::new(|| {
+                let note = "price: RMS of the moves that dropping the wish would save";
+                Ok(sheet("CONSTRAINTS AND PRICES", note, constraints(fairing)))
+            }),
         ),
         job(
             [
@@ -173,24 +178,46 @@ fn some(drawn: Result<Svg, PlotError>) -> Result<Option<Svg>, PlotError> {
     }
 }
 
-/// The table of what is held; none where nothing is.
-fn constraints_figure(fairing: &Value) -> Option<Svg> {
-    let table = constraints(fairing);
+/// A table on a sheet; none where it has no rows.
+fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
     let heads: Vec<&str> = table.heads.iter().map(String::as_str).collect();
     let rows: Vec<Vec<String>> = table.rows.into_iter().map(|(_, cells)| cells).collect();
-    let note = "price: RMS of the moves that dropping the wish would save";
-    (!rows.is_empty()).then(|| table_figure("CONSTRAINTS AND PRICES", note, &heads, table.words, &rows))
+    (!rows.is_empty()).then(|| table_figure(title, note, &heads, table.words, &rows))
+}
+
+/// What the fairing came to, in sentences; none of other results.
+fn verdict_figure(result: &JobResult) -> Option<Svg> {
+    let rows = verdict(result).into_iter().map(|(bad, line)| (bad, vec![line])).collect();
+    let table = Table { heads: vec![result.hull.name().to_owned()], words: 1, rows };
+    sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
+}
+
+/// The design condition, that before fairing beside it.
+fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
+    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
+    let before = inputs.before.and_then(rows);
+    sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
 }
 
 /// What is drawn of a result.
 fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
     let mut jobs: Vec<Job<'a>> =
         result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
+    let came = [
+        "verdict",
+        "What the fairing came to",
+        "Moves, inflections and prices in one look; the sheets that follow prove them.",
+    ];
+    jobs.insert(0, Job { words: came, draw: Box::new(|| Ok(verdict_figure(result))) });
     let standard = |figure: Figure| Job {
         words: words(figure),
         draw: Box::new(move || figure.draw(inputs).map(Some)) as Draw<'a>,
     };
     jobs.extend(Figure::ALL.map(standard));
+    jobs.push(Job {
+        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught."],
+        draw: Box::new(|| Ok(condition_figure(inputs))),
+    });
     jobs.push(Job {
         words: [
             "bonjean",

@@ -79,7 +79,7 @@ fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
 }
 
 /// The design condition, and that before fairing where there is one.
-fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) -> Table {
+pub(super) fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) -> Table {
     let mut table = match before {
         Some(_) => Table::new(&["quantity", "key", "unit", "before", "after", "difference"], 3),
         None => Table::new(&["quantity", "key", "unit", "value"], 3),
@@ -234,7 +234,7 @@ fn changes(result: &JobResult) -> Option<Table> {
 }
 
 /// What the fairing came to, in sentences.
-fn verdict(result: &JobResult) -> Vec<(bool, String)> {
+pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
     let Some((record, fairing)) = &result.fairing else { return Vec::new() };
     let (rms, largest, _) = record.moves();
     let left_out = record.changes.iter().filter(|change| change.suspect).count();
@@ -365,7 +365,7 @@ pub(super) fn report_page(
         let told = "<p>Buttocks and diagonals were not used in the fit: they are the independent check.</p>\n";
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(fairing).html())));
     }
-    sections.push(("condition", "Design condition", condition(design, before).html()));
+    sections.push(("condition", "Design condition, to be sorted", condition(design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
     if let Some(table) = changes(result) {
         sections.push(("changes", "Every offset before and after", table.html()));
