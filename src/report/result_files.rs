@@ -1,5 +1,7 @@
 //! The job of `report`: a result in, its figures and pages out. Nothing is written here.
 
+use std::thread;
+
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::manifest_file;
@@ -36,7 +38,6 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         .fairing
         .as_ref()
         .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
-    let page = report_page(result, &design, before.as_ref(), &curves, &figures);
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let large = match settings.sheet {
         Sheet::A3 => None,
@@ -46,10 +47,16 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         .iter()
         .map(|figure| (figure.title, large.as_ref().filter(|_| figure.key == "lines").unwrap_or(&figure.svg)))
         .collect();
-    let pdf = write_pdf(hull.name(), &pages).map_err(internal)?;
+    // The PDF takes as long as page and tables together.
+    let (pdf, page, tables) = thread::scope(|scope| {
+        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages));
+        let page = report_page(result, &design, before.as_ref(), &curves, &figures);
+        (pdf.join(), page, report_tables(result, &curves))
+    });
+    let pdf = pdf.map_err(|_| Failure::Internal("report.pdf: it could not be made".to_owned()))?.map_err(internal)?;
     let mut files =
         vec![OutputFile::text("report.html", page), OutputFile { name: "report.pdf".to_owned(), contents: pdf }];
-    files.extend(report_tables(result, &curves)?);
+    files.extend(tables?);
     for figure in figures {
         files.push(OutputFile::text(&format!("{}.svg", figure.key), figure.svg.as_str().to_owned()));
         files.push(OutputFile { name: format!("{}.png", figure.key), contents: figure.png });
