@@ -33,6 +33,13 @@ pub(super) struct ReportFigure {
     pub(super) png: Vec<u8>,
 }
 
+impl ReportFigure {
+    /// Whether it is a table, which the page has as text that can be sorted.
+    pub(super) fn is_table(&self) -> bool {
+        ["verdict", "constraints", "design-condition"].contains(&self.key)
+    }
+}
+
 type Draw<'a> = Box<dyn Fn() -> Result<Option<Svg>, PlotError> + Sync + 'a>;
 
 /// Key, heading, caption and drawing of a figure.

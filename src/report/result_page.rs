@@ -17,6 +17,9 @@ const STYLE: &str = include_str!("html/page.css");
 const VIEWER: &str = include_str!("html/viewer.js");
 const TABLES: &str = include_str!("html/tables.js");
 
+/// Width of a figure that fills the column \[mm\].
+const FULL: f64 = 400.0;
+
 /// Text for HTML.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
@@ -29,8 +32,11 @@ fn inline(figure: &ReportFigure) -> String {
     // The size is that of the column; the viewBox keeps the proportions.
     let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
     let shape = head.find("viewBox=").map_or("", |at| &head[at..]);
+    // Small charts do not fill the column.
+    let wide = head.split("width=\"").nth(1).and_then(|rest| rest.split("mm").next()?.parse::<f64>().ok());
+    let part = wide.map_or(100.0, |millimetres| (100.0 * millimetres / FULL).clamp(50.0, 100.0));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" {shape}{rest}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%\" {shape}{rest}",
         escape(figure.title)
     )
 }
@@ -353,8 +359,8 @@ pub(super) fn report_page(
     if let Some((_, fairing)) = &result.fairing {
         sections.push(("suspects", "Suspects", suspects(fairing).html()));
         sections.push((
-            "held",
-            "Constraints and certificate", 
+            "constraints",
+            "What is held, and at which price", 
             format!(
                 "<p>The price is the RMS of the moves that dropping the wish would save. Duality gap {}, largest violation {}.</p>\n{}",
                 figures(&fairing["certificate"]["gap"], 2),
@@ -365,7 +371,7 @@ pub(super) fn report_page(
         let told = "<p>Buttocks and diagonals were not used in the fit: they are the independent check.</p>\n";
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(fairing).html())));
     }
-    sections.push(("condition", "Design condition, to be sorted", condition(design, before).html()));
+    sections.push(("condition", "Design condition", condition(design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
     if let Some(table) = changes(result) {
         sections.push(("changes", "Every offset before and after", table.html()));
@@ -397,13 +403,14 @@ pub(super) fn report_page(
         html.push_str("</details>\n");
     }
     html.push_str("</header>\n<nav><a href=\"#viewer\">The hull in space</a>");
-    let links = drawn.iter().map(|figure| (figure.key, figure.title));
+    let shown = || drawn.iter().filter(|figure| !figure.is_table());
+    let links = shown().map(|figure| (figure.key, figure.title));
     for (id, title) in links.chain(sections.iter().map(|(id, title, _)| (*id, *title))) {
         html.push_str(&format!("<a href=\"#{id}\">{title}</a>"));
     }
     html.push_str("</nav>\n");
     html.push_str(&viewer(result));
-    for figure in drawn {
+    for figure in shown() {
         html.push_str(&format!(
             "<section id=\"{}\"><h2>{}</h2>\n<figure>\n{}<figcaption>{}</figcaption></figure></section>\n",
             figure.key,
