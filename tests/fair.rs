@@ -74,6 +74,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "lcurve.svg",
         "manifest.json",
         "offsets.csv",
+        "start.json",
         "summary.json",
     ];
     assert_eq!(names, expected);

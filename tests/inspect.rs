@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use loftsman::fairing::inspect::{Findings, Inspection, Local, Planes, Profile, Resolution, kind};
+use loftsman::fairing::inspect::{Findings, Inspection, Local, Planes, Profile, Resolution, SurfaceMap, kind};
 use loftsman::hull::{Cut, Hull, PrincipalParticulars};
 use loftsman::parametric::analytic::{self, Dimensions};
 use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
@@ -457,4 +457,41 @@ fn a_parabola_has_its_curvature_outward() {
         assert!(comb.inflections.is_empty() && comb.teeth.len() == 41);
         assert!(comb.teeth.iter().all(|tooth| tooth.tooth[1] > 0.0), "{:?}", comb.cut);
     }
+}
+
+/// Curvatures of y = (B/2) (1 - (2x/L - 1)^2) (1 - (1 - z/T)^2) as a graph over the centreplane: K = (y_xx y_zz - y_xz^2) / (1 + y_x^2 +
+/// y_z^2)^2 and H = -((1 + y_z^2) y_xx - 2 y_x y_z y_xz + (1 + y_x^2) y_zz) / (2 (1 + y_x^2 + y_z^2)^(3/2)).
+#[test]
+fn maps_of_the_wigley_hull_have_its_curvature_and_girth() {
+    let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
+    let hull = analytic::wigley("Wigley", &dimensions).unwrap().hull;
+    for map in [SurfaceMap::new(&hull, 31, 17), SurfaceMap::at_stations(&hull, 31, 17)] {
+        assert_eq!((map.columns(), map.points.len()), (31, 31 * 17));
+        let mut compared = 0;
+        for point in map.points.iter().filter(|p| p.at[2] < 6.2 && p.at[0] > 1.0 && p.at[0] < 99.0) {
+            let [x, y, z] = point.at;
+            let (s, t) = (2.0 * x / 100.0 - 1.0, 1.0 - z / 6.25);
+            let (a, b) = (1.0 - s * s, 1.0 - t * t);
+            assert!((y - 5.0 * a * b).abs() < 1e-9, "{point:?}");
+            let (ax, bz) = (-4.0 * s / 100.0, 2.0 * t / 6.25);
+            let (yx, yz, yxz) = (5.0 * ax * b, 5.0 * a * bz, 5.0 * ax * bz);
+            let (yxx, yzz) = (5.0 * b * -8.0 / 1e4, 5.0 * a * -2.0 / (6.25 * 6.25));
+            let w = 1.0 + yx * yx + yz * yz;
+            let gaussian = (yxx * yzz - yxz * yxz) / (w * w);
+            let mean = -((1.0 + yz * yz) * yxx - 2.0 * yx * yz * yxz + (1.0 + yx * yx) * yzz) / (2.0 * w.powf(1.5));
+            let [k, h] = point.curvature.unwrap();
+            assert!((k - gaussian).abs() < 1e-9 && (h - mean).abs() < 1e-9, "{point:?}: {gaussian} {mean}");
+            let normal = point.normal.unwrap();
+            assert!((normal[1] - 1.0 / w.sqrt()).abs() < 1e-9 && (normal[0] + yx / w.sqrt()).abs() < 1e-9, "{point:?}");
+            compared += 1;
+        }
+        assert!(compared > 150, "{compared}");
+    }
+    // The girth of the midship section: the length of the parabola y = 5 (1 - t^2) with z = 6.25 (1 - t), and the wall above it.
+    let map = SurfaceMap::at_stations(&hull, 31, 17);
+    let middle = map.point(15, 16);
+    let slope: f64 = 1.6;
+    let parabola = 6.25 * 0.5 * ((1.0 + slope * slope).sqrt() + slope.asinh() / slope);
+    let above = middle.at[2] - 6.25;
+    assert!((middle.girth - parabola - above).abs() < 2e-3, "{} {}", middle.girth, parabola + above);
 }

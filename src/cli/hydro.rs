@@ -105,7 +105,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     source.notes.iter().for_each(|note| stream::message(note));
     let table = CurvesOfForm::new(&source.hull, &arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {
-        stream::json(&hydrostatics_json(&table))?
+        stream::json(&hydrostatics_json(&source.hull, &table).map_err(|e| Failure::Internal(e.to_string()))?)?
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {

@@ -12,6 +12,7 @@ mod hydro;
 mod inspect;
 mod new;
 mod offsets;
+mod report;
 mod run_files;
 mod schema;
 mod section;
@@ -58,6 +59,8 @@ enum Command {
     FairCurve(fair_curve::Arguments),
     /// Print a commented design file; without a name, list the names
     New(new::Arguments),
+    /// Figures and pages of what generate, fit, fair or hydro gave
+    Report(report::Arguments),
     /// Print the JSON Schema of the design, the method or the job file
     Schema(schema::Arguments),
     /// Hydrostatic table of a hull at any draughts
@@ -115,6 +118,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Fit(arguments) => fit::run(arguments),
         Command::FairCurve(arguments) => fair_curve::run(arguments),
         Command::New(arguments) => new::run(arguments),
+        Command::Report(arguments) => report::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
         Command::Hydro(arguments) => hydro::run(arguments),
         Command::Offsets(arguments) => offsets::run(arguments),
@@ -127,11 +131,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => report(&failure),
+        Err(failure) => told(&failure),
     }
 }
 
-fn report(failure: &Failure) -> ExitCode {
+fn told(failure: &Failure) -> ExitCode {
     stream::message(&failure.to_string());
     ExitCode::from(failure.exit_code())
 }

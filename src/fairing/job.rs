@@ -12,6 +12,7 @@ use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::program::RowName;
 use super::proposals::{Accepted, Proposal};
+use super::record::moves;
 use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
@@ -379,11 +380,7 @@ impl Outcome {
     /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
     #[must_use]
     pub fn moves(&self) -> (f64, f64, Option<&Change>) {
-        let kept: Vec<&Change> = self.changes.iter().filter(|change| !change.suspect).collect();
-        let size = |change: &Change| (change.after - change.before).abs();
-        let squares: f64 = kept.iter().map(|change| size(change).powi(2)).sum();
-        let largest = kept.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b)));
-        ((squares / kept.len().max(1) as f64).sqrt(), largest.map_or(0.0, size), largest)
+        moves(&self.changes)
     }
 
     /// The least and the greatest value of a constraint's quantity within the tolerances and the other constraints; none when these

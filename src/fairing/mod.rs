@@ -21,6 +21,7 @@ pub mod model;
 pub mod pattern;
 pub mod program;
 pub mod proposals;
+pub mod record;
 pub mod refresh;
 pub mod relinearise;
 mod robust;

@@ -6,6 +6,7 @@ mod area;
 mod cell;
 mod chart;
 mod charted;
+mod diagonal;
 mod fit;
 mod form;
 mod functional;
@@ -22,6 +23,7 @@ pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
 pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedParticulars, TransomPlane, Written};
 pub(crate) use charted::advance;
+pub use diagonal::diagonal_offset;
 pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations,
     PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate,

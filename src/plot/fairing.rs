@@ -8,15 +8,16 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale};
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
+use super::sheet::ROOM;
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{Comb, combs};
-use crate::fairing::job::Outcome;
-use crate::hull::{Cut, Face, Hull, OffsetTable};
+use crate::fairing::record::FairRecord;
+use crate::hull::{Cut, Face, Hull};
 use crate::qp::Status;
 
-/// The sheet, A3 \[mm\].
-const SHEET: [f64; 2] = [420.0, 297.0];
+/// What the frame leaves of A3 \[mm\].
+pub(super) const SHEET: [f64; 2] = ROOM;
 /// Room at the sides, above and below the drawing \[mm\].
 const SIDE: f64 = 38.0;
 const HEAD: f64 = 50.0;
@@ -25,6 +26,8 @@ const FOOT: f64 = 34.0;
 const CHORD: f64 = 0.01;
 /// Teeth of a comb.
 const TEETH: usize = 121;
+/// Most lines of a plan that bear combs; beyond it every second, third, ... does, and the last.
+const MOST_COMBS: usize = 12;
 
 const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
 const AFTER: Pen = Pen::new(0.22, "#000000");
@@ -34,44 +37,38 @@ const AFTER_COMB: CombPens =
     CombPens { teeth: Pen::new(0.1, "#a9c0e2"), tips: Pen::new(0.2, "#1f5fa8"), ring: Pen::new(0.4, "#c00000") };
 
 /// A plan: which lines, where points of the ship stand.
-struct Plan<'a> {
-    table: &'a OffsetTable,
-    outcome: &'a Outcome,
-    title: &'static str,
-    scale: String,
+pub(super) struct Plan<'a> {
+    pub(super) record: &'a FairRecord,
+    pub(super) title: &'static str,
+    pub(super) scale: String,
 }
 
 /// Body plan before and after, aft sections on the left.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without stations.
-pub fn fairing_body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, PlotError> {
-    Ok(Svg { text: body_plan(table, outcome)?.finish("fairing-body-plan") })
+pub fn fairing_body_plan(record: &FairRecord) -> Result<Svg, PlotError> {
+    Ok(Svg { text: body_plan(record)?.finish("fairing-body-plan") })
 }
 
 /// Half-breadth plan before and after, bow on the right.
 ///
 /// # Errors
-/// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, PlotError> {
-    Ok(Svg { text: half_breadth_plan(table, outcome)?.finish("fairing-half-breadth-plan") })
+/// [`PlotError::Chart`] for a table without waterlines.
+pub fn fairing_half_breadth_plan(record: &FairRecord) -> Result<Svg, PlotError> {
+    Ok(Svg { text: half_breadth_plan(record)?.finish("fairing-half-breadth-plan") })
 }
 
 /// The curves of a plane on the side of a hull.
-fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
+pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
     let section = hull.section(cut, 1e-6);
     let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
-/// The departure that counts as one of the table: its rounding, or a tenth of its noise.
-fn tolerance(plan: &Plan<'_>) -> f64 {
-    plan.table.form.quantum().unwrap_or(0.0).max(0.1 * plan.outcome.faired.sigma)
-}
-
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
-fn extent(table: &OffsetTable, outcome: &Outcome) -> Option<([f64; 2], f64, [f64; 2])> {
-    let points = outcome.changes.iter().map(|change| [change.x, change.before.max(change.after), change.z]);
+pub(super) fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
+    let points = record.changes.iter().map(|change| [change.x, change.before.max(change.after), change.z]);
     let mut x = [f64::INFINITY, f64::NEG_INFINITY];
     let mut z = x;
     let mut breadth = 0.0_f64;
@@ -80,45 +77,44 @@ fn extent(table: &OffsetTable, outcome: &Outcome) -> Option<([f64; 2], f64, [f64
         z = [z[0].min(pz), z[1].max(pz)];
         breadth = breadth.max(py);
     }
-    if let Some(lowest) = table.waterlines.first() {
+    if let Some(lowest) = record.lines.waterlines.first() {
         z[0] = z[0].min(*lowest);
     }
-    for end in table.endings.iter().flatten().flatten() {
+    for end in record.lines.endings.iter().flatten().flatten() {
         x = [x[0].min(*end), x[1].max(*end)];
     }
     (breadth > 0.0 && x[1] > x[0] && z[1] > z[0]).then_some((x, breadth, z))
 }
 
 /// Amidships \[m\]: L_PP/2, or the middle of the offsets where a table has its stations from elsewhere than AP.
-fn midship(outcome: &Outcome, x: [f64; 2]) -> f64 {
-    let half = 0.5 * outcome.after.particulars().length_between_perpendiculars;
+pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
+    let half = 0.5 * record.after.particulars().length_between_perpendiculars;
     let middle = 0.5 * (x[0] + x[1]);
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
 }
 
-fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
-    let Some((x, breadth, z)) = extent(table, outcome) else {
+pub(super) fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+    let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
     let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan { table, outcome, title: "BODY PLAN", scale: format!("1:{n}") };
+    let plan = Plan { record, title: "BODY PLAN", scale: format!("1:{n}") };
     let floor = SHEET[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
-    let midship = midship(outcome, x);
+    let midship = midship(record, x);
     let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
     let at = move |half: f64| {
         move |p: [f64; 3]| [0.5 * SHEET[0] + half * millimetres * p[1], floor - millimetres * (p[2] - z[0])]
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let frame = |half: f64, height: f64| at(half)([0.0, breadth, height]);
-    let waterlines = outcome.waterlines();
-    for &height in &waterlines {
+    for &height in &record.lines.waterlines {
         canvas.line(frame(-1.0, height), frame(1.0, height), &GRID);
     }
     canvas.line(frame(-1.0, z[0]), frame(1.0, z[0]), &BASE);
     canvas.line(at(1.0)([0.0, 0.0, z[0]]), at(1.0)([0.0, 0.0, z[1]]), &BASE);
-    let cuts: Vec<Cut> = table.stations.iter().map(|station| Cut::Station { x: station.station.x }).collect();
+    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| Cut::Station { x: station.x }).collect();
     let place = |cut: &Cut| match *cut {
         Cut::Station { x } => at(side(x)),
         _ => at(1.0),
@@ -128,7 +124,7 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
     title(&mut canvas, &plan, &drawn.scale);
     let style = TextStyle::new(2.6, Anchor::Middle).halo();
     let window = Rectangle::new(8.0, 24.0, SHEET[0] - 8.0, SHEET[1] - 14.0);
-    for (k, station) in table.stations.iter().enumerate() {
+    for (k, station) in record.lines.stations.iter().enumerate() {
         let ends = drawn.curves.iter().filter(|(cut, _)| *cut == k).flat_map(|(_, line)| line);
         let Some(&end) = ends.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
         let mut shifts: Vec<[f64; 2]> =
@@ -136,11 +132,11 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
         shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
         let places: Vec<[f64; 2]> =
             shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
-        let name: String = caption::plain(&station.station.name).chars().take(9).collect();
+        let name: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_off_curves(&mut canvas, &name, &style, &places, &window, (end, &THREAD));
     }
     let style = TextStyle::new(2.4, Anchor::End);
-    for &height in &waterlines {
+    for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
         let places = [[x - 2.0, y], [x - 9.0, y]];
         placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
@@ -151,10 +147,9 @@ fn body_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError
     Ok(canvas)
 }
 
-fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
-    let waterlines = outcome.waterlines();
-    let Some((x, breadth, _)) = extent(table, outcome).filter(|_| !waterlines.is_empty()) else {
-        return Err(PlotError::Chart("the table has no offsets".to_owned()));
+pub(super) fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+    let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
+        return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
     let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT - 20.0];
     let n = drawing_scale(x[1] - x[0], room[0]);
@@ -162,31 +157,31 @@ fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, P
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { table, outcome, title: "HALF-BREADTH PLAN", scale };
+    let plan = Plan { record, title: "HALF-BREADTH PLAN", scale };
     let left = 0.5 * (SHEET[0] - millimetres * (x[1] - x[0]));
     let floor = SHEET[1] - FOOT - 4.0;
     let at = move |p: [f64; 3]| [left + millimetres * (p[0] - x[0]), floor - stretch * millimetres * p[1]];
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    for station in &table.stations {
-        let x = station.station.x;
+    for station in &record.lines.stations {
+        let x = station.x;
         canvas.line(at([x, 0.0, 0.0]), at([x, breadth, 0.0]), &GRID);
     }
     canvas.line(at([x[0], 0.0, 0.0]), at([x[1], 0.0, 0.0]), &BASE);
-    let cuts: Vec<Cut> = waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
+    let cuts: Vec<Cut> = record.lines.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
     let drawn = draw(&mut canvas, &plan, &cuts, CHORD / (stretch * millimetres), &|_| at);
     title(&mut canvas, &plan, &drawn.scale);
     let mut placer = drawn.placer();
     let window = Rectangle::new(8.0, 24.0, SHEET[0] - 8.0, SHEET[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
     let style = TextStyle::new(2.4, Anchor::Middle);
-    for station in &table.stations {
-        let [px, py] = at([station.station.x, 0.0, 0.0]);
-        let name: String = caption::plain(&station.station.name).chars().take(9).collect();
+    for station in &record.lines.stations {
+        let [px, py] = at([station.x, 0.0, 0.0]);
+        let name: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_point(&mut canvas, &name, &style, &[[px, py + 3.0], [px, py + 6.4]], &window);
     }
     let style = TextStyle::new(2.5, Anchor::Middle);
-    let count = waterlines.len();
-    for (k, z) in waterlines.iter().enumerate() {
+    let count = record.lines.waterlines.len();
+    for (k, z) in record.lines.waterlines.iter().enumerate() {
         let Some(curve) = drawn.curves.iter().position(|(cut, _)| *cut == k) else { continue };
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };
@@ -200,17 +195,17 @@ fn half_breadth_plan(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, P
 }
 
 /// What was drawn.
-struct Drawn {
+pub(super) struct Drawn {
     /// The fair curves with the number of their plane.
-    curves: Vec<(usize, Vec<[f64; 2]>)>,
+    pub(super) curves: Vec<(usize, Vec<[f64; 2]>)>,
     /// Inflections.
     rings: Vec<[f64; 2]>,
-    scale: CombScale,
+    pub(super) scale: CombScale,
 }
 
 impl Drawn {
     /// Keeps names off the curves and the rings.
-    fn placer(&self) -> LabelPlacer {
+    pub(super) fn placer(&self) -> LabelPlacer {
         let mut placer = LabelPlacer::default();
         self.curves.iter().for_each(|(_, line)| placer.add_curve(line));
         for [x, y] in &self.rings {
@@ -221,20 +216,24 @@ impl Drawn {
 }
 
 /// Draws combs and curves.
-fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
+pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     canvas: &mut Canvas,
     plan: &Plan<'_>,
     cuts: &[Cut],
     deviation: f64,
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
-    let tolerance = tolerance(plan);
-    let [before, after] = [&plan.outcome.before, &plan.outcome.after].map(|hull| combs(hull, cuts, TEETH, tolerance));
+    let tolerance = plan.record.tolerance();
+    let stride = cuts.len().div_ceil(MOST_COMBS).max(1);
+    let last = cuts.len().saturating_sub(1);
+    let chosen: Vec<Cut> =
+        cuts.iter().enumerate().filter(|(k, _)| k % stride == 0 || *k == last).map(|(_, cut)| *cut).collect();
+    let [before, after] = [&plan.record.before, &plan.record.after].map(|hull| combs(hull, &chosen, TEETH, tolerance));
     let scale = CombScale::fitting(&after);
     before.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &BEFORE_COMB));
     after.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &AFTER_COMB));
     let mut drawn = Vec::new();
-    for (hull, pen, fair) in [(&plan.outcome.before, &BEFORE, false), (&plan.outcome.after, &AFTER, true)] {
+    for (hull, pen, fair) in [(&plan.record.before, &BEFORE, false), (&plan.record.after, &AFTER, true)] {
         for (k, cut) in cuts.iter().enumerate() {
             for line in curves(hull, *cut, deviation) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(at(cut)).collect();
@@ -253,11 +252,11 @@ fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
 }
 
 /// Title, scales and key.
-fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
-    let name: String = caption::plain(&plan.table.name).chars().take(60).collect();
+pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
+    let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
     canvas.text([0.5 * SHEET[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
-    let (rms, largest, _) = plan.outcome.moves();
+    let (rms, largest, _) = plan.record.moves();
     let second = format!(
         "scale {}    {}    moves {:.2} mm RMS, {:.2} mm at most",
         plan.scale,
@@ -280,7 +279,7 @@ fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
         canvas.text([x + 77.0, y], "inflection", &style);
         x += 108.0;
     }
-    if plan.outcome.status != Status::Optimal {
+    if plan.record.status != Status::Optimal {
         canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
     }
     canvas.text([SHEET[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));

@@ -5,13 +5,14 @@
 //! largest move is framed and called out.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::sheet::ROOM;
 use super::{PlotError, Svg, caption};
-use crate::fairing::job::{Change, Outcome};
+use crate::fairing::job::Change;
+use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
-use crate::hull::OffsetTable;
 
 /// Width of the sheet \[mm\].
-const WIDTH: f64 = 420.0;
+const WIDTH: f64 = ROOM[0];
 /// Room left and right \[mm\].
 const MARGIN: f64 = 14.0;
 /// Height over the map \[mm\].
@@ -32,8 +33,8 @@ const INWARD: [f64; 3] = [33.0, 102.0, 172.0];
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_moves(table: &OffsetTable, outcome: &Outcome) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(table, outcome)?.finish("fairing-moves") })
+pub fn fairing_moves(record: &FairRecord) -> Result<Svg, PlotError> {
+    Ok(Svg { text: compose(record)?.finish("fairing-moves") })
 }
 
 /// The map on the sheet.
@@ -41,6 +42,8 @@ struct Map {
     frame: Rectangle,
     cell: [f64; 2],
     rows: usize,
+    /// Points of sections, from the keel up; none of a table of half-breadths.
+    points: Vec<Origin>,
     /// Largest move \[m\].
     full: f64,
     /// Digits after the point of a move in millimetres.
@@ -49,12 +52,13 @@ struct Map {
 
 impl Map {
     /// The cell of an offset; the deck at side is the row above the waterlines, points of a section follow each other upwards.
-    fn place(&self, table: &OffsetTable, change: &Change) -> Rectangle {
+    fn place(&self, change: &Change) -> Rectangle {
         let row = match change.origin {
             Origin::HalfBreadth { waterline, .. } => waterline,
             Origin::Deck { .. } => self.rows - 1,
-            Origin::Point { station, outline, point } => {
-                point + table.stations[station].outlines[..outline].iter().map(Vec::len).sum::<usize>()
+            Origin::Point { station, .. } => {
+                let mut points = self.points.iter().filter(|origin| origin.station() == station);
+                points.position(|origin| *origin == change.origin).unwrap_or(0)
             }
         };
         let left = self.frame.left + self.cell[0] * change.station as f64;
@@ -81,53 +85,58 @@ fn colour(share: f64) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-fn compose(table: &OffsetTable, outcome: &Outcome) -> Result<Canvas, PlotError> {
-    let columns = table.stations.len();
-    let deck = outcome.changes.iter().any(|change| matches!(change.origin, Origin::Deck { .. }));
-    let points = table.stations.iter().map(|station| station.outlines.iter().map(Vec::len).sum()).max().unwrap_or(0);
-    let rows = (table.waterlines.len() + usize::from(deck)).max(points);
-    if outcome.changes.is_empty() || columns == 0 || rows == 0 {
+pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
+    let columns = record.lines.stations.len();
+    let deck = record.changes.iter().any(|change| matches!(change.origin, Origin::Deck { .. }));
+    let all = record.changes.iter().map(|change| change.origin);
+    let points: Vec<Origin> = all.filter(|origin| matches!(origin, Origin::Point { .. })).collect();
+    let longest = (0..columns).map(|k| points.iter().filter(|origin| origin.station() == k).count()).max();
+    let rows = match longest {
+        Some(rows) if rows > 0 => rows,
+        _ => record.lines.waterlines.len() + usize::from(deck),
+    };
+    if record.changes.is_empty() || columns == 0 || rows == 0 {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     }
     let room = WIDTH - 2.0 * MARGIN - NAMES;
-    let cell = [(room / columns as f64).min(LARGEST[0]), LARGEST[1]];
+    let cell = [(room / columns as f64).min(LARGEST[0]), LARGEST[1].min((ROOM[1] - HEAD - FOOT) / rows as f64)];
     let left = MARGIN + NAMES + 0.5 * (room - cell[0] * columns as f64);
     let bottom = HEAD + cell[1] * rows as f64;
     let frame = Rectangle::new(left, HEAD, left + cell[0] * columns as f64, bottom);
-    let kept = outcome.changes.iter().filter(|change| !change.suspect);
+    let kept = record.changes.iter().filter(|change| !change.suspect);
     let full = kept.map(|change| moved(change).abs()).fold(0.0, f64::max);
     let digits = match 1000.0 * full {
         most if most >= 100.0 => 0,
         most if most >= 1.0 => 1,
         _ => 2,
     };
-    let map = Map { frame, cell, rows, full, digits };
+    let map = Map { frame, cell, rows, points, full, digits };
     let mut canvas = Canvas::new(WIDTH, bottom + FOOT);
-    draw_cells(&mut canvas, table, outcome, &map);
-    draw_names(&mut canvas, table, deck, &map);
-    head(&mut canvas, table, outcome);
+    draw_cells(&mut canvas, record, &map);
+    draw_names(&mut canvas, record, deck, &map);
+    head(&mut canvas, record);
     key(&mut canvas, &map, bottom + 26.0);
     canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)
 }
 
-fn draw_cells(canvas: &mut Canvas, table: &OffsetTable, outcome: &Outcome, map: &Map) {
+fn draw_cells(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
     let frame = &map.frame;
     canvas.fill(frame, "#e4e4e4");
-    for change in &outcome.changes {
+    for change in &record.changes {
         let share = if map.full > 0.0 && !change.suspect { moved(change) / map.full } else { 0.0 };
-        canvas.fill(&map.place(table, change), &colour(share));
+        canvas.fill(&map.place(change), &colour(share));
     }
     let thin = Pen::new(0.08, "#b0b0b0");
-    for change in &outcome.changes {
-        canvas.rectangle(&map.place(table, change), &thin);
+    for change in &record.changes {
+        canvas.rectangle(&map.place(change), &thin);
     }
     canvas.rectangle(frame, &Pen::new(0.25, "#000000"));
-    let longest = outcome.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
+    let longest = record.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
     let size = (map.cell[0] / (0.68 * longest as f64)).min(2.6);
-    let (_, _, largest) = outcome.moves();
-    for change in &outcome.changes {
-        let place = map.place(table, change);
+    let (_, _, largest) = record.moves();
+    for change in &record.changes {
+        let place = map.place(change);
         let middle = [0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)];
         if map.cell[0] >= LEAST {
             canvas.text(middle, &map.number(change), &TextStyle::new(size, Anchor::Middle));
@@ -160,47 +169,46 @@ fn marks(canvas: &mut Canvas, change: &Change, place: &Rectangle) {
     }
 }
 
-fn draw_names(canvas: &mut Canvas, table: &OffsetTable, deck: bool, map: &Map) {
+fn draw_names(canvas: &mut Canvas, record: &FairRecord, deck: bool, map: &Map) {
     let frame = &map.frame;
     let style = TextStyle::new(2.5, Anchor::End);
-    for (j, z) in table.waterlines.iter().enumerate() {
+    let names: Vec<String> = if map.points.is_empty() {
+        record.lines.waterlines.iter().map(|z| format!("{z:.3}")).collect()
+    } else {
+        (1..=map.rows).map(|row| row.to_string()).collect()
+    };
+    for (j, name) in names.iter().enumerate() {
         let y = frame.bottom - map.cell[1] * (j as f64 + 0.5);
-        canvas.text([frame.left - 1.5, y], &format!("{z:.3}"), &style);
-    }
-    if table.waterlines.is_empty() {
-        for j in 0..map.rows {
-            let y = frame.bottom - map.cell[1] * (j as f64 + 0.5);
-            canvas.text([frame.left - 1.5, y], &format!("{}", j + 1), &style);
-        }
+        canvas.text([frame.left - 1.5, y], name, &style);
     }
     if deck {
         canvas.text([frame.left - 1.5, frame.top + 0.5 * map.cell[1]], "deck", &style);
     }
     let size = (0.7 * map.cell[0]).clamp(1.5, 2.5);
     let stride = (1.3 * size / map.cell[0]).ceil().max(1.0) as usize;
-    for (i, station) in table.stations.iter().enumerate().step_by(stride) {
-        let name: String = caption::plain(&station.station.name).chars().take(9).collect();
+    for (i, station) in record.lines.stations.iter().enumerate().step_by(stride) {
+        let name: String = caption::plain(&station.name).chars().take(9).collect();
         let x = frame.left + map.cell[0] * (i as f64 + 0.5);
         canvas.text([x, frame.bottom + 1.5], &name, &TextStyle::new(size, Anchor::End).upward());
     }
     canvas.text(
         [frame.left, frame.top - 3.0],
-        if table.waterlines.is_empty() {
-            "point of the section, from the keel up, over station, aft on the left"
-        } else {
+        if map.points.is_empty() {
             "waterline [m] over station, aft on the left"
+        } else {
+            "point of the section, from the keel up, over station, aft on the left"
         },
         &TextStyle::new(2.6, Anchor::Start),
     );
 }
 
-fn head(canvas: &mut Canvas, table: &OffsetTable, outcome: &Outcome) {
-    let name: String = caption::plain(&table.name).chars().take(60).collect();
+fn head(canvas: &mut Canvas, record: &FairRecord) {
+    let name: String = caption::plain(&record.name).chars().take(60).collect();
     let words = format!("WHAT MOVED – {name}");
     canvas.text([0.5 * WIDTH, 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
-    let (rms, _, largest) = outcome.moves();
+    let (rms, _, largest) = record.moves();
     let called = largest.map(|change| {
-        let station = table.stations.get(change.station).map_or("", |s| s.station.name.as_str());
+        let station = record.lines.stations.get(change.station).map_or("", |s| s.name.as_str());
         let line = change.origin.words(change.z);
         format!("largest move {:+.2} mm at station {}, {line}", 1000.0 * moved(change), caption::plain(station))
     });

@@ -1,6 +1,7 @@
 //! The list of figures, what they are made of, and the finished drawing.
 
 use super::canvas::Canvas;
+use super::sheet::Sheet;
 use super::{diagram_sheet, hydrostatics, lines, png, sectional_area, sections};
 use crate::hull::Hull;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
@@ -29,6 +30,9 @@ pub enum PlotError {
         /// Height, in pixels.
         height: f64,
     },
+    /// The PDF could not be written.
+    #[error("the PDF could not be written: {0}")]
+    Pdf(String),
     /// The picture could not be packed.
     #[error("the picture could not be written as PNG: {0}")]
     Png(String),
@@ -39,6 +43,8 @@ pub enum PlotError {
 pub struct FigureInputs<'a> {
     /// The hull.
     pub hull: &'a Hull,
+    /// The hull before fairing, drawn in grey under it; none where there is none.
+    pub before: Option<&'a Hull>,
     /// Hydrostatics at the design draught.
     pub design: &'a Hydrostatics,
     /// Hydrostatics over the draughts of interest: their range and conventions.
@@ -137,7 +143,7 @@ impl Figure {
     /// let conventions = Conventions::default();
     /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
     /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
-    /// let inputs = FigureInputs { hull: &hull, design: &design.rows[0], curves: &curves };
+    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves };
     /// let lines = Figure::Lines.draw(&inputs)?;
     /// assert!(lines.as_str().starts_with("<svg"));
     /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));
@@ -150,9 +156,17 @@ impl Figure {
         Ok(Svg { text: self.compose(inputs)?.finish(self.key()) })
     }
 
+    /// The lines plan on a sheet of its own.
+    ///
+    /// # Errors
+    /// [`PlotError`] when there is nothing to draw.
+    pub fn lines_plan(inputs: &FigureInputs, sheet: Sheet) -> Result<Svg, PlotError> {
+        Ok(Svg { text: lines::draw(inputs, sheet)?.finish(Self::Lines.key()) })
+    }
+
     pub(super) fn compose(self, inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         match self {
-            Self::Lines => lines::draw(inputs),
+            Self::Lines => lines::draw(inputs, Sheet::A3),
             Self::Sections => sections::draw(inputs),
             Self::SectionalArea => sectional_area::draw(inputs),
             Self::Hydrostatics => hydrostatics::draw(inputs),

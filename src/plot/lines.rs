@@ -1,18 +1,15 @@
-//! The lines plan on A3: profile, half-breadth plan and body plan in true proportion at scales of the list, with a title block
+//! The lines plan on A3 or A1: profile, half-breadth plan and body plan in true proportion at scales of the list, with a title block
 //! and a table of half-breadths.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::lines_grid::LinesGrid;
+use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::LongStyle;
 use super::scale::{drawing_scale, drawing_scales};
+use super::sheet::Sheet;
 use super::title_block::{self, Scales};
-use super::view::View;
+use super::view::{BEFORE, View};
 use super::{FigureInputs, PlotError, body_plan, profile};
 
-/// A3, landscape [mm].
-const SHEET: [f64; 2] = [420.0, 297.0];
-/// Frame of the drawing [mm].
-const FRAME: Rectangle = Rectangle::new(8.0, 8.0, SHEET[0] - 8.0, SHEET[1] - 8.0);
 /// Distance of drawings from the frame and from each other [mm].
 const GAP: f64 = 5.0;
 /// Height of the name of a view [mm].
@@ -96,8 +93,8 @@ struct Layout {
 
 /// The layout of most merit, of those at scales of the list that leave the views their room, with the body
 /// plan beside or below the long views.
-fn layout(extents: &Extents) -> Layout {
-    let inner = FRAME.grown(-GAP);
+fn layout(extents: &Extents, frame: &Rectangle) -> Layout {
+    let inner = frame.grown(-GAP);
     let mut best: Option<(f64, Layout)> = None;
     for (scale, side_room) in
         drawing_scales().flat_map(|scale| [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM].map(|room| (scale, room)))
@@ -168,16 +165,32 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
     drawing_scales().filter(|&body_scale| body_scale >= largest).take(4).map(arrange).collect()
 }
 
+/// The curves of planes before fairing, in grey.
+fn draw_before(
+    canvas: &mut Canvas,
+    view: &View,
+    planes: &[GridPlane],
+    project: impl Fn(&[f64; 3], &GridPlane) -> [f64; 2],
+) {
+    for plane in planes {
+        for curve in &plane.curves {
+            view.draw(canvas, curve.iter().map(|point| project(point, plane)), &BEFORE);
+        }
+    }
+}
+
 /// Draws the sheet.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth));
-    let layout = layout(&extents);
+    let frame = sheet.frame();
+    let layout = layout(&extents, &frame);
     let body_scale = layout.body_scale;
     let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)));
-    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    canvas.rectangle(&FRAME, &Pen::new(0.7, "#000000"));
+    let before = inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale)));
+    let mut canvas = Canvas::new(sheet.size()[0], sheet.size()[1]);
+    canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.0, Anchor::Start);
 
     let style = LongStyle { text_size: TEXT, narrow: layout.side_room < profile::SIDE_ROOM };
@@ -188,11 +201,24 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     };
     name(&mut canvas, &layout.profile, "PROFILE", layout.scale);
     let base = layout.profile.bottom - profile::END_ROOM + grid.height[0].min(0.0) * millimetres;
-    profile::draw_profile(&mut canvas, hull, &grid, &View::new([origin_x, base], layout.scale), style);
+    let view = View::new([origin_x, base], layout.scale);
+    if let Some(before) = &before {
+        draw_before(&mut canvas, &view, &before.buttocks, |p, _| [p[0], p[2]]);
+    }
+    profile::draw_profile(&mut canvas, hull, &grid, &view, style);
 
     name(&mut canvas, &layout.half_breadths, "HALF-BREADTH PLAN, diagonals in true shape below", layout.scale);
     let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
-    profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([origin_x, centre], layout.scale), style);
+    let view = View::new([origin_x, centre], layout.scale);
+    if let Some(before) = &before {
+        draw_before(&mut canvas, &view, &before.waterlines, |p, _| [p[0], p[1]]);
+        draw_before(&mut canvas, &view, std::slice::from_ref(&before.design_waterline), |p, _| [p[0], p[1]]);
+        draw_before(&mut canvas, &view, &before.diagonals, |p, plane| {
+            let [x, s] = LinesGrid::expanded(p, plane.at);
+            [x, -s]
+        });
+    }
+    profile::draw_half_breadths(&mut canvas, hull, &grid, &view, style);
 
     let needed = extents.body_height(body_scale);
     let foot = layout.body.top + needed.max(0.5 * (layout.body.height() + needed)) - body_plan::BOTTOM_ROOM;
@@ -205,10 +231,16 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         "BODY PLAN",
         body_scale,
     );
-    body_plan::draw(&mut canvas, hull, &grid, &View::new([middle, body_base], body_scale), TEXT);
+    let view = View::new([middle, body_base], body_scale);
+    if let Some(before) = &before {
+        let midship = 0.5 * hull.particulars().length_between_perpendiculars;
+        let side = |plane: &GridPlane| if plane.at < midship { -1.0 } else { 1.0 };
+        draw_before(&mut canvas, &view, &before.stations, |p, plane| [side(plane) * p[1], p[2]]);
+    }
+    body_plan::draw(&mut canvas, hull, &grid, &view, TEXT);
 
-    let corner = [FRAME.right, FRAME.bottom];
-    let scales = Scales { long: layout.scale, body: body_scale };
+    let corner = [frame.right, frame.bottom];
+    let scales = Scales { long: layout.scale, body: body_scale, sheet };
     title_block::draw(&mut canvas, inputs, &grid, scales, corner);
     title_block::draw_offsets(&mut canvas, inputs, &grid, &layout.table);
     Ok(canvas)

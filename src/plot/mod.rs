@@ -4,13 +4,18 @@
 //! Sans, so that pictures are the same on every machine. The same inputs give the same bytes.
 
 mod body_plan;
+mod bonjean;
 mod canvas;
 mod caption;
 mod chart;
 mod comb;
+mod convergence;
+mod deviation;
 mod diagram_sheet;
 mod fair_curve;
 mod fairing;
+mod fairing_arrows;
+mod fairing_long;
 mod fairing_moves;
 mod figure;
 mod font;
@@ -19,22 +24,40 @@ mod label;
 mod lines;
 mod lines_grid;
 mod outline;
+mod pdf;
 mod png;
 mod profile;
+#[cfg(test)]
+mod report_tests;
 mod scale;
 mod sectional_area;
 mod sections;
+mod sheet;
 mod smoothing;
+mod surface_map;
 mod suspects;
+mod table_sheet;
 #[cfg(test)]
 mod tests;
 mod title_block;
 mod view;
 
+pub use bonjean::{BonjeanTable, bonjean_figure};
+pub use convergence::convergence_figure;
+pub use deviation::deviation_figure;
 pub use fair_curve::fair_curve_figure;
 pub use fairing::{fairing_body_plan, fairing_half_breadth_plan};
+pub use fairing_arrows::fairing_arrows;
+pub use fairing_long::{fairing_buttocks, fairing_diagonals};
 pub use fairing_moves::fairing_moves;
 pub use figure::{Figure, FigureInputs, PlotError, Svg};
+/// The embedded typeface, DejaVu Sans, as the file of its font.
+pub const FONT: &[u8] = font::DEJAVU_SANS;
+
+pub use pdf::write_pdf;
 pub use scale::{DRAWING_SCALES, sheet_scale};
+pub use sheet::Sheet;
 pub use smoothing::smoothing_figure;
+pub use surface_map::{SurfaceMapKind, surface_map};
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};
+pub use table_sheet::table_figure;

@@ -20,12 +20,17 @@ fn fonts() -> Arc<fontdb::Database> {
     }))
 }
 
+/// A document as resvg draws it; sizes are in pixels of 1/96 inch.
+pub(super) fn tree(svg: &str) -> Result<Tree, PlotError> {
+    let options = Options { fontdb: fonts(), font_family: font::FAMILY.to_owned(), ..Options::default() };
+    Tree::from_str(svg, &options).map_err(|error| PlotError::Svg(error.to_string()))
+}
+
 /// Renders a document whose size is in millimetres at `dots_per_inch`.
 pub(super) fn render(svg: &str, dots_per_inch: f64) -> Result<Vec<u8>, PlotError> {
-    let options = Options { fontdb: fonts(), font_family: font::FAMILY.to_owned(), ..Options::default() };
-    let tree = Tree::from_str(svg, &options).map_err(|error| PlotError::Svg(error.to_string()))?;
+    let tree = tree(svg)?;
     let size = tree.size();
-    let ratio = dots_per_inch / f64::from(options.dpi);
+    let ratio = dots_per_inch / 96.0;
     let sides = [f64::from(size.width()) * ratio, f64::from(size.height()) * ratio].map(f64::round);
     if !sides.iter().all(|side| (1.0..=LARGEST_SIDE).contains(side)) {
         return Err(PlotError::PictureSize { dots_per_inch, width: sides[0], height: sides[1] });

@@ -1,11 +1,12 @@
-//! The sectional-area curve at the design draught.
+//! The sectional-area curve at the design draught, that before fairing under it.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
 use super::{FigureInputs, PlotError, caption, outline};
-use crate::hull::SectionalAreaCurve;
+use crate::hull::{Hull, SectionalAreaCurve};
+use crate::hydrostatics::CurvesOfForm;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [300.0, 170.0];
@@ -48,9 +49,11 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     if let (Some(from), Some(to)) = (design.parallel_body_aft, design.parallel_body_fore) {
         mark_parallel_body(&mut canvas, &mut placer, &chart, [from, to], largest);
     }
-    for (name, position, row) in [("LCB", design.lcb, 0.0), ("LCF", design.lcf, 1.0)] {
+    // The names stand on the outer sides, off the other mark.
+    let aft = design.lcb.zip(design.lcf).is_some_and(|(lcb, lcf)| lcf < lcb);
+    for (name, position, row, aft) in [("LCB", design.lcb, 0.0, !aft), ("LCF", design.lcf, 1.0, aft)] {
         if let Some(x) = position {
-            mark_centre(&mut canvas, &mut placer, &chart, name, x, row);
+            mark_centre(&mut canvas, &mut placer, &chart, (name, x), row, aft);
         }
     }
     for (name, x) in [("AP", 0.0), ("FP", length)] {
@@ -61,11 +64,27 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.take(Canvas::text_place(place, name, &style).grown(0.4));
         canvas.text(place, name, &style);
     }
-    let series = [Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    let mut series =
+        vec![Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    if let Some(before) = inputs.before {
+        series.insert(0, before_fairing(before, design.draught, &stations));
+        let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
+        if let Some(x) = lcb.and_then(|row| row.lcb) {
+            mark_centre(&mut canvas, &mut placer, &chart, ("LCB before", x), 2.0, !aft);
+        }
+    }
     chart.draw(&mut canvas, &mut placer, &series, None)?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)
+}
+
+/// The curve of the hull before fairing.
+fn before_fairing(before: &Hull, draught: f64, stations: &[f64]) -> Series {
+    let curve = SectionalAreaCurve::new(before, draught, stations);
+    let points = curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]).collect();
+    let dash = Some([2.4, 1.2]);
+    Series { name: "before", points, secondary: false, colour: colour::VERMILION, dash, name_at: 0.8 }
 }
 
 /// The parallel middle body, shaded from keel to curve.
@@ -83,14 +102,22 @@ fn mark_parallel_body(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Cha
     }
 }
 
-/// A mark at the position of a centre, from the axis up, with its name and place.
-fn mark_centre(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Chart, name: &str, x: f64, row: f64) {
+/// A mark at the position of a centre, from the axis up, with its name and place aft or forward of it.
+fn mark_centre(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    chart: &Chart,
+    (name, x): (&str, f64),
+    row: f64,
+    aft: bool,
+) {
     let [at, bottom] = chart.place([x, 0.0]);
     let top = bottom - 9.0 - 5.0 * row;
     canvas.line([at, bottom], [at, top], &Pen::new(0.5, "#d55e00"));
     canvas.area(&[[at, bottom], [at - 1.1, bottom - 2.6], [at + 1.1, bottom - 2.6]], "#d55e00");
-    let style = TextStyle::new(2.8, Anchor::Start).coloured("#a34700").halo();
-    let place = [at + 1.2, top + 1.0];
+    let (anchor, beside) = if aft { (Anchor::End, -1.2) } else { (Anchor::Start, 1.2) };
+    let style = TextStyle::new(2.8, anchor).coloured("#a34700").halo();
+    let place = [at + beside, top + 1.0];
     let text = format!("{name} {x:.2} m");
     placer.take(Canvas::text_place(place, &text, &style).grown(0.4));
     canvas.text(place, &text, &style);

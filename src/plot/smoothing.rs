@@ -5,9 +5,8 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::{PlotError, Svg, caption};
-use crate::fairing::job::Outcome;
+use crate::fairing::record::FairRecord;
 use crate::fairing::smoothing::Trial;
-use crate::hull::OffsetTable;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [210.0, 170.0];
@@ -21,10 +20,10 @@ fn point(trial: &Trial) -> Option<[f64; 2]> {
 ///
 /// # Errors
 /// [`PlotError`] when the chart cannot be drawn.
-pub fn smoothing_figure(table: &OffsetTable, outcome: &Outcome) -> Result<Option<Svg>, PlotError> {
+pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     let trials: Vec<(f64, [f64; 2])> =
-        outcome.faired.trials.iter().filter_map(|trial| Some((trial.lambda, point(trial)?))).collect();
-    let chosen = point(&outcome.faired.chosen);
+        record.trials.iter().filter_map(|trial| Some((trial.lambda, point(trial)?))).collect();
+    let chosen = point(&record.chosen);
     if trials.len() < 2 {
         return Ok(None);
     }
@@ -45,14 +44,14 @@ pub fn smoothing_figure(table: &OffsetTable, outcome: &Outcome) -> Result<Option
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    let name: String = caption::plain(&table.name).chars().take(40).collect();
+    let name: String = caption::plain(&record.name).chars().take(40).collect();
     let title = format!("SEARCH FOR THE SMOOTHING WEIGHT – {name}");
     canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.2, Anchor::Middle));
     let words = format!(
         "weight taken {:.2e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
-        outcome.faired.lambda,
-        outcome.faired.edf,
-        1e3 * outcome.faired.sigma
+        record.lambda,
+        record.edf,
+        1e3 * record.sigma
     );
     canvas.text([0.5 * SHEET[0], 14.5], &words, &TextStyle::new(2.8, Anchor::Middle));
     let mut placer = LabelPlacer::default();

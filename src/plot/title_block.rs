@@ -2,6 +2,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
+use super::sheet::Sheet;
 use super::{FigureInputs, caption};
 
 /// Size of the title block [mm].
@@ -9,11 +10,12 @@ pub(super) const SIZE: [f64; 2] = [128.0, 56.0];
 const FRAME: Pen = Pen::new(0.35, "#000000");
 const RULE: Pen = Pen::new(0.13, "#000000");
 
-/// Scales of the long views and of the body plan.
+/// Scales of the long views and of the body plan, and their sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Scales {
     pub(super) long: u32,
     pub(super) body: u32,
+    pub(super) sheet: Sheet,
 }
 
 /// Draws the title block with its lower right corner at `corner`.
@@ -47,7 +49,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         format!("ρ {:.3} t/m³    L_WL {:.2} m", inputs.curves.conventions.density, design.waterline_length),
     ];
     let right_column = [
-        "sheet A3".to_owned(),
+        format!("sheet {}", scales.sheet.as_str()),
         format!("stations {:.3} m, 0 at AP", grid.station_spacing),
         format!("waterlines {:.2} m", grid.waterline_spacing),
         format!("buttocks {:.2} m", grid.buttock_spacing),
@@ -64,7 +66,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
 }
 
 /// A bar of 100 mm, to check the scale of a print.
-fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
+pub(super) fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
     canvas.line(at, [at[0] + 100.0, at[1]], &FRAME);
     for k in 0..=10 {
         let x = at[0] + 10.0 * f64::from(k);

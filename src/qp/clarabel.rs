@@ -81,7 +81,13 @@ pub(super) fn solve(problem: &Problem, settings: &Settings) -> Solution {
         ..DefaultSettings::default()
     };
     let Ok(mut solver) = DefaultSolver::new(&quadratic, &linear, &constraints, &right, &cones, options) else {
-        return Solution { status: Status::Limit, x: vec![0.0; n], multipliers: vec![0.0; m], iterations: 0 };
+        return Solution {
+            status: Status::Limit,
+            x: vec![0.0; n],
+            multipliers: vec![0.0; m],
+            iterations: 0,
+            progress: Vec::new(),
+        };
     };
     solver.solve();
     let status = match solver.solution.status {
@@ -99,6 +105,7 @@ pub(super) fn solve(problem: &Problem, settings: &Settings) -> Solution {
         x: solver.solution.x.clone(),
         multipliers,
         iterations: usize::try_from(solver.solution.iterations).unwrap_or(usize::MAX),
+        progress: Vec::new(),
     }
 }
 

@@ -19,6 +19,6 @@ mod structured;
 
 pub use certificate::Certificate;
 pub use factor::LeastFactor;
-pub use problem::{Engine, Problem, ProblemError, Settings, Solution, Status};
+pub use problem::{Engine, Problem, ProblemError, Progress, Settings, Solution, Status};
 pub use sparse::SparseRows;
 pub use structured::Solver;

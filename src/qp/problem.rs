@@ -100,6 +100,19 @@ pub struct Solution {
     pub multipliers: Vec<f64>,
     /// Iterations taken.
     pub iterations: usize,
+    /// The iterates in order, those of every start; empty where the solver does not tell.
+    pub progress: Vec<Progress>,
+}
+
+/// How far an iterate is from a solution, each relative to the terms it is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// What the limits are missed by.
+    pub primal: f64,
+    /// The gradient of the Lagrangian.
+    pub dual: f64,
+    /// The sum of the products of slacks and multipliers.
+    pub gap: f64,
 }
 
 impl Problem {

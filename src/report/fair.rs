@@ -16,6 +16,7 @@ use crate::exchange::{
 };
 use crate::fairing::fair::FairError;
 use crate::fairing::job::{Job, JobError, Outcome};
+use crate::fairing::record::FairRecord;
 use crate::hull::{Functional, Hull, OffsetTable, TableLayout};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
@@ -237,9 +238,10 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
     let suspects: Vec<Value> = outcome.suspects.iter().map(|suspect| suspect_json(&job.table, suspect)).collect();
     let certificate = fairing_json(&job.table, &outcome, &rounding, &suspects);
     let summary = summary(job, &outcome, &rows, &rounding);
-    let hull = write_hull(&outcome.after, &job.conventions);
+    let [start, hull] = [&outcome.before, &outcome.after].map(|hull| write_hull(hull, &job.conventions));
     let mut files = vec![
         OutputFile::text("hull.json", hull.map_err(|e| Failure::Internal(format!("hull.json: {e}")))?),
+        OutputFile::text("start.json", start.map_err(|e| Failure::Internal(format!("start.json: {e}")))?),
         OutputFile::table(&name, written.text, &job.table.form)?,
         OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
         json_file("fairing.json", &certificate)?,
@@ -250,7 +252,7 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         files.push(OutputFile::text("offsets.toml", text.clone()));
     }
     if figures {
-        files.extend(super::fair_figures::fair_figures(&job.table, &outcome)?);
+        files.extend(super::fair_figures::fair_figures(&FairRecord::new(&job.table, &outcome))?);
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;

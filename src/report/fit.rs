@@ -258,7 +258,10 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
         json_file("fit.json", &summary)?,
     ];
-    files.extend(figure_files(&FigureInputs { hull: &fitted.hull, design: &design_row, curves: &table }, figures)?);
+    files.extend(figure_files(
+        &FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table },
+        figures,
+    )?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
     let manifest = manifest_file(input, &files)?;

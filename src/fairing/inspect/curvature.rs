@@ -50,7 +50,7 @@ pub struct SurfaceMeasures {
 type Read = fn(&SurfaceCurvature) -> f64;
 
 /// The parameter on the line `u` at which the surface reaches the deck at side.
-fn deck_parameter(hull: &Hull, u: f64) -> f64 {
+pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
     let (from, to) = hull.surface().v().domain();
     let above = |v: f64| {
         let p = hull.surface().eval(u, v);

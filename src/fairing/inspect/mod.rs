@@ -17,11 +17,13 @@
 mod comb;
 mod contour;
 mod curvature;
+mod map;
 mod polygon;
 mod profile;
 
 pub use comb::{Comb, Tooth, combs};
 pub use curvature::{CurvatureAt, CurvatureRange, SurfaceMeasures};
+pub use map::{MapPoint, SurfaceMap};
 pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, net_signs, polygon_signs};
 pub use profile::{Findings, Local, Place, Profile, Stretch};
 
@@ -98,7 +100,9 @@ impl Planes {
         }
     }
 
-    fn cuts(&self) -> Vec<Cut> {
+    /// The planes in order: stations, waterlines, buttocks, diagonals, others.
+    #[must_use]
+    pub fn cuts(&self) -> Vec<Cut> {
         let stations = self.stations.iter().map(|&x| Cut::Station { x });
         let waterlines = self.waterlines.iter().map(|&z| Cut::Waterline { z });
         let buttocks = self.buttocks.iter().map(|&y| Cut::Buttock { y });

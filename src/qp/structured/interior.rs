@@ -1,6 +1,6 @@
 //! The iteration: predictor, corrector, step, and when it ends.
 
-use super::super::problem::Settings;
+use super::super::problem::{Progress, Settings};
 use super::newton::{Newton, Right, Step, inverse};
 use super::point::{Direction, Point, Residuals, Side};
 use super::scaled::Scaled;
@@ -107,13 +107,13 @@ fn centred(point: &Point, step: &Direction, targets: &Targets, target: f64, aim:
     }
 }
 
-/// Iterates from a point; the number of iterations and how it ended.
+/// Iterates from a point; the number of iterations and how it ended. Keeps an early iterate for the next start, and tells of all.
 pub(super) fn iterate(
     scaled: &Scaled,
     newton: &mut Newton,
     point: &mut Point,
     settings: &Settings,
-    kept: &mut Option<Point>,
+    (kept, progress): (&mut Option<Point>, &mut Vec<Progress>),
 ) -> (usize, End) {
     *kept = None;
     let (tolerance, most) = (settings.tolerance, settings.iterations);
@@ -126,6 +126,8 @@ pub(super) fn iterate(
     for count in 0..most {
         let mean = residuals.complementarity / sides.max(1) as f64;
         let size = residuals.objective.abs().max(scaled.objective_scale);
+        let relative = residuals.complementarity / size;
+        progress.push(Progress { primal: residuals.primal_size, dual: residuals.dual_size, gap: relative });
         let reached = |limit: f64| {
             residuals.primal_size.max(residuals.dual_size) <= limit && residuals.complementarity <= limit * size
         };

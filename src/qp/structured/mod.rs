@@ -101,20 +101,29 @@ impl Solver {
     /// Solves; a solve after the first starts from an iterate of the last.
     pub fn solve(&mut self) -> Solution {
         let (n, m) = (self.problem.linear.len(), self.problem.rows.row_count());
-        let failed = Solution { status: Status::Limit, x: vec![0.0; n], multipliers: vec![0.0; m], iterations: 0 };
+        let failed = Solution {
+            status: Status::Limit,
+            x: vec![0.0; n],
+            multipliers: vec![0.0; m],
+            iterations: 0,
+            progress: Vec::new(),
+        };
+        let mut progress = Vec::new();
         let Some(newton) = &mut self.newton else { return failed };
         let warm = self.kept.take().map(|kept| start::warm(&self.scaled, &kept));
         let mut outcome = None;
         let mut iterations = 0;
         if let Some(mut point) = warm {
             let settings = Settings { iterations: self.settings.iterations.min(WARM), ..self.settings.clone() };
-            let (count, end) = interior::iterate(&self.scaled, newton, &mut point, &settings, &mut self.kept);
+            let (count, end) =
+                interior::iterate(&self.scaled, newton, &mut point, &settings, (&mut self.kept, &mut progress));
             iterations = count;
             outcome = (end == End::Optimal).then_some((point, end));
         }
         if outcome.is_none() {
             let Some(mut point) = start::cold(&self.scaled, newton) else { return failed };
-            let (count, end) = interior::iterate(&self.scaled, newton, &mut point, &self.settings, &mut self.kept);
+            let (count, end) =
+                interior::iterate(&self.scaled, newton, &mut point, &self.settings, (&mut self.kept, &mut progress));
             iterations += count;
             outcome = Some((point, end));
         }
@@ -124,6 +133,7 @@ impl Solver {
             x: self.scaled.variables(&point.x),
             multipliers: self.scaled.multipliers(&point.z),
             iterations,
+            progress,
         };
         match end {
             End::Optimal => solution.status = Status::Optimal,

@@ -1,0 +1,82 @@
+//! `loftsman report RESULT`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::stream;
+use crate::plot::Sheet;
+use crate::report::{Failure, ReportSettings, read_result, report_outputs, write_run};
+
+#[derive(Debug, Args)]
+#[command(after_help = AFTER)]
+pub(super) struct Arguments {
+    /// Folder that `generate`, `fit` or `fair` wrote, a JSON file in it, or the file of `hydro --json`
+    #[arg(value_name = "RESULT")]
+    result: PathBuf,
+    /// Folder for the report [default: `report` in the folder of the result, else out/<name of the file>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Resolution of the pictures, dots per inch; 300 for print
+    #[arg(long, value_parser = dpi, value_name = "DPI", default_value = "150")]
+    dpi: f64,
+    /// Sheet of the lines plan in report.pdf: A3 or A1; the other figures stand on A3
+    #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
+    sheet: Sheet,
+    /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const AFTER: &str = "\
+Every figure is written as PNG and as SVG in millimetres; report.html holds all of them, tables that can be sorted and the hull in \
+space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm.
+Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
+curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, moves as a map and as arrows, \
+stations, waterlines, buttocks and diagonals before and after with combs at one scale, moves against the assumed noise, deviation against \
+energy, convergence.
+Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
+conventions; Bonjean areas; changes.";
+
+fn dpi(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (20.0..=1200.0).contains(&value) => Ok(value),
+        _ => Err("expected 20 to 1200 dots per inch".to_owned()),
+    }
+}
+
+fn sheet(text: &str) -> Result<Sheet, String> {
+    let found = Sheet::ALL.into_iter().find(|sheet| sheet.as_str().eq_ignore_ascii_case(text));
+    found.ok_or_else(|| "expected A3 or A1".to_owned())
+}
+
+/// Whether two paths are one folder.
+fn same(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let result = read_result(&arguments.result)?;
+    let folder = match (&arguments.output, &result.folder) {
+        (Some(folder), _) => folder.clone(),
+        (None, Some(folder)) => folder.join("report"),
+        (None, None) => Path::new("out").join(arguments.result.file_stem().unwrap_or_else(|| "report".as_ref())),
+    };
+    if result.folder.as_ref().is_some_and(|of| same(of, &folder)) {
+        return Err(Failure::Usage(format!(
+            "{} is the folder of the result; a report has a folder of its own (-o DIR)",
+            folder.display()
+        )));
+    }
+    let files = report_outputs(&result, &ReportSettings { dots_per_inch: arguments.dpi, sheet: arguments.sheet })?;
+    write_run(&folder, &files, arguments.force)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    result.notes.iter().for_each(|note| stream::message(note));
+    let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
+    stream::data(&format!("Written to {}: {}\n", folder.display(), names.join(", ")))
+}

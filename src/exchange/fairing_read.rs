@@ -1,0 +1,312 @@
+//! What `fair` wrote, read back for drawings and reports: `fairing.json` and `changes.csv`.
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::fairing::status_word;
+use crate::fairing::job::Change;
+use crate::fairing::record::TableLines;
+use crate::fairing::smoothing::Trial;
+use crate::fairing::surface::Origin;
+use crate::hull::OffsetStation;
+use crate::qp::{Progress, Status};
+use crate::units::Notation;
+
+/// Why a text is no file of `fair`.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FairingFileError {
+    /// Not JSON, or a member that is missing or of another type.
+    #[error("line {line}, column {column}: {message}")]
+    Json {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What was found and expected.
+        message: String,
+    },
+    /// A word that is none of a list.
+    #[error("{member}: found \"{found}\", expected one of {expected}")]
+    Word {
+        /// Member.
+        member: &'static str,
+        /// What stands there.
+        found: String,
+        /// What may.
+        expected: String,
+    },
+    /// Not the columns of `changes.csv`.
+    #[error("line 1: found no column \"{0}\"")]
+    Column(&'static str),
+    /// A field that is no number, or names no line of the table.
+    #[error("line {line}, column \"{column}\": found \"{found}\", expected {expected}")]
+    Field {
+        /// Line, from 1.
+        line: usize,
+        /// Head of the column.
+        column: &'static str,
+        /// What stands there.
+        found: String,
+        /// What may.
+        expected: &'static str,
+    },
+}
+
+/// What `fairing.json` says besides its prices and proofs.
+#[derive(Debug, Clone)]
+pub struct FairingFile {
+    /// Name of the ship.
+    pub name: String,
+    /// How the program ended.
+    pub status: Status,
+    /// Lines of the table.
+    pub lines: TableLines,
+    /// Noise of an offset \[m\].
+    pub sigma: f64,
+    /// Effective degrees of freedom.
+    pub edf: f64,
+    /// The net at the weight that was taken.
+    pub chosen: Trial,
+    /// The search for the weight.
+    pub trials: Vec<Trial>,
+    /// The iterates of the last program.
+    pub progress: Vec<Progress>,
+    /// All of it.
+    pub whole: Value,
+}
+
+#[derive(Deserialize)]
+struct Record {
+    name: String,
+    status: String,
+    table: LinesRecord,
+    noise: Noise,
+    smoothing: Smoothing,
+    #[serde(default)]
+    convergence: Vec<Iterate>,
+}
+
+#[derive(Deserialize)]
+struct Iterate {
+    primal: f64,
+    dual: f64,
+    gap: f64,
+}
+
+#[derive(Deserialize)]
+struct LinesRecord {
+    notation: String,
+    quantum: Option<f64>,
+    stations: Vec<StationRecord>,
+    waterlines: Vec<f64>,
+    endings: Vec<[Option<f64>; 2]>,
+}
+
+#[derive(Deserialize)]
+struct StationRecord {
+    name: String,
+    x: f64,
+}
+
+#[derive(Deserialize)]
+struct Noise {
+    sigma: f64,
+}
+
+#[derive(Deserialize)]
+struct Smoothing {
+    weight: f64,
+    edf: f64,
+    rms: f64,
+    energy: f64,
+    trials: Vec<TrialRecord>,
+}
+
+#[derive(Deserialize)]
+struct TrialRecord {
+    weight: f64,
+    gcv: Option<f64>,
+    rms: f64,
+    energy: f64,
+    edf: f64,
+}
+
+/// Reads `fairing.json`.
+///
+/// # Errors
+/// [`FairingFileError`] with the place.
+pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
+    let mut deserializer = serde_json::Deserializer::from_str(text);
+    let record: Record = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+        let path = error.path().to_string();
+        json(error.inner(), if matches!(path.as_str(), "." | "?") { String::new() } else { format!("{path}: ") })
+    })?;
+    let whole: Value = serde_json::from_str(text).map_err(|error| json(&error, String::new()))?;
+    let ends = [Status::Optimal, Status::Infeasible, Status::Unbounded, Status::Limit];
+    let status = ends.into_iter().find(|status| status_word(*status) == record.status);
+    let word =
+        |member, found: &str, expected: String| FairingFileError::Word { member, found: found.to_owned(), expected };
+    let status = status.ok_or_else(|| word("status", &record.status, ends.map(status_word).join(", ")))?;
+    let table = record.table;
+    let notation = Notation::from_word(&table.notation)
+        .ok_or_else(|| word("table.notation", &table.notation, "m, mm, feet-inches-eighths, cm, ft, in".to_owned()))?;
+    let smoothing = record.smoothing;
+    Ok(FairingFile {
+        name: record.name,
+        status,
+        lines: TableLines {
+            stations: table.stations.into_iter().map(|s| OffsetStation { name: s.name, x: s.x }).collect(),
+            waterlines: table.waterlines,
+            endings: table.endings,
+            quantum: table.quantum,
+            notation,
+        },
+        sigma: record.noise.sigma,
+        edf: smoothing.edf,
+        chosen: Trial {
+            lambda: smoothing.weight,
+            gcv: f64::NAN,
+            rms: smoothing.rms,
+            energy: smoothing.energy,
+            edf: smoothing.edf,
+        },
+        trials: smoothing
+            .trials
+            .into_iter()
+            .map(|t| Trial {
+                lambda: t.weight,
+                gcv: t.gcv.unwrap_or(f64::NAN),
+                rms: t.rms,
+                energy: t.energy,
+                edf: t.edf,
+            })
+            .collect(),
+        progress: record
+            .convergence
+            .into_iter()
+            .map(|p| Progress { primal: p.primal, dual: p.dual, gap: p.gap })
+            .collect(),
+        whole,
+    })
+}
+
+fn json(error: &serde_json::Error, field: String) -> FairingFileError {
+    let message = error.to_string();
+    let message = message.split(" at line ").next().unwrap_or("");
+    FairingFileError::Json { line: error.line(), column: error.column(), message: format!("{field}{message}") }
+}
+
+/// The columns of `changes.csv` that are read.
+const COLUMNS: [&str; 9] =
+    ["waterline", "x [m]", "z [m]", "before [m]", "after [m]", "tolerance [m]", "locked", "suspect", "station"];
+
+/// Reads `changes.csv`; stations and waterlines are found among those of the table by their places.
+///
+/// # Errors
+/// [`FairingFileError`] with line and column.
+pub fn read_changes(text: &str, lines: &TableLines) -> Result<Vec<Change>, FairingFileError> {
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
+    let heads = reader.headers().cloned().unwrap_or_default();
+    let mut at = [0; COLUMNS.len()];
+    for (place, name) in at.iter_mut().zip(COLUMNS) {
+        *place = heads.iter().position(|head| head == name).ok_or(FairingFileError::Column(name))?;
+    }
+    let mut changes = Vec::new();
+    for (row, record) in reader.records().enumerate() {
+        let line = row + 2;
+        let record = record.unwrap_or_default();
+        let wrong = |column: usize, expected| FairingFileError::Field {
+            line,
+            column: COLUMNS[column],
+            found: record.get(at[column]).unwrap_or_default().to_owned(),
+            expected,
+        };
+        let field = |column: usize| record.get(at[column]).unwrap_or_default();
+        let number = |column: usize| {
+            let value = field(column).parse::<f64>().ok().filter(|value| value.is_finite());
+            value.ok_or_else(|| wrong(column, "a number"))
+        };
+        let x = number(1)?;
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
+        let station = lines.stations.iter().position(|s| near(s.x, x) && s.name == field(8));
+        let station = station.ok_or_else(|| wrong(8, "a station of the table in fairing.json, with its x"))?;
+        let counted = |text: &str| text.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let origin = match (field(0), field(0).strip_prefix("point ")) {
+            ("deck", _) => Origin::Deck { station },
+            (_, Some(place)) => {
+                let pair = place.split_once('.').and_then(|(a, b)| Some((counted(a)?, counted(b)?)));
+                let (outline, point) =
+                    pair.ok_or_else(|| wrong(0, "the number of an outline and of its point, point 1.7"))?;
+                Origin::Point { station, outline, point }
+            }
+            _ => {
+                let z = number(0)?;
+                let found = lines.waterlines.iter().position(|&other| near(other, z));
+                let waterline = found.ok_or_else(|| wrong(0, "a waterline of the table in fairing.json, or deck"))?;
+                Origin::HalfBreadth { station, waterline }
+            }
+        };
+        changes.push(Change {
+            station,
+            origin,
+            x,
+            z: number(2)?,
+            before: number(3)?,
+            after: number(4)?,
+            tolerance: if field(5).is_empty() { None } else { Some(number(5)?) },
+            suspect: field(7) == "yes",
+            locked: field(6) == "yes",
+        });
+    }
+    Ok(changes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines() -> TableLines {
+        TableLines {
+            stations: vec![OffsetStation { name: "1".into(), x: 5.0 }],
+            waterlines: vec![0.5, 1.25],
+            endings: vec![[None; 2]; 2],
+            quantum: Some(1e-3),
+            notation: Notation::Metres,
+        }
+    }
+
+    const HEAD: &str = "station,waterline,x [m],z [m],before [m],after [m],move [m],tolerance [m],used,locked,suspect";
+
+    #[test]
+    fn changes_are_read_back() {
+        let text = format!(
+            "{HEAD}\n1,1.25,5,1.25,2,2.001,0.001,0.002,0.5,yes,\n1,deck,5,3,2.5,2.4,-0.1,,,,yes\n1,point 2.7,5,3,2,2,0,,,,\n"
+        );
+        let changes = read_changes(&text, &lines()).unwrap();
+        let waterline = Some(1);
+        assert_eq!(
+            (changes[0].origin.waterline(), changes[0].tolerance, changes[0].locked),
+            (waterline, Some(0.002), true)
+        );
+        let deck = Origin::Deck { station: 0 };
+        assert_eq!((changes[1].origin, changes[1].tolerance, changes[1].suspect), (deck, None, true));
+        assert_eq!(changes[2].origin, Origin::Point { station: 0, outline: 1, point: 6 });
+        assert!(read_changes(&text.replace("2.7", "0.7"), &lines()).is_err());
+    }
+
+    #[test]
+    fn every_fault_has_its_place() {
+        let message = |text: &str| read_changes(text, &lines()).unwrap_err().to_string();
+        assert_eq!(message("station,x\n"), "line 1: found no column \"waterline\"");
+        assert_eq!(
+            message(&format!("{HEAD}\n1,0.6,5,0.6,2,2,0,,,,\n")),
+            "line 2, column \"waterline\": found \"0.6\", expected a waterline of the table in fairing.json, or deck"
+        );
+        assert_eq!(
+            message(&format!("{HEAD}\n1,0.5,5,0.5,two,2,0,,,,\n")),
+            "line 2, column \"before [m]\": found \"two\", expected a number"
+        );
+        let head = read_fairing("{\"name\": 1}").unwrap_err().to_string();
+        assert_eq!(head, "line 1, column 10: name: invalid type: integer `1`, expected a string");
+    }
+}

@@ -1,0 +1,193 @@
+//! Bonjean curves on the contracted profile, with their table.
+//!
+//! At each station the area of the section below a waterline is drawn forward of the station's line at the height of the waterline, all at
+//! one scale. A waterline at any trim drawn across the profile cuts each curve at the area of its station. Heights have a larger
+//! scale than lengths: the profile is contracted.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::scale::{drawing_scale, nice_step, sheet_scale};
+use super::sheet::ROOM;
+use super::view::{DESIGN, GRID, OUTLINE};
+use super::{FigureInputs, PlotError, Svg, caption, outline};
+use crate::hull::{Hull, SectionalAreaCurve};
+
+/// Room at the sides of the profile \[mm\].
+const SIDE: f64 = 26.0;
+/// Upper edge of the profile, and its largest height \[mm\].
+const TOP: f64 = 30.0;
+const HEIGHT: f64 = 130.0;
+/// Intervals between the perpendiculars.
+const INTERVALS: usize = 20;
+/// Heights of a curve.
+const LEVELS: usize = 60;
+/// Width of the largest area, in distances of stations.
+const WIDEST: f64 = 2.6;
+/// Most waterlines of the table.
+const ROWS: f64 = 11.0;
+/// Height of a row of the table \[mm\].
+const ROW: f64 = 4.6;
+
+/// Areas of stations at heights: `areas[level][station]` [m^2]; none above the deck at side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BonjeanTable {
+    /// Positions of the stations forward of AP \[m\].
+    pub stations: Vec<f64>,
+    /// Heights above the base line \[m\].
+    pub heights: Vec<f64>,
+    /// Areas, both sides, a row a height.
+    pub areas: Vec<Vec<Option<f64>>>,
+}
+
+impl BonjeanTable {
+    /// Areas of `stations` below `heights`, each exact to rounding.
+    #[must_use]
+    pub fn new(hull: &Hull, stations: &[f64], heights: &[f64]) -> Self {
+        let slack = 1e-9 * hull.particulars().depth;
+        let row = |&height: &f64| {
+            let curve = SectionalAreaCurve::new(hull, height, stations);
+            let area = |(x, area): (&f64, &f64)| (height <= hull.deck_height(*x) + slack).then_some(*area);
+            stations.iter().zip(&curve.areas).map(area).collect()
+        };
+        Self { stations: stations.to_vec(), heights: heights.to_vec(), areas: heights.iter().map(row).collect() }
+    }
+
+    /// The table of the sheet: stations at twentieths of L_PP, heights at round steps up to the deck.
+    #[must_use]
+    pub fn with_defaults(hull: &Hull) -> Self {
+        let p = hull.particulars();
+        let stations: Vec<f64> =
+            (0..=INTERVALS).map(|k| p.length_between_perpendiculars * k as f64 / INTERVALS as f64).collect();
+        let step = nice_step(p.depth, ROWS);
+        let count = (hull.top() / step + 1e-9).floor() as usize;
+        let mut heights: Vec<f64> = (1..=count).map(|k| k as f64 * step).collect();
+        if heights.iter().all(|z| (z - p.draught).abs() > 1e-9) {
+            heights.push(p.draught);
+            heights.sort_by(f64::total_cmp);
+        }
+        Self::new(hull, &stations, &heights)
+    }
+}
+
+/// Draws curves and table.
+///
+/// # Errors
+/// [`PlotError::Chart`] for a hull without areas.
+pub fn bonjean_figure(inputs: &FigureInputs) -> Result<Svg, PlotError> {
+    Ok(Svg { text: compose(inputs)?.finish("bonjean") })
+}
+
+pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+    let hull = inputs.hull;
+    let p = hull.particulars();
+    let length = p.length_between_perpendiculars;
+    let table = BonjeanTable::with_defaults(hull);
+    let ends = outline::overall_length(hull);
+    let (low, high) = (ends[0].min(0.0), ends[1].max(length));
+    let (bottom, top) = (hull.bottom().min(0.0), hull.top());
+    let spacing = length / INTERVALS as f64;
+    let n = drawing_scale(top - bottom, HEIGHT);
+    let upward = 1000.0 / f64::from(n);
+    let floor = TOP + upward * (top - bottom);
+    let levels: Vec<f64> = (0..=LEVELS).map(|k| bottom + (top - bottom) * k as f64 / LEVELS as f64).collect();
+    let dense = BonjeanTable::new(hull, &table.stations, &levels);
+    let largest = dense.areas.iter().flatten().flatten().copied().fold(0.0, f64::max);
+    if largest <= 0.0 {
+        return Err(PlotError::Chart("the hull has no section areas".to_owned()));
+    }
+    // The last curves need room forward of the stem.
+    let reach = dense
+        .areas
+        .iter()
+        .flat_map(|row| row.iter().zip(&table.stations))
+        .filter_map(|(area, x)| Some(x + WIDEST * spacing * (*area)? / largest));
+    let end = reach.fold(high, f64::max) + 0.2 * spacing;
+    let across = (ROOM[0] - 2.0 * SIDE) / (end - low);
+    let at = |x: f64, z: f64| [SIDE + across * (x - low), floor - upward * (z - bottom)];
+    let scale = sheet_scale(largest, WIDEST * spacing * across);
+    let height = floor + 26.0 + ROW * (table.heights.len() + 2) as f64 + 10.0;
+    let mut canvas = Canvas::new(ROOM[0], height);
+    let title = format!("BONJEAN CURVES – {}", caption::plain(hull.name()));
+    canvas.text([0.5 * ROOM[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
+    let contracted = 1000.0 / across;
+    let words = format!(
+        "areas: 1 mm = {scale} m² forward of the line of the station    heights 1 : {n}    lengths contracted to 1 : {contracted:.0}    moulded"
+    );
+    canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(2.8, Anchor::Middle));
+    let names = TextStyle::new(2.6, Anchor::End);
+    for &z in &table.heights {
+        let design = (z - p.draught).abs() < 1e-9;
+        canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
+    }
+    let mut last = f64::INFINITY;
+    for &z in &table.heights {
+        let y = at(low, z)[1];
+        if last - y >= 3.0 {
+            canvas.text([SIDE - 2.0, y], &format!("{z:.2} m"), &names);
+            last = y;
+        }
+    }
+    let profile: Vec<[f64; 2]> = outline::centreplane(hull).into_iter().map(|[x, z]| at(x, z)).collect();
+    canvas.polyline(&profile, &OUTLINE);
+    let deck: Vec<[f64; 2]> = outline::deck_at_side(hull).into_iter().map(|p| at(p[0], p[2])).collect();
+    canvas.polyline(&deck, &OUTLINE);
+    let curve = Pen::new(0.35, "#0b4a86");
+    for (k, &x) in table.stations.iter().enumerate() {
+        canvas.line(at(x, bottom), at(x, hull.deck_height(x)), &Pen::new(0.2, "#000000"));
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        let mut add = |z: f64, area: f64| {
+            let [px, py] = at(x, z);
+            points.push([px + area / scale, py]);
+        };
+        for (z, row) in levels.iter().zip(&dense.areas) {
+            if let Some(area) = row[k] {
+                add(*z, area);
+            }
+        }
+        let deck = hull.deck_height(x);
+        if let Some(area) = SectionalAreaCurve::new(hull, deck, &[x]).areas.first() {
+            add(deck, *area);
+        }
+        canvas.polyline(&points, &curve);
+        canvas.text([at(x, bottom)[0], floor + 3.4], &k.to_string(), &TextStyle::new(2.6, Anchor::Middle));
+    }
+    canvas.text([at(0.0, bottom)[0], floor + 7.6], "AP", &TextStyle::new(2.6, Anchor::Middle));
+    canvas.text([at(length, bottom)[0], floor + 7.6], "FP", &TextStyle::new(2.6, Anchor::Middle));
+    draw_table(&mut canvas, &table, p.draught, floor + 17.0);
+    canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    Ok(canvas)
+}
+
+/// Areas of the stations, the highest waterline on top.
+fn draw_table(canvas: &mut Canvas, table: &BonjeanTable, design: f64, top: f64) {
+    let columns = table.stations.len() as f64;
+    let (left, first) = (10.0, 24.0);
+    let width = (ROOM[0] - 2.0 * left - first) / columns;
+    let largest = table.areas.iter().flatten().flatten().copied().fold(0.0, f64::max);
+    let digits = if largest >= 1000.0 { 0 } else { usize::from(largest >= 100.0) + 2 * usize::from(largest < 100.0) };
+    let style = TextStyle::new(2.5, Anchor::End);
+    let head = TextStyle { anchor: Anchor::Start, ..style };
+    canvas.text([left, top - 3.0], "AREAS OF SECTIONS, BOTH SIDES [m²]", &TextStyle { size: 2.8, ..head });
+    let y = |row: usize| top + ROW * (row as f64 + 0.5);
+    canvas.text([left + 1.0, y(0)], "z [m] \\ station", &head);
+    for k in 0..table.stations.len() {
+        canvas.text([left + first + width * (k + 1) as f64 - 1.0, y(0)], &k.to_string(), &style);
+    }
+    for (row, (z, areas)) in table.heights.iter().zip(&table.areas).rev().enumerate() {
+        let mark = if (z - design).abs() < 1e-9 { "  DWL" } else { "" };
+        canvas.text([left + 1.0, y(row + 1)], &format!("{z:.3}{mark}"), &head);
+        for (k, area) in areas.iter().enumerate() {
+            if let Some(area) = area {
+                canvas.text(
+                    [left + first + width * (k + 1) as f64 - 1.0, y(row + 1)],
+                    &format!("{area:.digits$}"),
+                    &style,
+                );
+            }
+        }
+    }
+    let bottom = top + ROW * (table.heights.len() + 1) as f64;
+    let rule = Pen::new(0.13, "#000000");
+    canvas.rectangle(&Rectangle::new(left, top, ROOM[0] - left, bottom), &Pen::new(0.35, "#000000"));
+    canvas.line([left, top + ROW], [ROOM[0] - left, top + ROW], &rule);
+    canvas.line([left + first, top], [left + first, bottom], &rule);
+}

@@ -1,0 +1,224 @@
+//! What `report` starts from: the folder that `generate`, `fit` or `fair` wrote, or the JSON of `hydro`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::failure::{Failure, problem};
+use super::generate::manifest_entry;
+use super::source::{read_bytes, utf8};
+use crate::exchange::{
+    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_outputs,
+};
+use crate::fairing::record::FairRecord;
+use crate::hull::Hull;
+use crate::hydrostatics::{Conventions, default_draughts};
+
+/// A result, read back.
+#[derive(Debug, Clone)]
+pub struct JobResult {
+    /// The hull; of `fair` the fair one.
+    pub hull: Hull,
+    /// Conventions of its tables.
+    pub conventions: Conventions,
+    /// Draughts of its hydrostatic table \[m\].
+    pub draughts: Vec<f64>,
+    /// The faired table, and `fairing.json`.
+    pub fairing: Option<(FairRecord, Value)>,
+    /// `changes.csv`, where there is one.
+    pub changes: Option<String>,
+    /// What should be known about the files.
+    pub notes: Vec<String>,
+    /// The files that were read.
+    pub inputs: Vec<ManifestEntry>,
+    /// The folder of the result, where it is one.
+    pub folder: Option<PathBuf>,
+}
+
+const REMEDY: &str =
+    "Give the folder that `generate`, `fit` or `fair` wrote, a JSON file in it, or the file of `hydro --json`";
+
+/// Files of a result as they are read.
+struct Reader {
+    folder: PathBuf,
+    inputs: Vec<ManifestEntry>,
+}
+
+impl Reader {
+    fn text(&mut self, path: &Path) -> Result<String, Failure> {
+        let bytes = read_bytes(path)?;
+        self.inputs.push(manifest_entry(path, &bytes));
+        utf8(path, bytes)
+    }
+
+    /// A file of the folder, when it is there.
+    fn there(&mut self, name: &str) -> Result<Option<String>, Failure> {
+        let path = self.folder.join(name);
+        if path.is_file() { self.text(&path).map(Some) } else { Ok(None) }
+    }
+
+    /// A file that the result cannot be without; `of` is the command that writes it.
+    fn needed(&mut self, name: &str, of: &str) -> Result<String, Failure> {
+        if let Some(text) = self.there(name)? {
+            return Ok(text);
+        }
+        let mut found: Vec<String> = fs::read_dir(&self.folder)
+            .map(|entries| entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect())
+            .unwrap_or_default();
+        found.sort();
+        let listed = match found.len() {
+            0 => "nothing".to_owned(),
+            n if n > 6 => format!("{} and {} more", found[..6].join(", "), n - 6),
+            _ => found.join(", "),
+        };
+        let message = format!("found {listed}; expected {name}, which {of} writes");
+        Err(Failure::Input(vec![problem("E181", &self.folder, message, REMEDY)]))
+    }
+
+    fn hull(&mut self, name: &str, of: &str) -> Result<HullFile, Failure> {
+        let text = self.needed(name, of)?;
+        hull_of(&self.folder.join(name), &text)
+    }
+}
+
+fn hull_of(path: &Path, text: &str) -> Result<HullFile, Failure> {
+    read_hull(text).map_err(|error| unread(path, &error.to_string()))
+}
+
+fn unread(path: &Path, message: &str) -> Failure {
+    Failure::Input(vec![problem("E182", path, message.to_owned(), "Run the command that wrote it again")])
+}
+
+fn json(path: &Path, text: &str) -> Result<Value, Failure> {
+    serde_json::from_str(text).map_err(|error| unread(path, &error.to_string()))
+}
+
+/// Reads a result.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with the file, what was found, what was expected and what to do.
+pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
+    let beside = |folder: &Path| Reader { folder: folder.to_owned(), inputs: Vec::new() };
+    if path.is_dir() {
+        return of_folder(beside(path));
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let named = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    if path.is_file() && ["fairing.json", "summary.json", "fit.json", "manifest.json"].contains(&named.as_str()) {
+        return of_folder(beside(folder));
+    }
+    let mut reader = beside(folder);
+    let text = reader.text(path)?;
+    let value = json(path, &text)?;
+    if value["format"] == "loftsman-hull" {
+        let HullFile { hull, conventions } = hull_of(path, &text)?;
+        let p = hull.particulars();
+        let draughts = default_draughts(p.draught, p.depth);
+        return Ok(JobResult { draughts, ..bare(hull, conventions, reader.inputs) });
+    }
+    let rows = value["rows"].as_array().filter(|_| value["conventions"].is_object());
+    let Some(rows) = rows else {
+        let members: Vec<&str> = value.as_object().into_iter().flatten().map(|(key, _)| key.as_str()).take(6).collect();
+        let message = format!(
+            "found an object of {}; expected a result of a command",
+            if members.is_empty() { "nothing".to_owned() } else { members.join(", ") }
+        );
+        return Err(Failure::Input(vec![problem("E182", path, message, REMEDY)]));
+    };
+    let mut draughts: Vec<f64> = rows.iter().filter_map(|row| row["T"].as_f64()).collect();
+    draughts.sort_by(f64::total_cmp);
+    draughts.dedup();
+    if value["hull"].is_null() || draughts.len() < 2 {
+        let message = match draughts.len() {
+            _ if value["hull"].is_null() => {
+                "found hydrostatics without their hull; expected the member `hull`".to_owned()
+            }
+            n => format!("found {n} draughts; expected two at least"),
+        };
+        return Err(Failure::Input(vec![problem(
+            "E182",
+            path,
+            message,
+            "Run `hydro HULL --draughts LIST --json` again",
+        )]));
+    }
+    let HullFile { hull, conventions } = hull_of(path, &value["hull"].to_string())?;
+    Ok(JobResult { draughts, ..bare(hull, conventions, reader.inputs) })
+}
+
+fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> JobResult {
+    JobResult {
+        hull,
+        conventions,
+        draughts: Vec::new(),
+        fairing: None,
+        changes: None,
+        notes: Vec::new(),
+        inputs,
+        folder: None,
+    }
+}
+
+fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
+    let HullFile { hull, conventions } = reader.hull("hull.json", "`generate`, `fit` or `fair`")?;
+    let folder = reader.folder.clone();
+    let mut changes = None;
+    let fairing = match reader.there("fairing.json")? {
+        None => None,
+        Some(text) => {
+            let path = folder.join("fairing.json");
+            let file = read_fairing(&text).map_err(|error| unread(&path, &error.to_string()))?;
+            let FairingFile { name, status, lines, sigma, edf, chosen, trials, progress, whole } = file;
+            let text = reader.needed("changes.csv", "`fair`")?;
+            let moved =
+                read_changes(&text, &lines).map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
+            let before = reader.hull("start.json", "`fair`")?.hull;
+            let after = hull.clone();
+            let lambda = chosen.lambda;
+            let record = FairRecord {
+                name,
+                status,
+                before,
+                after,
+                lines,
+                changes: moved,
+                sigma,
+                lambda,
+                edf,
+                chosen,
+                trials,
+                progress,
+            };
+            changes = Some(text);
+            Some((record, whole))
+        }
+    };
+    let p = *hull.particulars();
+    let draughts = match reader.there("hydrostatics.csv")? {
+        Some(text) => first_column(&folder.join("hydrostatics.csv"), &text)?,
+        None => default_draughts(p.draught, p.depth),
+    };
+    let mut notes = Vec::new();
+    if let Some(text) = reader.there("manifest.json")? {
+        let written = read_manifest_outputs(&text);
+        let other =
+            |entry: &&ManifestEntry| written.iter().any(|one| one.file == entry.file && one.sha256 != entry.sha256);
+        notes.extend(reader.inputs.iter().filter(other).map(|entry| {
+            format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
+        }));
+    }
+    Ok(JobResult { draughts, fairing, changes, notes, folder: Some(folder), ..bare(hull, conventions, reader.inputs) })
+}
+
+/// The draughts of `hydrostatics.csv`.
+fn first_column(path: &Path, text: &str) -> Result<Vec<f64>, Failure> {
+    let cells = text.lines().skip(2).map(|line| line.split(',').next().unwrap_or_default());
+    let draughts: Vec<f64> =
+        cells.filter_map(|cell| cell.parse().ok()).filter(|value: &f64| value.is_finite()).collect();
+    if draughts.len() < 2 {
+        let message = format!("found {} draughts in its first column; expected two at least", draughts.len());
+        return Err(unread(path, &message));
+    }
+    Ok(draughts)
+}

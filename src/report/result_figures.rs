@@ -1,0 +1,295 @@
+//! The figures of a report: what is drawn of a result, in the order of its pages, with captions that say what to look for.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use serde_json::Value;
+
+use super::failure::Failure;
+use super::page::conventions_line;
+use super::result::JobResult;
+use super::result_page::{Table, condition, constraints, verdict};
+use crate::fairing::record::FairRecord;
+use crate::hydrostatics::CurvesOfForm;
+use crate::plot::{
+    Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
+    fairing_arrows, fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves,
+    smoothing_figure, surface_map, table_figure,
+};
+
+/// A figure of a report.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ReportFigure {
+    /// Stem of its files.
+    pub(super) key: &'static str,
+    /// Heading.
+    pub(super) title: &'static str,
+    /// What to look for.
+    pub(super) caption: &'static str,
+    /// The drawing.
+    pub(super) svg: Svg,
+    /// The picture.
+    pub(super) png: Vec<u8>,
+}
+
+impl ReportFigure {
+    /// Whether it is a table, which the page has as text that can be sorted.
+    pub(super) fn is_table(&self) -> bool {
+        ["verdict", "constraints", "design-condition"].contains(&self.key)
+    }
+}
+
+type Draw<'a> = Box<dyn Fn() -> Result<Option<Svg>, PlotError> + Sync + 'a>;
+
+/// Key, heading, caption and drawing of a figure.
+struct Job<'a> {
+    words: [&'static str; 3],
+    draw: Draw<'a>,
+}
+
+fn words(figure: Figure) -> [&'static str; 3] {
+    let key = figure.key();
+    match figure {
+        Figure::Lines => [
+            key,
+            "Lines plan",
+            "Sight along every line: waterlines, buttocks and diagonals run without humps, and neighbours keep their \
+             distances. Diagonals cross the hull most squarely and are the judge.",
+        ],
+        Figure::Sections => [
+            key,
+            "Body plan",
+            "Aft sections on the left, forward sections on the right. The gaps between neighbouring sections grow and \
+             shrink evenly towards the ends.",
+        ],
+        Figure::SectionalArea => [
+            key,
+            "Sectional-area curve",
+            "Its area is the displacement and its centroid the LCB. Shoulders should be no sharper than the hull needs; \
+             hollows stand at the ends alone.",
+        ],
+        Figure::Hydrostatics => {
+            [key, "Hydrostatic curves", "All curves over one axis of draught; the dash-dot line is the design draught."]
+        }
+        Figure::DiagramSheet => [
+            key,
+            "Diagram sheet",
+            "The classic sheet: measure from the axis that the legend names and multiply by the scale of the curve.",
+        ],
+    }
+}
+
+/// What is drawn of a faired table, before the hull.
+fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> {
+    let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw };
+    vec![
+        job(
+            [
+                "constraints",
+                "What is held, and at which price",
+                "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
+            ],
+            Box::new(|| {
+                let note = "price: RMS of the moves that dropping the wish would save";
+                Ok(sheet("CONSTRAINTS AND PRICES", note, constraints(fairing)))
+            }),
+        ),
+        job(
+            [
+                "fairing-moves",
+                "What moved",
+                "Every offset with its move in millimetres, outward positive. Look for runs of one sign along a line: they are a \
+                 change of shape, not noise. Locked cells are framed, cells at their tolerance underlined.",
+            ],
+            Box::new(|| fairing_moves(record).map(Some)),
+        ),
+        job(
+            [
+                "fairing-arrows",
+                "Where the offsets moved",
+                "Before in grey, after in black; an arrow for every offset, exaggerated as the sheet says. Arrows that turn from \
+                 point to point take noise out; a field of one direction is a change of form.",
+            ],
+            Box::new(|| fairing_arrows(record).map(Some)),
+        ),
+        job(
+            [
+                "fairing-body-plan",
+                "Body plan before and after",
+                "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
+                 mark inflections: those that are left should be meant.",
+            ],
+            Box::new(|| fairing_body_plan(record).map(Some)),
+        ),
+        job(
+            [
+                "fairing-half-breadth-plan",
+                "Half-breadth plan before and after",
+                "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
+            ],
+            Box::new(|| fairing_half_breadth_plan(record).map(Some)),
+        ),
+        job(
+            [
+                "fairing-buttocks",
+                "Buttocks before and after",
+                "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
+            ],
+            Box::new(|| some(fairing_buttocks(record))),
+        ),
+        job(
+            [
+                "fairing-diagonals",
+                "Diagonals before and after",
+                "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
+            ],
+            Box::new(|| some(fairing_diagonals(record))),
+        ),
+        job(
+            [
+                "deviation",
+                "Moves against the assumed noise",
+                "If the moves are the noise of the table the steps follow the bell. Long tails are wrong readings; a middle off zero \
+                 is a change of shape.",
+            ],
+            Box::new(|| deviation_figure(record)),
+        ),
+        job(
+            [
+                "lcurve",
+                "Deviation against energy",
+                "A point for each smoothing weight, none of which can be bettered in both: the Pareto front of closeness and \
+                 fairness. The weight taken stands at the bend: to its left energy is bought dearly, to its right the offsets are given \
+                 away.",
+            ],
+            Box::new(|| smoothing_figure(record)),
+        ),
+        job(
+            [
+                "convergence",
+                "Convergence",
+                "All three lines fall to rounding where the program was solved; lines that level off above it are a program that \
+                 was not.",
+            ],
+            Box::new(|| convergence_figure(record)),
+        ),
+    ]
+}
+
+/// A figure that hulls without such planes do not have.
+fn some(drawn: Result<Svg, PlotError>) -> Result<Option<Svg>, PlotError> {
+    match drawn {
+        Err(PlotError::Chart(_)) => Ok(None),
+        drawn => drawn.map(Some),
+    }
+}
+
+/// A table on a sheet; none where it has no rows.
+fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
+    let heads: Vec<&str> = table.heads.iter().map(String::as_str).collect();
+    let rows: Vec<Vec<String>> = table.rows.into_iter().map(|(_, cells)| cells).collect();
+    (!rows.is_empty()).then(|| table_figure(title, note, &heads, table.words, &rows))
+}
+
+/// What the fairing came to, in sentences; none of other results.
+fn verdict_figure(result: &JobResult) -> Option<Svg> {
+    let rows = verdict(result).into_iter().map(|(bad, line)| (bad, vec![line])).collect();
+    let table = Table { heads: vec![result.hull.name().to_owned()], words: 1, rows };
+    sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
+}
+
+/// The design condition, that before fairing beside it.
+fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
+    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
+    let before = inputs.before.and_then(rows);
+    sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
+}
+
+/// What is drawn of a result.
+fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
+    let mut jobs: Vec<Job<'a>> =
+        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
+    let came = [
+        "verdict",
+        "What the fairing came to",
+        "Moves, inflections and prices in one look; the sheets that follow prove them.",
+    ];
+    jobs.insert(0, Job { words: came, draw: Box::new(|| Ok(verdict_figure(result))) });
+    let standard = |figure: Figure| Job {
+        words: words(figure),
+        draw: Box::new(move || figure.draw(inputs).map(Some)) as Draw<'a>,
+    };
+    jobs.extend(Figure::ALL.map(standard));
+    jobs.push(Job {
+        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught."],
+        draw: Box::new(|| Ok(condition_figure(inputs))),
+    });
+    jobs.push(Job {
+        words: [
+            "bonjean",
+            "Bonjean curves",
+            "At each station the area below a waterline is drawn forward of its line: draw a waterline at any trim and read the areas \
+             that it cuts off.",
+        ],
+        draw: Box::new(|| bonjean_figure(inputs).map(Some)),
+    });
+    jobs.extend(SurfaceMapKind::ALL.map(|kind| {
+        let words = match kind {
+            SurfaceMapKind::Gaussian => [
+                kind.key(),
+                "Gaussian curvature",
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable. Black lines are 0.",
+            ],
+            SurfaceMapKind::Mean => [
+                kind.key(),
+                "Mean curvature",
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0.",
+            ],
+            SurfaceMapKind::Zebra => [
+                kind.key(),
+                "Zebra stripes",
+                "Stripes swing evenly over a fair surface. A kink is a break of curvature, a step a break of the tangent plane.",
+            ],
+        };
+        Job { words, draw: Box::new(move || surface_map(inputs.hull, inputs.before, kind).map(Some)) as Draw<'a> }
+    }));
+    jobs
+}
+
+/// A figure with its place in the order; none where there is nothing to draw.
+type Drawn = (usize, Result<Option<ReportFigure>, Failure>);
+
+/// Draws the figures of a result, pictures at `dots_per_inch`; on as many threads as there are cores, in one order.
+pub(super) fn report_figures(
+    result: &JobResult,
+    inputs: &FigureInputs<'_>,
+    dots_per_inch: f64,
+) -> Result<Vec<ReportFigure>, Failure> {
+    let jobs = jobs(result, inputs);
+    let next = AtomicUsize::new(0);
+    let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
+    let work = || {
+        while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
+        {
+            let one = figure(job, dots_per_inch);
+            drawn.lock().unwrap_or_else(PoisonError::into_inner).push((index, one));
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(jobs.len());
+    thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
+    let mut drawn = drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
+    drawn.sort_by_key(|(index, _)| *index);
+    drawn.into_iter().filter_map(|(_, figure)| figure.transpose()).collect()
+}
+
+fn figure(job: &Job<'_>, dots_per_inch: f64) -> Result<Option<ReportFigure>, Failure> {
+    let [key, title, caption] = job.words;
+    let failure = |error: PlotError| match error {
+        PlotError::PictureSize { .. } => Failure::Usage(format!("{key}: {error}")),
+        error => Failure::Internal(format!("{key}: {error}")),
+    };
+    let Some(svg) = (job.draw)().map_err(failure)? else { return Ok(None) };
+    let png = svg.to_png(dots_per_inch).map_err(failure)?;
+    Ok(Some(ReportFigure { key, title, caption, svg, png }))
+}

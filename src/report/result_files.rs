@@ -1,0 +1,69 @@
+//! The job of `report`: a result in, its figures and pages out. Nothing is written here.
+
+use std::thread;
+
+use super::failure::Failure;
+use super::files::OutputFile;
+use super::generate::manifest_file;
+use super::result::JobResult;
+use super::result_figures::report_figures;
+use super::result_page::report_page;
+use super::result_tables::report_tables;
+use crate::hydrostatics::CurvesOfForm;
+use crate::plot::{Figure, FigureInputs, PlotError, Sheet, Svg, write_pdf};
+
+/// What a report is made with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReportSettings {
+    /// Resolution of the pictures \[dots per inch\].
+    pub dots_per_inch: f64,
+    /// Sheet of the lines plan in the PDF.
+    pub sheet: Sheet,
+}
+
+/// The files of a report, in the order of their names; the manifest is the last.
+///
+/// # Errors
+/// [`Failure::Usage`] for a resolution that makes no picture; [`Failure::Internal`] when a figure cannot be drawn.
+pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<Vec<OutputFile>, Failure> {
+    let hull = &result.hull;
+    let mut draughts = result.draughts.clone();
+    draughts.push(hull.particulars().draught);
+    let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
+    let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
+    let start = result.fairing.as_ref().map(|(record, _)| &record.before);
+    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves };
+    let figures = report_figures(result, &inputs, settings.dots_per_inch)?;
+    let before = result
+        .fairing
+        .as_ref()
+        .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
+    let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
+    let large = match settings.sheet {
+        Sheet::A3 => None,
+        sheet => Some(Figure::lines_plan(&inputs, sheet).map_err(internal)?),
+    };
+    let pages: Vec<(&str, &Svg)> = figures
+        .iter()
+        .map(|figure| (figure.title, large.as_ref().filter(|_| figure.key == "lines").unwrap_or(&figure.svg)))
+        .collect();
+    // The PDF takes as long as page and tables together.
+    let (pdf, page, tables) = thread::scope(|scope| {
+        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages));
+        let page = report_page(result, &design, before.as_ref(), &curves, &figures);
+        (pdf.join(), page, report_tables(result, &curves))
+    });
+    let pdf = pdf.map_err(|_| Failure::Internal("report.pdf: it could not be made".to_owned()))?.map_err(internal)?;
+    let mut files =
+        vec![OutputFile::text("report.html", page), OutputFile { name: "report.pdf".to_owned(), contents: pdf }];
+    files.extend(tables?);
+    for figure in figures {
+        files.push(OutputFile::text(&format!("{}.svg", figure.key), figure.svg.as_str().to_owned()));
+        files.push(OutputFile { name: format!("{}.png", figure.key), contents: figure.png });
+    }
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    let input = result.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
+    let manifest = manifest_file(input, &files)?;
+    files.push(manifest);
+    Ok(files)
+}

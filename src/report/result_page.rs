@@ -1,0 +1,434 @@
+//! `report.html`: one page that opens without a network: the hull in space, the figures, and tables that can be sorted.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
+
+use super::page::{fixed, unit};
+use super::result::JobResult;
+use super::result_figures::ReportFigure;
+use crate::exchange::scene_json;
+use crate::fairing::inspect::{Planes, Resolution};
+use crate::fairing::surface::Origin;
+use crate::hull::Hull;
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics, QUANTITIES};
+use crate::plot::FONT;
+
+const STYLE: &str = include_str!("html/page.css");
+const VIEWER: &str = include_str!("html/viewer.js");
+const TABLES: &str = include_str!("html/tables.js");
+
+/// Width of a figure that fills the column \[mm\].
+const FULL: f64 = 400.0;
+
+/// Text for HTML.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A drawing in the page; its names are its own.
+fn inline(figure: &ReportFigure) -> String {
+    let own = format!("{}-", figure.key);
+    let text = figure.svg.as_str().replace("id=\"", &format!("id=\"{own}")).replace("url(#", &format!("url(#{own}"));
+    // The size is that of the column; the viewBox keeps the proportions.
+    let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
+    let shape = head.find("viewBox=").map_or("", |at| &head[at..]);
+    // Small charts do not fill the column.
+    let wide = head.split("width=\"").nth(1).and_then(|rest| rest.split("mm").next()?.parse::<f64>().ok());
+    let part = wide.map_or(100.0, |millimetres| (100.0 * millimetres / FULL).clamp(50.0, 100.0));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%\" {shape}{rest}",
+        escape(figure.title)
+    )
+}
+
+/// A table; the first `words` columns are text.
+pub(super) struct Table {
+    pub(super) heads: Vec<String>,
+    pub(super) words: usize,
+    pub(super) rows: Vec<(bool, Vec<String>)>,
+}
+
+impl Table {
+    fn new(heads: &[&str], words: usize) -> Self {
+        Self { heads: heads.iter().map(|head| (*head).to_owned()).collect(), words, rows: Vec::new() }
+    }
+
+    fn html(&self) -> String {
+        let class = |column: usize| if column < self.words { " class=\"word\"" } else { "" };
+        let mut html = String::from("<div class=\"scroll\"><table class=\"sortable\"><thead><tr>");
+        for (column, head) in self.heads.iter().enumerate() {
+            html.push_str(&format!("<th{}>{}</th>", class(column), escape(head)));
+        }
+        html.push_str("</tr></thead><tbody>\n");
+        for (marked, cells) in &self.rows {
+            html.push_str(if *marked { "<tr class=\"design\">" } else { "<tr>" });
+            for (column, cell) in cells.iter().enumerate() {
+                html.push_str(&format!("<td{}>{}</td>", class(column), escape(cell)));
+            }
+            html.push_str("</tr>\n");
+        }
+        html.push_str("</tbody></table></div>\n");
+        html
+    }
+}
+
+/// Every quantity over the draughts; the design draught is marked.
+fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
+    let defined = |q: &&crate::hydrostatics::Quantity| curves.rows.iter().any(|row| (q.value)(row).is_some());
+    let quantities: Vec<_> = QUANTITIES.iter().filter(defined).collect();
+    let heads = quantities.iter().map(|q| format!("{} [{}]", q.key, q.unit)).collect();
+    let row = |row: &Hydrostatics| {
+        let cells = quantities.iter().map(|q| (q.value)(row).map_or(String::new(), |v| fixed(v, q.decimals)));
+        ((row.draught - design).abs() < 1e-9, cells.collect())
+    };
+    Table { heads, words: 0, rows: curves.rows.iter().map(row).collect() }
+}
+
+/// The design condition, and that before fairing where there is one.
+pub(super) fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) -> Table {
+    let mut table = match before {
+        Some(_) => Table::new(&["quantity", "key", "unit", "before", "after", "difference"], 3),
+        None => Table::new(&["quantity", "key", "unit", "value"], 3),
+    };
+    for q in QUANTITIES {
+        let Some(value) = (q.value)(design) else { continue };
+        let mut cells = vec![q.name.to_owned(), q.key.to_owned(), unit(q.key).to_owned()];
+        if let Some(before) = before {
+            let old = (q.value)(before);
+            cells.push(old.map_or(String::new(), |old| fixed(old, q.decimals)));
+            cells.push(fixed(value, q.decimals));
+            cells.push(old.map_or(String::new(), |old| fixed(value - old, q.decimals + 1)));
+        } else {
+            cells.push(fixed(value, q.decimals));
+        }
+        table.rows.push((false, cells));
+    }
+    table
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// A number of a file to `digits` figures; plain where it is neither very large nor very small.
+fn figures(value: &Value, digits: usize) -> String {
+    let Some(number) = value.as_f64() else { return String::new() };
+    let size = number.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    let power = size.log10().floor() as i32;
+    if (-3..9).contains(&power) {
+        format!("{number:.*}", (digits as i32 - 1 - power).max(0) as usize)
+    } else {
+        format!("{number:.*e}", digits.saturating_sub(1))
+    }
+}
+
+/// A value that is held; what is rounding is 0.
+fn value(value: &Value) -> String {
+    if value.as_f64().is_some_and(|number| number.abs() < 1e-9) { "0".to_owned() } else { figures(value, 8) }
+}
+
+fn millimetres(value: &Value, decimals: usize) -> String {
+    value.as_f64().map_or(String::new(), |metres| fixed(1e3 * metres, decimals))
+}
+
+fn list(value: &Value) -> impl Iterator<Item = &Value> {
+    value.as_array().into_iter().flatten()
+}
+
+pub(super) fn constraints(fairing: &Value) -> Table {
+    let heads = ["held", "unit", "target", "before", "after", "residual", "multiplier", "price [mm RMS]"];
+    let mut table = Table::new(&heads, 2);
+    for held in list(&fairing["constraints"]) {
+        table.rows.push((
+            false,
+            vec![
+                text(&held["name"]),
+                text(&held["unit"]),
+                value(&held["target"]),
+                value(&held["before"]),
+                value(&held["after"]),
+                figures(&held["residual"], 2),
+                figures(&held["multiplier"], 3),
+                millimetres(&held["price"], 3),
+            ],
+        ));
+    }
+    for rule in list(&fairing["rules"]) {
+        let blank = || String::new();
+        table.rows.push((
+            false,
+            vec![
+                text(&rule["name"]),
+                format!("{} rows, {} bind", rule["rows"], rule["binding"]),
+                blank(),
+                blank(),
+                blank(),
+                figures(&rule["violation"], 2),
+                figures(&rule["multiplier"], 3),
+                millimetres(&rule["price"], 3),
+            ],
+        ));
+    }
+    table
+}
+
+fn inflections(fairing: &Value) -> Table {
+    let mut table = Table::new(&["curves", "at [m]", "before", "after", "allowed", "least that is possible"], 1);
+    for (kind, key) in
+        [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
+    {
+        for line in list(&fairing["inflections"][key]) {
+            let count = |key: &str| line[key].as_u64().map_or(String::new(), |n| n.to_string());
+            let at = line["at"].as_f64().map_or(String::new(), |at| fixed(at, 3));
+            let cells = vec![kind.to_owned(), at, count("before"), count("after"), count("allowed"), count("minimum")];
+            table.rows.push((false, cells));
+        }
+    }
+    table
+}
+
+fn suspects(fairing: &Value) -> Table {
+    let heads =
+        ["id", "what it may be", "written", "x [m]", "z [m]", "value [m]", "expected [m]", "proposed [m]", "sigmas"];
+    let mut table = Table::new(&heads, 3);
+    for suspect in list(&fairing["suspects"]) {
+        let metres = |key: &str| suspect[key].as_f64().map_or(String::new(), |v| fixed(v, 4));
+        table.rows.push((
+            false,
+            vec![
+                text(&suspect["id"]),
+                text(&suspect["hypothesis"]),
+                text(&suspect["written"]),
+                metres("station"),
+                metres("waterline"),
+                metres("value"),
+                metres("expected"),
+                metres("proposed"),
+                figures(&suspect["score"], 3),
+            ],
+        ));
+    }
+    table
+}
+
+fn changes(result: &JobResult) -> Option<Table> {
+    let (record, _) = result.fairing.as_ref()?;
+    let heads = ["station", "marks", "x [m]", "z [m]", "before [m]", "after [m]", "move [mm]", "tolerance [mm]"];
+    let mut table = Table::new(&heads, 2);
+    for change in &record.changes {
+        let name = record.lines.stations.get(change.station).map_or("", |station| station.name.as_str());
+        let marks = [
+            (matches!(change.origin, Origin::Deck { .. }), "deck"),
+            (change.locked, "locked"),
+            (change.suspect, "suspect"),
+        ];
+        let marks: Vec<&str> = marks.into_iter().filter(|(set, _)| *set).map(|(_, word)| word).collect();
+        table.rows.push((
+            false,
+            vec![
+                name.to_owned(),
+                marks.join(", "),
+                fixed(change.x, 3),
+                fixed(change.z, 3),
+                fixed(change.before, 4),
+                fixed(change.after, 4),
+                fixed(1e3 * (change.after - change.before), 2),
+                change.tolerance.map_or(String::new(), |t| fixed(1e3 * t, 2)),
+            ],
+        ));
+    }
+    Some(table)
+}
+
+/// What the fairing came to, in sentences.
+pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
+    let Some((record, fairing)) = &result.fairing else { return Vec::new() };
+    let (rms, largest, _) = record.moves();
+    let left_out = record.changes.iter().filter(|change| change.suspect).count();
+    let mut lines = vec![match fairing["status"].as_str() {
+        Some("optimal") => (false, "All wishes are held; the answer is proved to be the best.".to_owned()),
+        Some(word) => (true, format!("Status {word}: not all wishes are held. What is shown is a compromise.")),
+        None => (true, "The status is not known.".to_owned()),
+    }];
+    lines.push((
+        false,
+        format!(
+            "{} offsets moved {} mm RMS and {} mm at most; the noise of the table is {} mm. {left_out} left out as suspects.",
+            record.changes.len(),
+            fixed(1e3 * rms, 2),
+            fixed(1e3 * largest, 2),
+            fixed(1e3 * record.sigma, 2)
+        ),
+    ));
+    let sum = |key: &str, when: &str| list(&fairing["inflections"][key]).filter_map(|l| l[when].as_u64()).sum::<u64>();
+    let counts: Vec<String> = ["waterlines", "stations", "buttocks", "diagonals"]
+        .iter()
+        .map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after")))
+        .collect();
+    lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
+    let prices: Vec<String> = list(&fairing["constraints"]).map(|held| text(&held["words"])).collect();
+    if !prices.is_empty() {
+        lines.push((false, format!("Prices: {}.", prices.join("; "))));
+    }
+    lines
+}
+
+fn box_of(id: &str, word: &str, checked: bool) -> String {
+    let checked = if checked { " checked" } else { "" };
+    format!("<label><input type=\"checkbox\" id=\"{id}\"{checked}> {word}</label>\n")
+}
+
+fn radio(name: &str, id: &str, word: &str, checked: bool) -> String {
+    let checked = if checked { " checked" } else { "" };
+    format!("<label><input type=\"radio\" name=\"{name}\" id=\"{id}\"{checked}> {word}</label>\n")
+}
+
+fn viewer(result: &JobResult) -> String {
+    let mut html = String::from(
+        "<section id=\"viewer\"><h2>The hull in space</h2>\n<p>Drag to turn, Shift and drag to move, wheel to zoom.</p>\n\
+         <div id=\"controls\">\n",
+    );
+    for (view, word) in [("space", "space"), ("ahead", "from ahead"), ("profile", "profile"), ("plan", "from above")] {
+        html.push_str(&format!("<button type=\"button\" data-view=\"{view}\">{word}</button>\n"));
+    }
+    html.push_str("<fieldset>");
+    for (id, word, checked) in [
+        ("body", "body plan", false),
+        ("station", "stations", true),
+        ("waterline", "waterlines", true),
+        ("buttock", "buttocks", false),
+        ("diagonal", "diagonals", false),
+        ("combs", "combs", false),
+    ] {
+        html.push_str(&box_of(id, word, checked));
+    }
+    html.push_str(
+        "<input type=\"range\" id=\"comb-scale\" min=\"-1\" max=\"1\" step=\"0.05\" value=\"0\" aria-label=\"length of combs\"> \
+         <span id=\"comb-words\"></span></fieldset>\n<fieldset>",
+    );
+    for (id, word, checked) in [
+        ("surface", "surface", true),
+        ("gaussian", "Gaussian map", false),
+        ("mean", "mean map", false),
+        ("zebra", "zebra", false),
+    ] {
+        html.push_str(&box_of(id, word, checked));
+    }
+    html.push_str("</fieldset>\n<fieldset>");
+    html.push_str(&radio("sides", "half", "half", false));
+    html.push_str(&radio("sides", "full", "full hull", true));
+    html.push_str("</fieldset>\n");
+    if result.fairing.is_some() {
+        html.push_str("<fieldset>");
+        html.push_str(&radio("when", "before", "before", false));
+        html.push_str(&radio("when", "after", "after", true));
+        html.push_str("</fieldset>\n");
+    }
+    html.push_str(
+        "</div>\n<p id=\"no-view\" class=\"bad\" hidden>This browser has no WebGL; the figures below show the same.</p>\n\
+         <canvas id=\"view\"></canvas>\n<p id=\"legend\"></p></section>\n",
+    );
+    html
+}
+
+/// The scene of the viewer, safe inside a script element.
+fn scene(result: &JobResult) -> String {
+    let mut planes = Planes::with_defaults(&result.hull);
+    let length = result.hull.particulars().length_between_perpendiculars;
+    let mut tolerance = Resolution::for_length(length).tolerance();
+    let mut hulls: Vec<(&str, &Hull)> = vec![("after", &result.hull)];
+    if let Some((record, _)) = &result.fairing {
+        planes.stations = record.lines.stations.iter().map(|station| station.x).collect();
+        planes.waterlines.clone_from(&record.lines.waterlines);
+        tolerance = record.tolerance();
+        hulls.push(("before", &record.before));
+    }
+    scene_json(&hulls, &planes.cuts(), tolerance).to_string().replace("</", "<\\/")
+}
+
+/// The page.
+pub(super) fn report_page(
+    result: &JobResult,
+    design: &Hydrostatics,
+    before: Option<&Hydrostatics>,
+    curves: &CurvesOfForm,
+    drawn: &[ReportFigure],
+) -> String {
+    let name = escape(result.hull.name());
+    let p = result.hull.particulars();
+    let mut sections: Vec<(&str, &str, String)> = Vec::new();
+    if let Some((_, fairing)) = &result.fairing {
+        sections.push(("suspects", "Suspects", suspects(fairing).html()));
+        sections.push((
+            "constraints",
+            "What is held, and at which price", 
+            format!(
+                "<p>The price is the RMS of the moves that dropping the wish would save. Duality gap {}, largest violation {}.</p>\n{}",
+                figures(&fairing["certificate"]["gap"], 2),
+                figures(&fairing["certificate"]["max_violation"], 2),
+                constraints(fairing).html()
+            ),
+        ));
+        let told = "<p>Buttocks and diagonals were not used in the fit: they are the independent check.</p>\n";
+        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(fairing).html())));
+    }
+    sections.push(("condition", "Design condition", condition(design, before).html()));
+    sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
+    if let Some(table) = changes(result) {
+        sections.push(("changes", "Every offset before and after", table.html()));
+    }
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
+         <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
+         {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
+         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         from AP, z up from the base line</p>\n",
+        STANDARD.encode(FONT),
+        p.length_between_perpendiculars,
+        p.breadth,
+        p.draught,
+        p.depth,
+        result.conventions.density
+    );
+    for (bad, line) in verdict(result) {
+        html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, escape(&line)));
+    }
+    for note in &result.notes {
+        html.push_str(&format!("<p class=\"bad\">{}</p>\n", escape(note)));
+    }
+    let assumed: Vec<String> =
+        result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text)).collect();
+    if !assumed.is_empty() {
+        html.push_str("<details><summary>What was found and assumed</summary>\n");
+        assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", escape(note))));
+        html.push_str("</details>\n");
+    }
+    html.push_str("</header>\n<nav><a href=\"#viewer\">The hull in space</a>");
+    let shown = || drawn.iter().filter(|figure| !figure.is_table());
+    let links = shown().map(|figure| (figure.key, figure.title));
+    for (id, title) in links.chain(sections.iter().map(|(id, title, _)| (*id, *title))) {
+        html.push_str(&format!("<a href=\"#{id}\">{title}</a>"));
+    }
+    html.push_str("</nav>\n");
+    html.push_str(&viewer(result));
+    for figure in shown() {
+        html.push_str(&format!(
+            "<section id=\"{}\"><h2>{}</h2>\n<figure>\n{}<figcaption>{}</figcaption></figure></section>\n",
+            figure.key,
+            figure.title,
+            inline(figure),
+            escape(figure.caption)
+        ));
+    }
+    for (id, title, body) in &sections {
+        html.push_str(&format!("<section id=\"{id}\"><h2>{title}</h2>\n{body}</section>\n"));
+    }
+    html.push_str(&format!("<p>loftsman {}</p>\n", env!("CARGO_PKG_VERSION")));
+    html.push_str(&format!("<script type=\"application/json\" id=\"scene\">{}</script>\n", scene(result)));
+    html.push_str(&format!("<script>\n{TABLES}</script>\n<script>\n{VIEWER}</script>\n</body></html>\n"));
+    html
+}

@@ -1,0 +1,431 @@
+//! The command `report`: what it reads and refuses, its files, their bytes, the structure of its figures against kept ones, and the page in a
+//! browser.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+
+use loftsman::plot::Sheet;
+use loftsman::report::{
+    OutputFile, ReportSettings, fair_outputs, generate_outputs, read_design, read_fair, read_result, report_outputs,
+    write_all,
+};
+use resvg::tiny_skia::Pixmap;
+use serde_json::Value;
+
+/// Small pictures: what is tested here does not depend on their size.
+const SETTINGS: ReportSettings = ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3 };
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
+}
+
+/// An empty folder of this test.
+fn folder(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{test}"));
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn carried(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+/// A generated hull in a folder of its own.
+fn generated(test: &str) -> PathBuf {
+    let path = folder(test);
+    let config = carried("configs/wigley.toml");
+    let (design, bytes) = read_design(&config).unwrap();
+    let outputs = generate_outputs(&design, (&config, &bytes), &[]).unwrap();
+    write_all(&path, &outputs.files, true).unwrap();
+    path
+}
+
+/// A faired table with its report, made once.
+fn faired() -> &'static (PathBuf, Vec<OutputFile>) {
+    static FAIRED: OnceLock<(PathBuf, Vec<OutputFile>)> = OnceLock::new();
+    FAIRED.get_or_init(|| {
+        let path = folder("fair");
+        let job = read_fair(&carried("tests/data/wigley/offsets.csv"), &[]).unwrap();
+        write_all(&path, &fair_outputs(&job, false).unwrap().files, true).unwrap();
+        let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
+        (path, files)
+    })
+}
+
+fn text(files: &[OutputFile], name: &str) -> String {
+    let found = files.iter().find(|file| file.name == name).unwrap_or_else(|| panic!("no {name}"));
+    String::from_utf8(found.contents.clone()).unwrap()
+}
+
+/// The figures of a hull, and those of a faired table before them.
+const HULL: [&str; 10] = [
+    "bonjean",
+    "design-condition",
+    "diagram-sheet",
+    "gaussian-map",
+    "hydrostatics",
+    "lines",
+    "mean-map",
+    "sectional-area",
+    "sections",
+    "zebra-map",
+];
+const FAIRED: [&str; 11] = [
+    "constraints",
+    "convergence",
+    "deviation",
+    "fairing-arrows",
+    "fairing-body-plan",
+    "fairing-buttocks",
+    "fairing-diagonals",
+    "fairing-half-breadth-plan",
+    "fairing-moves",
+    "lcurve",
+    "verdict",
+];
+
+const TABLES: [&str; 13] = [
+    "bonjean.csv",
+    "diagonals-feet-inches-eighths.csv",
+    "diagonals-m.csv",
+    "diagonals-mm.csv",
+    "heights-feet-inches-eighths.csv",
+    "heights-m.csv",
+    "heights-mm.csv",
+    "hydrostatics.csv",
+    "hydrostatics.json",
+    "hydrostatics.xlsx",
+    "offsets-feet-inches-eighths.csv",
+    "offsets-m.csv",
+    "offsets-mm.csv",
+];
+
+fn expected(figures: &[&str], more: &[&str]) -> Vec<String> {
+    let pictures = figures.iter().flat_map(|key| [format!("{key}.png"), format!("{key}.svg")]);
+    let others = TABLES.iter().chain(more).chain(&["report.html", "report.pdf"]).map(|name| (*name).to_owned());
+    let mut names: Vec<String> = pictures.chain(others).collect();
+    names.sort();
+    names.push("manifest.json".to_owned());
+    names
+}
+
+#[test]
+fn every_result_becomes_a_report() {
+    let names = |files: &[OutputFile]| files.iter().map(|file| file.name.clone()).collect::<Vec<_>>();
+    let path = generated("generate");
+    let out = path.join("report");
+    let output = program(&["report", path.to_str().unwrap(), "--dpi", "24"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    for name in expected(&HULL, &[]) {
+        assert!(out.join(&name).is_file(), "{name}");
+    }
+    let both: Vec<&str> = HULL.iter().chain(&FAIRED).copied().collect();
+    assert_eq!(names(&faired().1), expected(&both, &["changes.csv"]));
+
+    let hydro = program(&["hydro", path.to_str().unwrap(), "--draughts", "1.25:6.25:1.25", "--json"]);
+    fs::write(path.join("hydro.json"), hydro.stdout).unwrap();
+    let result = read_result(&path.join("hydro.json")).unwrap();
+    assert_eq!(result.draughts, [1.25, 2.5, 3.75, 5.0, 6.25]);
+    assert_eq!(result.hull, read_result(&path).unwrap().hull);
+    assert_eq!(result.hull, read_result(&path.join("hull.json")).unwrap().hull);
+    assert_eq!(read_result(&path.join("summary.json")).unwrap().draughts, read_result(&path).unwrap().draughts);
+}
+
+#[test]
+fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
+    let path = folder("refused");
+    let refused = |arguments: &[&str], code: i32, parts: &[&str]| {
+        let output = program(&[&["report"], arguments].concat());
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{message}");
+        for part in parts {
+            assert!(message.contains(part), "{part} is not in {message}");
+        }
+    };
+    let shown = |name: &str| path.join(name).display().to_string();
+    refused(&[path.to_str().unwrap()], 3, &["E181", "found nothing; expected hull.json", "Give the folder"]);
+    refused(&[&shown("none.json")], 6, &["E602", "none.json"]);
+    fs::write(path.join("other.json"), "{\"a\": 1, \"b\": 2}").unwrap();
+    refused(&[&shown("other.json")], 3, &["E182", "other.json", "found an object of a, b"]);
+    fs::write(path.join("broken.json"), "{\"a\": ").unwrap();
+    refused(&[&shown("broken.json")], 3, &["E182", "line 1"]);
+    fs::write(path.join("old.json"), "{\"conventions\": {}, \"rows\": [{\"T\": 1.0}]}").unwrap();
+    refused(&[&shown("old.json")], 3, &["E182", "without their hull", "Run `hydro HULL"]);
+
+    let (fair, _) = faired();
+    let copy = |name: &str| fs::copy(fair.join(name), path.join(name)).map(drop).unwrap();
+    ["hull.json", "fairing.json"].into_iter().for_each(copy);
+    refused(&[path.to_str().unwrap()], 3, &["E181", "expected changes.csv, which `fair` writes"]);
+    copy("changes.csv");
+    refused(&[path.to_str().unwrap()], 3, &["E181", "expected start.json"]);
+    copy("start.json");
+    let changes = fs::read_to_string(fair.join("changes.csv")).unwrap();
+    fs::write(path.join("changes.csv"), changes.replacen("-50", "fifty", 1)).unwrap();
+    refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv", "line 2, column"]);
+    copy("changes.csv");
+    refused(&[path.to_str().unwrap(), "-o", path.to_str().unwrap()], 2, &["a folder of its own"]);
+    refused(&[path.to_str().unwrap(), "--dpi", "5000"], 2, &["20 to 1200"]);
+}
+
+#[test]
+fn a_result_that_was_changed_since_is_told() {
+    let path = generated("stale");
+    assert!(read_result(&path).unwrap().notes.is_empty());
+    let hull = fs::read_to_string(path.join("hull.json")).unwrap();
+    fs::write(path.join("hull.json"), hull + "\n").unwrap();
+    let notes = read_result(&path).unwrap().notes;
+    assert!(notes.len() == 1 && notes[0].contains("hull.json is not what the run wrote"), "{notes:?}");
+}
+
+#[test]
+fn the_same_result_gives_the_same_bytes() {
+    let path = generated("bytes");
+    let result = read_result(&path).unwrap();
+    let [first, second] = [(); 2].map(|()| report_outputs(&result, &SETTINGS).unwrap());
+    for (a, b) in first.iter().zip(&second) {
+        assert!(a == b, "{} differs", a.name);
+    }
+}
+
+#[test]
+fn what_fair_wrote_comes_back_as_it_was() {
+    let (path, files) = faired();
+    let result = read_result(path).unwrap();
+    let (record, fairing) = result.fairing.unwrap();
+    assert_eq!(record.after, result.hull);
+    assert_eq!(record.changes.len(), 451);
+    let (rms, largest, _) = record.moves();
+    let near = |a: f64, b: &Value| (a - b.as_f64().unwrap()).abs() < 1e-12;
+    assert!(near(rms, &fairing["moves"]["rms"]) && near(largest, &fairing["moves"]["max"]));
+    assert_eq!(text(files, "changes.csv"), fs::read_to_string(path.join("changes.csv")).unwrap());
+}
+
+#[test]
+fn tables_agree_in_their_notations_and_with_the_hull() {
+    let (path, files) = faired();
+    let hull = read_result(path).unwrap().hull;
+    let cells = |name: &str| -> Vec<Vec<String>> {
+        text(files, name).lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let (metres, millimetres) = (cells("offsets-m.csv"), cells("offsets-mm.csv"));
+    let mut compared = 0;
+    for (a, b) in metres.iter().zip(&millimetres).skip(1) {
+        for (a, b) in a.iter().zip(b).skip(1) {
+            if let (Ok(a), Ok(b)) = (a.parse::<f64>(), b.parse::<f64>()) {
+                assert!((1e3 * a - b).abs() <= 0.5 + 1e-6, "{a} {b}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 300, "{compared}");
+    // A point of a diagonal lies on the side.
+    let diagonals = cells("diagonals-m.csv");
+    let angle = diagonals[0][0].split(' ').find_map(|word| word.parse::<f64>().ok()).unwrap().to_radians();
+    let mut compared = 0;
+    for row in &diagonals[1..] {
+        for (height, distance) in diagonals[0].iter().zip(row).skip(1) {
+            let Ok(s) = distance.parse::<f64>() else { continue };
+            let z = height.parse::<f64>().unwrap() - s * angle.sin();
+            let y = hull.half_breadth(row[0].parse().unwrap(), z).unwrap();
+            assert!((y - s * angle.cos()).abs() < 2e-3, "{row:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "{compared}");
+    let json: Value = serde_json::from_str(&text(files, "hydrostatics.json")).unwrap();
+    assert!(json["rows"].as_array().unwrap().len() > 10 && json["conventions"]["density"] == 1.025);
+    let workbook = &files.iter().find(|file| file.name == "hydrostatics.xlsx").unwrap().contents;
+    assert!(workbook.starts_with(b"PK"));
+}
+
+#[test]
+fn the_pdf_has_a_page_a_figure_at_true_size() {
+    let (_, files) = faired();
+    let pdf = &files.iter().find(|file| file.name == "report.pdf").unwrap().contents;
+    assert!(pdf.starts_with(b"%PDF-"));
+    let plain = String::from_utf8_lossy(pdf);
+    let boxes: Vec<&str> = plain.split("/MediaBox").skip(1).map(|rest| rest[..40.min(rest.len())].trim()).collect();
+    assert_eq!(boxes.len(), HULL.len() + FAIRED.len());
+    // 420 mm x 297 mm in points.
+    for found in boxes {
+        assert!(found.contains("1190.55") && found.contains("841.88"), "{found}");
+    }
+}
+
+/// Elements by kind and the words of a figure; numbers only where `numbers`.
+fn structure(svg: &str, numbers: bool) -> String {
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut words = Vec::new();
+    for element in svg.split('<').skip(1).filter(|element| !element.starts_with(['/', '?'])) {
+        let kind = element.split([' ', '>', '/']).next().unwrap_or_default();
+        let content = element.split_once('>').map_or("", |(_, content)| content.trim());
+        if matches!(kind, "text" | "tspan" | "title") && !content.is_empty() && !element.contains("aria-hidden") {
+            let digit = content.chars().any(|c| c.is_ascii_digit());
+            if numbers || !digit {
+                words.push(content);
+            }
+        }
+        // Polygons of maps and clipped cells are as many as rounding gives.
+        if !matches!(kind, "path" | "polyline") {
+            *kinds.entry(kind).or_default() += usize::from(numbers);
+        }
+    }
+    words.sort_unstable();
+    words.dedup();
+    let kinds: Vec<String> = kinds.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
+    format!("{}\n{}\n", kinds.join(", "), words.join(" | "))
+}
+
+/// Mean brightness of blocks of 6 x 6 pixels, and how many of them there are in a row.
+fn blocks(png: &[u8]) -> (usize, Vec<f64>) {
+    let map = Pixmap::decode_png(png).unwrap();
+    let (columns, rows) = (map.width() as usize / 6, map.height() as usize / 6);
+    let at = |x: usize, y: usize| {
+        let pixel = map.pixels()[y * map.width() as usize + x];
+        f64::from(pixel.red()) + f64::from(pixel.green()) + f64::from(pixel.blue())
+    };
+    let mean = |column: usize, row: usize| {
+        (0..36).map(|k| at(6 * column + k % 6, 6 * row + k / 6)).sum::<f64>() / (3.0 * 36.0)
+    };
+    (
+        columns,
+        (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))).map(|(c, r)| mean(c, r)).collect(),
+    )
+}
+
+/// Kept figures are written anew with LOFTSMAN_GOLDEN=1.
+#[test]
+fn figures_look_as_the_kept_ones() {
+    let golden = carried("tests/golden/report");
+    let write = std::env::var_os("LOFTSMAN_GOLDEN").is_some();
+    let path = generated("golden");
+    let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
+    let mut told = String::new();
+    for key in HULL {
+        told += &format!("[{key}]\n{}", structure(&text(&files, &format!("{key}.svg")), true));
+    }
+    for key in FAIRED {
+        told += &format!("[{key}]\n{}", structure(&text(&faired().1, &format!("{key}.svg")), false));
+    }
+    if write {
+        fs::create_dir_all(&golden).unwrap();
+        fs::write(golden.join("structure.txt"), &told).unwrap();
+    }
+    let kept = fs::read_to_string(golden.join("structure.txt")).unwrap();
+    for (a, b) in told.lines().zip(kept.lines()) {
+        assert_eq!(a, b);
+    }
+    for key in ["bonjean", "gaussian-map", "lines", "zebra-map"] {
+        let name = format!("{key}.png");
+        let picture = &files.iter().find(|file| file.name == name).unwrap().contents;
+        if write {
+            fs::write(golden.join(&name), picture).unwrap();
+        }
+        let ((columns, now), (others, kept)) = (blocks(picture), blocks(&fs::read(golden.join(&name)).unwrap()));
+        assert_eq!((columns, now.len()), (others, kept.len()), "{key}");
+        let largest = now.iter().zip(&kept).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(largest < 12.0, "{key}: a block differs by {largest} of 255");
+    }
+}
+
+fn browser() -> Option<&'static str> {
+    let names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
+    names.into_iter().find(|name| {
+        let asked = Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+        asked.is_ok_and(|status| status.success())
+    })
+}
+
+/// Before the page: errors are kept. After it: every control is used, and the view is looked at after each.
+const LISTEN: &str = "<script>window.faults = []; addEventListener('error', (e) => faults.push(e.message)); \
+    console.error = (...words) => faults.push(words.join(' '));</script>";
+const DRIVE: &str = "<pre id=\"driven\"></pre><script>(async () => {
+  const canvas = document.getElementById('view'), gl = canvas.getContext('webgl');
+  const wait = () => new Promise((done) => setTimeout(done, 100));
+  const look = () => {
+    const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    let sum = 0, dark = 0;
+    for (let k = 0; k < pixels.length; k++) { sum = (sum * 31 + pixels[k]) >>> 0; if (pixels[k] < 200) dark++; }
+    return [sum, dark / pixels.length];
+  };
+  const states = [];
+  const note = async (name) => { await wait(); states.push([name, ...look()]); };
+  await note('start');
+  for (const id of ['station', 'waterline', 'buttock', 'diagonal', 'combs', 'gaussian', 'mean', 'zebra', 'surface', 'half']) {
+    document.getElementById(id).click();
+    await note(id);
+  }
+  for (const button of document.querySelectorAll('[data-view]')) { button.click(); await note(button.dataset.view); }
+  document.getElementById('body').click();
+  await note('body');
+  document.getElementById('before').click();
+  await note('before');
+  const head = document.querySelector('#changes th:nth-child(7) button'), column = () =>
+    [...document.querySelectorAll('#changes tbody tr')].map((row) => Number(row.cells[6].textContent));
+  head.click();
+  const rising = column().every((value, k, all) => k === 0 || all[k - 1] <= value);
+  head.click();
+  const falling = column().every((value, k, all) => k === 0 || all[k - 1] >= value);
+  document.getElementById('driven').textContent = JSON.stringify({
+    states, faults, rising, falling, viewer: document.documentElement.dataset.viewer, figures: document.querySelectorAll('figure svg').length,
+    wide: document.documentElement.scrollWidth <= innerWidth, outside: performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !n.startsWith('data:')) });
+})();</script>";
+
+#[test]
+fn the_page_works_in_a_browser() {
+    let Some(browser) = browser() else {
+        println!("skipped: there is no Chromium or Chrome to open the page in");
+        return;
+    };
+    let path = folder("browser");
+    let page = text(&faired().1, "report.html");
+    let driven = page.replacen("<head>", &format!("<head>{LISTEN}"), 1).replace("</body>", &format!("{DRIVE}</body>"));
+    fs::write(path.join("driven.html"), driven).unwrap();
+    fs::write(path.join("report.html"), page).unwrap();
+    let run = |more: &[&str], page: &str| {
+        let address = format!("file://{}", path.join(page).display());
+        let profile = format!("--user-data-dir={}", path.join("profile").display());
+        let output = Command::new(browser)
+            .args(["--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader"])
+            .args(["--enable-unsafe-swiftshader", "--hide-scrollbars", "--window-size=1200,1000"])
+            .args(["--virtual-time-budget=20000", &profile])
+            .args(more)
+            .arg(address)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let document = run(&["--dump-dom"], "driven.html");
+    let told = document.split("<pre id=\"driven\">").nth(1).and_then(|rest| rest.split("</pre>").next()).unwrap_or("");
+    if !document.contains("<html") {
+        println!("skipped: the browser did not run the page");
+        return;
+    }
+    let told: Value =
+        serde_json::from_str(&told.replace("&amp;", "&")).unwrap_or_else(|_| panic!("not driven: {told}"));
+    assert_eq!(told["faults"], serde_json::json!([]));
+    assert_eq!(told["viewer"], "drawn");
+    assert_eq!(told["outside"], serde_json::json!([]), "the page asks for other files");
+    assert_eq!((&told["rising"], &told["falling"], &told["wide"]), (&true.into(), &true.into(), &true.into()));
+    // Tables stand on the page as text.
+    assert_eq!(told["figures"], HULL.len() + FAIRED.len() - 3);
+    let states = told["states"].as_array().unwrap();
+    assert_eq!(states.len(), 17);
+    for pair in states.windows(2) {
+        // The view in space is the first one, and before differs by less than pixels on this table.
+        let same = pair[1][0] == "before" || pair[1][0] == "space";
+        assert!(pair[0][1] != pair[1][1] || same, "{} changes nothing: {told}", pair[1][0]);
+    }
+    assert!(states.iter().all(|state| state[2].as_f64().unwrap() > 0.001), "a view is blank: {told}");
+    let shot = path.join("shot.png");
+    run(&[&format!("--screenshot={}", shot.display())], "report.html");
+    let picture = Pixmap::decode_png(&fs::read(shot).unwrap()).unwrap();
+    let dark = picture.pixels().iter().filter(|pixel| pixel.red() < 128).count();
+    assert!(dark > 2000, "{dark} dark pixels");
+}
