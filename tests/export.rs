@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use loftsman::hull::{PanelMesh, PanelSettings};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
 
 fn program(arguments: &[&str]) -> Output {
@@ -50,5 +52,53 @@ fn files_are_not_overwritten_unasked() {
     assert_eq!(program(&forced).status.code(), Some(0));
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&wrong.stderr).contains("step, iges, dxf, stl, stl-ascii, obj, glb"));
+    assert!(
+        String::from_utf8_lossy(&wrong.stderr).contains("step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl")
+    );
+}
+
+/// The files of a small box. After a wanted change of a writer they are remade by
+/// `loftsman export configs/box.toml -f FORMATS -o tests/golden --across 1 --panel 25m --force`.
+#[test]
+fn files_are_those_of_the_golden_folder() {
+    let hull = read_source(&config("box.toml")).unwrap().hull;
+    let settings = ExportSettings { across: 1, panel: Some(25.0), ..ExportSettings::default() };
+    let exported = export(&hull, "box", &ExportFormat::ALL, &settings).unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    for file in &exported.files {
+        let wanted = fs::read(golden.join(&file.name)).unwrap_or_default();
+        assert!(wanted == file.contents, "{} is not what tests/golden has", file.name);
+    }
+    assert_eq!(fs::read_dir(golden).unwrap().count(), exported.files.len());
+}
+
+#[test]
+fn panels_have_the_volume_of_the_hull_and_converge() {
+    for name in ["bulk-carrier", "fishing-vessel", "seed002-frigate", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let length = hull.particulars().length_between_perpendiculars;
+        let draught = 0.9 * hull.particulars().draught;
+        let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0);
+        let mut last = [f64::NAN; 2];
+        for parts in [25.0, 50.0, 100.0] {
+            let mesh = PanelMesh::new(&hull, &PanelSettings { draught, size: length / parts, flatness: 0.01 }).unwrap();
+            let report = mesh.report();
+            let errors = [report.volume / exact.displacement_volume - 1.0, report.area / exact.wetted_surface - 1.0];
+            let limit = 50.0 / (parts * parts);
+            assert!(errors.iter().all(|error| error.abs() < limit), "{name} {parts}: {errors:?}");
+            // Second order: a quarter, or near to it where rows are added one by one.
+            for (error, last) in errors.iter().zip(last) {
+                assert!(last.is_nan() || error.abs() < 0.45 * last || error.abs() < 1e-4, "{name} {parts}: {errors:?}");
+            }
+            last = errors.map(f64::abs);
+        }
+    }
+}
+
+#[test]
+fn panels_of_an_immersed_deck_are_refused() {
+    let hull = config("box.toml").display().to_string();
+    let refused = program(&["export", &hull, "-f", "gdf", "--draught", "12"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"));
 }

@@ -13,7 +13,7 @@ use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, 
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
     hull: PathBuf,
-    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb
+    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -31,6 +31,15 @@ pub(super) struct Arguments {
     /// Height above the base line that is z = 0 in the files: a length, or `waterline` for the design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
+    /// Draught of panels above the base line [default: of the hull]
+    #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH")]
+    draught: Option<f64>,
+    /// Length of the sides of panels; without it a fiftieth of Lpp
+    #[arg(long, value_parser = positive, value_name = "LENGTH")]
+    panel: Option<f64>,
+    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles
+    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.01)]
+    flatness: f64,
     /// Overwrite files that are there already
     #[arg(long)]
     force: bool,
@@ -45,6 +54,8 @@ entities 128. Where the deck at side cuts the surface, the faces below it are in
 dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS.
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
+gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
+the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
 x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
 
 #[derive(Debug, Clone, Copy)]
@@ -59,6 +70,11 @@ fn format(text: &str) -> Result<ExportFormat, String> {
         let names: Vec<&str> = ExportFormat::ALL.iter().map(|format| format.name()).collect();
         format!("expected one of {}", names.join(", "))
     })
+}
+
+fn flatness(text: &str) -> Result<f64, String> {
+    let ratio: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if (0.0..=1.0).contains(&ratio) { Ok(ratio) } else { Err("expected 0 to 1".to_owned()) }
 }
 
 fn unit(text: &str) -> Result<CadUnit, String> {
@@ -86,6 +102,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         deviation: arguments.deviation,
         across: usize::from(arguments.across),
         datum,
+        draught: arguments.draught,
+        panel: arguments.panel,
+        flatness: arguments.flatness,
     };
     let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
     write_all(&folder, &exported.files, arguments.force)?;

@@ -5,12 +5,14 @@ use std::f64::consts::PI;
 use super::failure::Failure;
 use super::files::OutputFile;
 use crate::exchange::{
-    CadUnit, DxfLine, write_dxf, write_glb, write_iges, write_obj, write_step, write_stl, write_stl_ascii,
+    CadUnit, DxfLine, write_dxf, write_gdf, write_glb, write_iges, write_nemoh, write_obj, write_pnl, write_step,
+    write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Cut, Hull, HullMesh, MeshReport, Region, Solid, default_buttocks, default_stations, default_waterlines,
-    whole_volume,
+    Cut, Hull, HullMesh, MeshReport, PanelMesh, PanelReport, PanelSettings, Region, Solid, default_buttocks,
+    default_stations, default_waterlines, whole_volume,
 };
+use crate::hydrostatics::{Conventions, CurvesOfForm};
 
 /// What is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,11 +31,28 @@ pub enum ExportFormat {
     Obj,
     /// Binary glTF 2.0.
     Glb,
+    /// Panels of WAMIT.
+    Gdf,
+    /// Panels of NEMOH.
+    Nemoh,
+    /// Panels of HAMS.
+    Pnl,
 }
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 7] = [Self::Step, Self::Iges, Self::Dxf, Self::Stl, Self::StlAscii, Self::Obj, Self::Glb];
+    pub const ALL: [Self; 10] = [
+        Self::Step,
+        Self::Iges,
+        Self::Dxf,
+        Self::Stl,
+        Self::StlAscii,
+        Self::Obj,
+        Self::Glb,
+        Self::Gdf,
+        Self::Nemoh,
+        Self::Pnl,
+    ];
 
     /// The name on the command line.
     #[must_use]
@@ -46,6 +65,9 @@ impl ExportFormat {
             Self::StlAscii => "stl-ascii",
             Self::Obj => "obj",
             Self::Glb => "glb",
+            Self::Gdf => "gdf",
+            Self::Nemoh => "nemoh",
+            Self::Pnl => "pnl",
         }
     }
 
@@ -59,11 +81,18 @@ impl ExportFormat {
             Self::StlAscii => "-ascii.stl",
             Self::Obj => ".obj",
             Self::Glb => ".glb",
+            Self::Gdf => ".gdf",
+            Self::Nemoh => ".mar",
+            Self::Pnl => ".pnl",
         }
     }
 
     const fn is_mesh(self) -> bool {
         matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
+    }
+
+    const fn is_panels(self) -> bool {
+        matches!(self, Self::Gdf | Self::Nemoh | Self::Pnl)
     }
 }
 
@@ -76,13 +105,27 @@ pub struct ExportSettings {
     pub deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom.
     pub across: usize,
-    /// Height that is z = 0 in the files, above the base line \[m\].
+    /// Height that is z = 0 in the files, above the base line \[m\]; in panels it is the waterline.
     pub datum: f64,
+    /// Draught of panels above the base line \[m\]; none: that of the hull.
+    pub draught: Option<f64>,
+    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars.
+    pub panel: Option<f64>,
+    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal.
+    pub flatness: f64,
 }
 
 impl Default for ExportSettings {
     fn default() -> Self {
-        Self { unit: CadUnit::Metre, deviation: None, across: 8, datum: 0.0 }
+        Self {
+            unit: CadUnit::Metre,
+            deviation: None,
+            across: 8,
+            datum: 0.0,
+            draught: None,
+            panel: None,
+            flatness: 0.01,
+        }
     }
 }
 
@@ -97,6 +140,9 @@ pub struct Exported {
 
 /// Deviation of meshes and polylines over the breadth.
 const DEVIATION: f64 = 1e-3;
+
+/// Panels over the length between perpendiculars.
+const PANELS: f64 = 50.0;
 
 fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
@@ -145,10 +191,30 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
     )
 }
 
+/// The panels and their line on the page.
+fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
+    let particulars = hull.particulars();
+    let draught = settings.draught.unwrap_or(particulars.draught);
+    let size = settings.panel.unwrap_or(particulars.length_between_perpendiculars / PANELS);
+    let asked = PanelSettings { draught, size, flatness: settings.flatness };
+    let mesh = PanelMesh::new(hull, &asked).map_err(|error| Failure::Usage(error.to_string()))?;
+    let PanelReport { panels, triangles, unevenness, longest, volume, area } = mesh.report();
+    let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
+    let line = format!(
+        "panels: {panels} on one side, {triangles} of them triangles, sides up to {longest:.3} m, corners within {unevenness:.2e} m of \
+         their planes; z = 0 at draught {draught:.3} m; volume {volume:.6e} m3, {:+.2e} of the hull's {:.6e} m3; area {area:.5e} m2, \
+         {:+.2e} of the wetted surface",
+        volume / row.displacement_volume - 1.0,
+        row.displacement_volume,
+        area / row.wetted_surface - 1.0,
+    );
+    Ok((mesh, line))
+}
+
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed.
+/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when there are no panels at the draught.
 pub fn export(
     hull: &Hull,
     name: &str,
@@ -183,8 +249,18 @@ pub fn export(
     } else {
         None
     };
+    let panels = if formats.iter().any(|format| format.is_panels()) {
+        let (panels, line) = panels(hull, settings)?;
+        page.push(line);
+        panels
+    } else {
+        PanelMesh::default()
+    };
     for &format in formats {
         let contents = match (format, &mesh, &solid) {
+            (ExportFormat::Gdf, ..) => write_gdf(&panels, title).into_bytes(),
+            (ExportFormat::Nemoh, ..) => write_nemoh(&panels).into_bytes(),
+            (ExportFormat::Pnl, ..) => write_pnl(&panels).into_bytes(),
             (ExportFormat::Stl, Some(mesh), _) => write_stl(mesh, title),
             (ExportFormat::StlAscii, Some(mesh), _) => write_stl_ascii(mesh).into_bytes(),
             (ExportFormat::Obj, Some(mesh), _) => write_obj(mesh, title).into_bytes(),
