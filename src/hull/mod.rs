@@ -18,6 +18,7 @@ mod particulars;
 mod section;
 mod solid;
 mod table_form;
+mod triangles;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;
@@ -38,3 +39,4 @@ pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
 pub use table_form::{Kept, Order, Origin, Program, Rows, SideKind, SideLine, TableForm, TableLayout};
+pub use triangles::{MeshLine, TriangleMesh, triangle_area};

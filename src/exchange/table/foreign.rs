@@ -1,4 +1,4 @@
-//! Files of other kinds that are given for a table by mistake: surfaces, meshes, drawings, archives, pictures.
+//! Files of other kinds that are given for a table by mistake: surfaces, drawings, archives, pictures.
 //!
 //! They are told by their first bytes, where these are published, and else by the ending of the name together with what a text
 //! of that kind begins with. One message about the kind helps more than one about each of its lines.
@@ -20,8 +20,7 @@ const FIRST_BYTES: [(&[u8], &str); 12] = [
 ];
 
 /// Endings of names of files that are no text, or none that we read.
-const ENDINGS: [(&str, &str); 9] = [
-    (".stl", "a mesh (STL)"),
+const ENDINGS: [(&str, &str); 8] = [
     (".3dm", "a Rhinoceros file (3dm)"),
     (".stp", "a STEP file (ISO 10303-21)"),
     (".step", "a STEP file (ISO 10303-21)"),
@@ -44,16 +43,8 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
     }
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
     let mut words = start.split_whitespace();
-    if words.next() == Some("solid") && start.contains("facet normal") {
-        return Some("a mesh (STL)");
-    }
-    if (words.next(), start.split_whitespace().next()) == (Some("SECTION"), Some("0")) {
+    if (words.next(), words.next()) == (Some("0"), Some("SECTION")) {
         return Some("a drawing (DXF)");
-    }
-    let vertices = start.lines().filter(|line| line.starts_with("v ")).count();
-    if vertices > 2 && 2 * vertices > start.lines().filter(|line| !line.starts_with(['#', 'v', 'o', 'g', 'm'])).count()
-    {
-        return Some("a mesh (OBJ)");
     }
     let name = name.to_ascii_lowercase();
     ENDINGS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, kind)| *kind)

@@ -1,0 +1,252 @@
+//! Bodies of triangles in their files: read, put into the ship's frame, cut into the sections of a table.
+//!
+//! Units, scale, axes and origin are those of the conventions beside the file. Axes that are not said are found: the length is the
+//! longest, the breadth is along the axis about whose zero the body is symmetric or on one side of which it lies. Half a body is
+//! mirrored. Triangles are turned outward. Sections of a table lie at x = x_a + L (1 - cos(pi k/n))/2, closer at the ends, and
+//! their points are thinned to [`THINNED`] of the breadth.
+
+use std::f64::consts::PI;
+
+use super::super::mesh::{MeshFault, is_obj, is_stl, read_obj, read_stl};
+use super::outline::{Deck, point, take_off_deck};
+use super::problem::{Place, Problems};
+use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::settings::{BodyFrame, Settings};
+use super::{ReadTable, TableProblem, beside};
+use crate::hull::{StatedParticulars, TriangleMesh};
+use crate::units::Notation;
+
+/// What points of sections that are left out are off by at most, over the breadth.
+const THINNED: f64 = 2e-5;
+
+/// Spaces between the sections of a table.
+const SECTIONS: usize = 40;
+
+/// The first and the last section lie inside the body by this part of its length.
+const INSIDE: f64 = 1e-5;
+
+/// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
+const SYMMETRIC: f64 = 1e-3;
+
+/// Points nearer to the centreplane than this part of the size of the body are on it.
+const ON_CENTREPLANE: f64 = 1e-6;
+
+/// A body in the ship's frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadBody {
+    /// Its name; empty when nothing gives it one.
+    pub name: String,
+    /// The triangles \[m\], both sides, turned outward.
+    pub mesh: TriangleMesh,
+    /// What the conventions beside the file state.
+    pub stated: StatedParticulars,
+    /// Warnings and notes: axes, units, openings.
+    pub notes: Vec<TableProblem>,
+    /// Spaces between the sections of its table.
+    sections: usize,
+}
+
+/// The kinds of files, with what reads them.
+type Reader = fn(&[u8]) -> Result<TriangleMesh, Vec<MeshFault>>;
+
+fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
+    let name = name.to_ascii_lowercase();
+    if name.ends_with(".stl") || is_stl(bytes) {
+        Some(("STL", read_stl))
+    } else if name.ends_with(".obj") || is_obj(bytes) {
+        Some(("OBJ", read_obj))
+    } else {
+        None
+    }
+}
+
+/// Reads a body of triangles, STL or OBJ by its name or its content, with the conventions of the TOML beside it, given by its name
+/// and its text; none when it is no such file.
+pub fn read_body(
+    name: &str,
+    bytes: &[u8],
+    beside: Option<(&str, &str)>,
+) -> Option<Result<ReadBody, Vec<TableProblem>>> {
+    let (kind, read) = reader(name, bytes)?;
+    let mut problems = Problems::new(name);
+    let mut settings = Settings::default();
+    if let Some((beside, text)) = beside {
+        beside::read(beside, text, &mut settings, &mut problems);
+    }
+    let mesh = read(bytes).unwrap_or_else(|faults| {
+        for MeshFault { line, found, message } in faults {
+            let place = line.map_or(Place::FILE, Place::row);
+            problems.error("E350", (place, found.as_str()), message, "");
+        }
+        TriangleMesh::default()
+    });
+    problems.note(format!("a mesh ({kind}) of {} triangles, {} vertices", mesh.triangles.len(), mesh.vertices.len()));
+    let mesh = framed(mesh, &settings, &mut problems);
+    Some(problems.finish().map(|notes| ReadBody {
+        name: settings.name.unwrap_or_default(),
+        mesh,
+        stated: settings.stated,
+        notes,
+        sections: settings.frame.sections.unwrap_or(SECTIONS),
+    }))
+}
+
+/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward.
+fn framed(mesh: TriangleMesh, settings: &Settings, problems: &mut Problems) -> TriangleMesh {
+    let Some(bounds) = mesh.bounds().filter(|_| !problems.any_errors()) else { return mesh };
+    let BodyFrame { axes, scale, x_origin, z_origin, .. } = settings.frame;
+    let Some(axes) = axes.or_else(|| found_axes(bounds, problems)) else { return mesh };
+    let unit = settings.units.unwrap_or(Notation::Metres).metres(1.0) * scale.unwrap_or(1.0);
+    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+    let mut place = |corner: [f64; 3]| {
+        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
+        [
+            x + x_origin.unwrap_or(0.0),
+            if y.abs() <= ON_CENTREPLANE * size { 0.0 } else { y },
+            z + z_origin.unwrap_or(0.0),
+        ]
+    };
+    let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(&mut place)).collect();
+    let mut mesh = TriangleMesh::from_corners(corners.into_iter());
+    if mesh.is_half() {
+        problems.note("one side of the body is given; it is mirrored".to_owned());
+        mesh = mesh.mirrored();
+    }
+    let (mut mesh, turned) = mesh.oriented();
+    if turned > 0 {
+        problems.note(format!("{turned} triangles are turned outward"));
+    }
+    let Some([least, greatest]) = mesh.bounds() else { return mesh };
+    let length = greatest[0] - least[0];
+    if !(0.01..=1e4).contains(&length) {
+        let message = format!("the body is {length} m long");
+        problems.error("E351", Place::FILE, message, "Say units or scale in a TOML file of the same name beside it");
+    }
+    if x_origin.is_none() && least[0].abs() > 0.2 * length {
+        mesh.vertices.iter_mut().for_each(|vertex| vertex[0] -= least[0]);
+        let message = format!(
+            "x of the file runs from {:.3} to {:.3} m; its aftmost point is taken as AP. x_origin in the TOML beside it says \
+             otherwise",
+            least[0], greatest[0]
+        );
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    let depth = greatest[2] - least[2];
+    if z_origin.is_none() && least[2].abs() > 0.2 * depth {
+        let message = format!(
+            "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
+            least[2]
+        );
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    let open = mesh.open_edges();
+    if !open.is_empty() {
+        let lowest = open.iter().flatten().map(|&k| mesh.vertices[k][2]).fold(f64::INFINITY, f64::min);
+        let message = format!(
+            "{} edges are open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
+            open.len()
+        );
+        problems.warning("W351", Place::FILE, message, "");
+    }
+    mesh
+}
+
+/// The axes of a body by its extents; none, with a problem, when they cannot be told.
+fn found_axes([least, greatest]: [[f64; 3]; 2], problems: &mut Problems) -> Option<[(usize, f64); 3]> {
+    let extent = |k: usize| greatest[k] - least[k];
+    let long = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)).then(b.cmp(&a)))?;
+    let size = extent(long);
+    let across = |k: usize| {
+        let near = |value: f64| value.abs() <= SYMMETRIC * size;
+        near(least[k] + greatest[k]) || near(least[k]) || near(greatest[k])
+    };
+    let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
+    let names = ["x", "y", "z"];
+    // The right-handed frame in which the longest axis is forward and the third is up.
+    let (y, z) = ((long + 1) % 3, (long + 2) % 3);
+    let frame = match [y, z].map(|k| (symmetric(k), across(k))) {
+        [(true, _), (false, _)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        [(false, _), (true, _)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        [(false, true), (false, false)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        [(false, false), (false, true)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        // Both may be: what is usual.
+        [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        _ => {
+            let message = format!(
+                "the axes cannot be told: x runs from {} to {}, y from {} to {}, z from {} to {}",
+                least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
+            );
+            let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";
+            problems.error("E351", Place::FILE, message, remedy);
+            return None;
+        }
+    };
+    if frame.map(|(axis, _)| axis) != [0, 1, 2] {
+        let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
+        let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    Some(frame)
+}
+
+impl ReadBody {
+    /// The sections of the body as a table.
+    ///
+    /// # Errors
+    /// Every problem of the sections.
+    pub fn table(self) -> Result<ReadTable, Vec<TableProblem>> {
+        let mut problems = Problems::new("");
+        let (sections, gaps, aside) = self.cut();
+        note_asymmetry(&gaps, &mut problems);
+        if aside > 0 {
+            let message = format!("{aside} loops that do not reach the centreplane are left out");
+            problems.warning("W332", Place::FILE, message, "");
+        }
+        let Self { name, stated, notes, .. } = self;
+        let body = Body { name, stated, sections, origin: Origin::AfterPerpendicular, unit: 1.0 };
+        problems.decimals = 6;
+        let file = notes.first().map(|note| note.file.clone()).unwrap_or_default();
+        let named = |problem: TableProblem| TableProblem { file: file.clone(), ..problem };
+        match table(body, problems) {
+            Ok(read) => {
+                let notes = notes.iter().cloned().chain(read.notes.into_iter().map(named)).collect();
+                Ok(ReadTable { table: read.table, notes })
+            }
+            Err(list) => Err(list.into_iter().map(named).collect()),
+        }
+    }
+
+    /// The sections, how far their sides differ with x, and how many loops are left out.
+    fn cut(&self) -> (Vec<Section>, Vec<(f64, f64)>, usize) {
+        let Some([least, greatest]) = self.mesh.bounds() else { return (Vec::new(), Vec::new(), 0) };
+        let (length, breadth) = (greatest[0] - least[0], greatest[1] - least[1]);
+        let (mut sections, mut gaps, mut aside) = (Vec::new(), Vec::new(), 0);
+        for k in 0..=self.sections {
+            let share = 0.5 * (1.0 - (PI * k as f64 / self.sections as f64).cos());
+            let x = least[0] + length * share.clamp(INSIDE, 1.0 - INSIDE);
+            let (mut branches, mut gap) = (Vec::new(), 0.0_f64);
+            for line in self.mesh.section(x) {
+                let points: Vec<_> =
+                    line.thinned(THINNED * breadth).points.into_iter().map(|[y, z]| point(y, z)).collect();
+                match starboard_of(&points) {
+                    Some((found, apart)) => {
+                        branches.extend(found);
+                        gap = gap.max(apart);
+                    }
+                    None => aside += 1,
+                }
+            }
+            branches.sort_by(|a, b| a[0].z.total_cmp(&b[0].z));
+            if branches.is_empty() {
+                continue;
+            }
+            let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
+            gaps.push((gap, x));
+            sections.push(Section { name: None, x, place: Place::FILE, branches, deck });
+        }
+        (sections, gaps, aside)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+//! Bodies of triangles: what is exported is read back, floats as the hull does, and becomes a table that can be fitted.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use loftsman::exchange::{Severity, read_body, read_table};
+use loftsman::hull::{FitMethod, Hull};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
+
+#[path = "random/mod.rs"]
+mod random;
+use random::Random;
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
+}
+
+fn config(name: &str) -> Hull {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(format!("{name}.toml"));
+    read_source(&path).unwrap().hull
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bodies").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The files of a hull, with the conventions that its dimensions give.
+fn files(hull: &Hull, name: &str, formats: &[ExportFormat]) -> Vec<PathBuf> {
+    let folder = folder(name);
+    let particulars = hull.particulars();
+    let deviation = Some(3e-4 * particulars.breadth);
+    let exported = export(hull, name, formats, &ExportSettings { deviation, ..ExportSettings::default() }).unwrap();
+    let beside = format!(
+        "[table]\nLpp = {}\nB = {}\nT = {}\nx_origin = 0\n",
+        particulars.length_between_perpendiculars, particulars.breadth, particulars.draught
+    );
+    let write = |file: &loftsman::report::OutputFile| {
+        let path = folder.join(&file.name);
+        fs::write(&path, &file.contents).unwrap();
+        fs::write(path.with_extension("toml"), &beside).unwrap();
+        path
+    };
+    exported.files.iter().map(write).collect()
+}
+
+const MESHES: [ExportFormat; 3] = [ExportFormat::Stl, ExportFormat::StlAscii, ExportFormat::Obj];
+
+fn main_quantities(row: &Hydrostatics) -> [f64; 9] {
+    [
+        row.displacement_volume,
+        row.lcb.unwrap(),
+        row.kb.unwrap(),
+        row.waterplane_area,
+        row.lcf.unwrap(),
+        row.transverse_inertia,
+        row.longitudinal_inertia,
+        row.midship_section_area,
+        row.wetted_surface,
+    ]
+}
+
+#[test]
+fn exported_meshes_float_as_their_hulls() {
+    for name in ["box", "bulk-carrier", "seed002-frigate", "yacht"] {
+        let hull = config(name);
+        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
+        let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
+        for path in files(&hull, name, &MESHES) {
+            let floating = read_floating(&path).unwrap();
+            assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
+            let found = floating.curves_of_form(&draughts, &Conventions::default()).rows;
+            for (a, b) in found.iter().zip(&exact) {
+                for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
+                    assert!(
+                        (x / y - 1.0).abs() < 4e-3,
+                        "{} at {}: quantity {k} is {x} for {y}",
+                        path.display(),
+                        a.draught
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mesh_is_fitted_like_a_table() {
+    let hull = config("bulk-carrier");
+    let path = files(&hull, "fitted", &[ExportFormat::Stl]).remove(0);
+    let (table, _) = loftsman::report::read_table_file(&path).unwrap();
+    assert_eq!(table.stations.len(), 41);
+    let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
+    let draught = [hull.particulars().draught];
+    let volume = |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
+    let error = volume(&fitted) / volume(&hull) - 1.0;
+    assert!(error.abs() < 2e-3, "{error:e}");
+}
+
+#[test]
+fn the_commands_take_meshes() {
+    let hull = config("yacht");
+    let path = files(&hull, "commands", &[ExportFormat::Obj]).remove(0).display().to_string();
+    let told = program(&["hydro", &path, "--draughts", "0.3,0.6", "--csv"]);
+    assert_eq!(told.status.code(), Some(0), "{}", String::from_utf8_lossy(&told.stderr));
+    assert_eq!(String::from_utf8_lossy(&told.stdout).lines().count(), 4);
+    assert!(String::from_utf8_lossy(&told.stderr).contains("a mesh (OBJ)"));
+    let out = Path::new(&path).with_extension("csv").display().to_string();
+    let converted = program(&["convert", &path, &out]);
+    assert_eq!(converted.status.code(), Some(0), "{}", String::from_utf8_lossy(&converted.stderr));
+    // The table is the one that the mesh gives, to the rounding of its notation.
+    let read = |name: &str| read_table(name, &fs::read(name).unwrap()).unwrap().table;
+    let (table, mesh) = (read(&out), loftsman::report::read_table_file(Path::new(&path)).unwrap().0);
+    assert_eq!(table.stations.len(), mesh.stations.len());
+    for (a, b) in table.stations.iter().zip(&mesh.stations) {
+        assert!((a.station.x - b.station.x).abs() < 1e-6);
+        assert_eq!(a.outlines.iter().flatten().count(), b.outlines.iter().flatten().count());
+    }
+    let missing = program(&["hydro", "no.stl", "--draughts", "1"]);
+    assert_eq!(missing.status.code(), Some(6));
+}
+
+#[test]
+fn damaged_meshes_and_random_bytes_never_stop_the_program() {
+    let hull = config("box");
+    let settings = ExportSettings { across: 1, ..ExportSettings::default() };
+    let exported = export(&hull, "box", &MESHES, &settings).unwrap();
+    let mut random = Random(7);
+    for file in &exported.files {
+        for _ in 0..150 {
+            let mut bytes = file.contents.clone();
+            for _ in 0..=random.below(6) {
+                let at = random.below(bytes.len());
+                match random.below(4) {
+                    0 => bytes[at] = random.next() as u8,
+                    1 => bytes.truncate(at.max(1)),
+                    2 => {
+                        bytes.remove(at);
+                    }
+                    _ => bytes.splice(at..at, *b"-9 nan 1e9").for_each(drop),
+                }
+                if bytes.is_empty() {
+                    bytes.push(0);
+                }
+            }
+            for name in [file.name.as_str(), "unknown"] {
+                sound(name, &bytes);
+            }
+        }
+    }
+    for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
+        let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
+        for name in ["a.stl", "a.obj"] {
+            sound(name, &bytes);
+        }
+    }
+    // A count that promises more than there is.
+    let mut bytes = vec![0; 84];
+    bytes[80..].copy_from_slice(&u32::MAX.to_le_bytes());
+    sound("a.stl", &bytes);
+}
+
+fn sound(name: &str, bytes: &[u8]) {
+    if let Some(read) = read_body(name, bytes, None) {
+        match read {
+            Ok(body) => {
+                assert!(body.mesh.vertices.iter().flatten().all(|c| c.is_finite()));
+                if let Ok(read) = body.table() {
+                    let points = read.table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
+                    assert!(points.into_iter().all(|p| p.y >= 0.0 && p.y.is_finite() && p.z.is_finite()));
+                }
+            }
+            Err(problems) => {
+                assert!(problems.iter().any(|p| p.severity == Severity::Error) && problems.len() < 300);
+                assert!(problems.iter().all(|p| p.found.chars().count() < 200));
+            }
+        }
+    }
+}
