@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use loftsman::exchange::{Severity, read_body, read_table};
+use loftsman::exchange::{CadUnit, Severity, read_body, read_table};
 use loftsman::hull::{FitMethod, Hull};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
@@ -89,6 +89,48 @@ fn exported_meshes_float_as_their_hulls() {
 }
 
 #[test]
+fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
+    for name in ["box", "wigley"] {
+        let hull = config(name);
+        let draughts = [0.4, 0.75].map(|share| share * hull.particulars().draught);
+        let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
+        for path in files(&hull, &format!("surfaces-{name}"), &[ExportFormat::Step, ExportFormat::Iges]) {
+            let found = read_floating(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
+            for (a, b) in found.iter().zip(&exact) {
+                for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
+                    // A single line is not averaged over the triangles as a volume is.
+                    let allowed = if k < 3 { 2e-6 } else { 2e-4 };
+                    assert!(
+                        (x / y - 1.0).abs() < allowed,
+                        "{} at {}: quantity {k} is {x} for {y}",
+                        path.display(),
+                        a.draught
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn surfaces_in_millimetres_become_a_table() {
+    let hull = config("wigley");
+    let settings = ExportSettings { unit: CadUnit::Millimetre, ..ExportSettings::default() };
+    let exported = export(&hull, "wigley", &[ExportFormat::Step, ExportFormat::Iges], &settings).unwrap();
+    for file in &exported.files {
+        let table = read_table(&file.name, &file.contents).unwrap().table;
+        assert_eq!(table.stations.len(), 41, "{}", file.name);
+        for station in &table.stations {
+            assert_eq!(station.outlines.len(), 1, "{} at {}", file.name, station.station.x);
+            for point in &station.outlines[0] {
+                let y = hull.half_breadth(station.station.x, point.z).unwrap_or(0.0);
+                assert!((point.y - y).abs() < 4e-3, "{} at {}: {point:?} for {y}", file.name, station.station.x);
+            }
+        }
+    }
+}
+
+#[test]
 fn a_mesh_is_fitted_like_a_table() {
     let hull = config("bulk-carrier");
     let path = files(&hull, "fitted", &[ExportFormat::Stl]).remove(0);
@@ -128,7 +170,8 @@ fn the_commands_take_meshes() {
 fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     let hull = config("box");
     let settings = ExportSettings { across: 1, ..ExportSettings::default() };
-    let exported = export(&hull, "box", &MESHES, &settings).unwrap();
+    let formats = [&MESHES[..], &[ExportFormat::Step, ExportFormat::Iges]].concat();
+    let exported = export(&hull, "box", &formats, &settings).unwrap();
     let mut random = Random(7);
     for file in &exported.files {
         for _ in 0..150 {
@@ -141,7 +184,7 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
                     2 => {
                         bytes.remove(at);
                     }
-                    _ => bytes.splice(at..at, *b"-9 nan 1e9").for_each(drop),
+                    _ => bytes.splice(at..at, *b"-9,(nan 1e9,").for_each(drop),
                 }
                 if bytes.is_empty() {
                     bytes.push(0);
@@ -154,7 +197,7 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     }
     for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
         let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
-        for name in ["a.stl", "a.obj"] {
+        for name in ["a.stl", "a.obj", "a.igs", "a.step"] {
             sound(name, &bytes);
         }
     }
@@ -168,7 +211,7 @@ fn sound(name: &str, bytes: &[u8]) {
     if let Some(read) = read_body(name, bytes, None) {
         match read {
             Ok(body) => {
-                assert!(body.mesh.vertices.iter().flatten().all(|c| c.is_finite()));
+                assert!(body.meshes.iter().flat_map(|mesh| mesh.vertices.iter().flatten()).all(|c| c.is_finite()));
                 if let Ok(read) = body.table() {
                     let points = read.table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
                     assert!(points.into_iter().all(|p| p.y >= 0.0 && p.y.is_finite() && p.z.is_finite()));

@@ -11,7 +11,7 @@ use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets or a mesh (which are fitted first)
+    /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]

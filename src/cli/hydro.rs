@@ -13,8 +13,8 @@ use crate::units::{Dimension, parse};
 #[derive(Debug, Args)]
 #[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, a table of offsets (which is fitted first), or a mesh (taken as
-    /// it is)
+    /// hull.json, a folder that holds one, a design file, a table of offsets (which is fitted first), or a mesh or CAD
+    /// file (taken as it is)
     hull: PathBuf,
     /// Draughts above the base line [m], as 1:9:1
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]

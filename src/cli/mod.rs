@@ -32,8 +32,8 @@ Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlin
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
-Meshes: STL (binary, ASCII) and OBJ, closed or without deck, transom and flat bow, whole or half. They become sections of points. \
-Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up), x_origin \
+Bodies: meshes as STL (binary, ASCII) and OBJ, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
+files, without what trims them; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up), x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.

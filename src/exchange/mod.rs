@@ -4,6 +4,7 @@
 mod cad;
 mod curve;
 mod fairing;
+mod fault;
 mod hgf;
 mod hull_json;
 mod hydrostatics;

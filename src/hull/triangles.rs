@@ -4,6 +4,8 @@
 //! that at X - 0), so that a plane that meets vertices, edges or whole triangles cuts each triangle in one line or none, and lines
 //! end on edges that two triangles share. Sections of closed meshes are therefore closed loops at every X, without tolerances.
 
+mod surfaces;
+
 use super::mesh::{MeshReport, measure};
 use crate::spline::{cross, dot, minus};
 use std::collections::HashMap;

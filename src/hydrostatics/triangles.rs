@@ -11,7 +11,8 @@
 //!
 //! All are exact for the polyhedron, and continuous where a draught meets vertices. A triangle is added once to the draughts above
 //! it, cut by those that cross it, and not seen by those below: O(triangles log draughts + cuts). Level triangles at a draught are
-//! immersed if they face down. The largest section is the largest of [`STATIONS`] sections, with a parabola through its neighbours.
+//! immersed if they face down. Meshes of surfaces come in pairs, the finer with every edge halved, and their sums are extrapolated. The
+//! largest section is the largest of [`STATIONS`] sections, with a parabola through its neighbours.
 
 use super::conventions::Conventions;
 use super::quantity::Hydrostatics;
@@ -24,6 +25,9 @@ use crate::spline::{cross, dot, minus};
 
 /// Sections among which the largest is looked for.
 const STATIONS: usize = 200;
+
+/// A draught as near to the highest point as this part of the depth is at it, and is taken as far below it as the second.
+const TOP: [f64; 2] = [1e-7, 1e-9];
 
 /// Cosine of the angle to the x axis within which triangles of the after body that face aft are of the transom.
 const TRANSOM: f64 = 0.9;
@@ -64,16 +68,17 @@ impl Skin {
         }
     }
 
-    fn add(&mut self, other: &Self) {
-        self.volume += other.volume;
-        self.moment_x += other.moment_x;
-        self.moment_z += other.moment_z;
-        self.aft += other.aft;
-        self.area += other.area;
-        self.transom += other.transom;
-        self.lateral += other.lateral;
-        self.lateral_x += other.lateral_x;
-        self.lateral_z += other.lateral_z;
+    /// Adds `factor` times another.
+    fn add(&mut self, other: &Self, factor: f64) {
+        self.volume += factor * other.volume;
+        self.moment_x += factor * other.moment_x;
+        self.moment_z += factor * other.moment_z;
+        self.aft += factor * other.aft;
+        self.area += factor * other.area;
+        self.transom += factor * other.transom;
+        self.lateral += factor * other.lateral;
+        self.lateral_x += factor * other.lateral_x;
+        self.lateral_z += factor * other.lateral_z;
     }
 }
 
@@ -231,13 +236,82 @@ fn greatest(places: &[f64], values: &[f64]) -> Option<(f64, f64)> {
     Some((places[at] + shift * (places[at + 1] - places[at]), b - 0.25 * (a - c) * shift))
 }
 
+/// What one pass over the triangles of a mesh gives for a draught.
+struct Sums {
+    skin: Skin,
+    line: Line,
+    midship: f64,
+    areas: Vec<f64>,
+}
+
+/// One pass for all levels, which rise.
+fn sums(mesh: &TriangleMesh, levels: &[f64], places: &[f64], midship: f64) -> Vec<Sums> {
+    let mut areas = Areas::new(places.to_vec(), levels);
+    let mut middle = Areas::new(vec![midship], levels);
+    let mut skins = vec![[Skin::default(); 2]; levels.len() + 1];
+    let mut lines = vec![Line::default(); levels.len()];
+    for corners in mesh.corners() {
+        areas.add(corners);
+        middle.add(corners);
+        // Volumes aft and forward of midship need no face between: its normal has no y.
+        let ahead = corners.map(|p| p[0] > midship);
+        if ahead == [false; 3] || ahead == [true; 3] {
+            add_skin(corners, !ahead[0], levels, &mut skins);
+        } else {
+            for (sign, aft) in [(1.0, true), (-1.0, false)] {
+                let half = Clipped::new(&corners, |p| sign * (p[0] - midship));
+                half.triangles().for_each(|part| add_skin(part, aft, levels, &mut skins));
+            }
+        }
+        let [low, high] = [f64::min, f64::max].map(|pick| pick(pick(corners[0][2], corners[1][2]), corners[2][2]));
+        let from = levels.partition_point(|&t| t < low);
+        for (line, &t) in lines[from..].iter_mut().zip(&levels[from..]).take_while(|(_, t)| **t < high) {
+            if let Some(cut) = Clipped::new(&corners, |p| p[2] - t).crossing {
+                line.add(cut);
+            }
+        }
+    }
+    let mut below = Skin::default();
+    let each = lines.into_iter().enumerate().map(|(at, line)| {
+        below.add(&skins[at][0], 1.0);
+        let mut skin = below;
+        skin.add(&skins[at][1], 1.0);
+        Sums { skin, line, midship: middle.below(at)[0], areas: areas.below(at) }
+    });
+    each.collect()
+}
+
+impl Sums {
+    /// 4/3 of the finer less 1/3 of the coarser; extents of the finer.
+    fn extrapolated(coarser: &Self, finer: Self) -> Self {
+        let of = |coarse: f64, fine: f64| (4.0 * fine - coarse) / 3.0;
+        let mut skin = Skin::default();
+        skin.add(&finer.skin, 4.0 / 3.0);
+        skin.add(&coarser.skin, -1.0 / 3.0);
+        let (a, b) = (coarser.line, finer.line);
+        let line = Line {
+            area: of(a.area, b.area),
+            moment: of(a.moment, b.moment),
+            second: of(a.second, b.second),
+            transverse: of(a.transverse, b.transverse),
+            ..b
+        };
+        let areas = coarser.areas.iter().zip(&finer.areas).map(|(&a, &b)| of(a, b)).collect();
+        Self { skin, line, midship: of(coarser.midship, finer.midship), areas }
+    }
+}
+
 impl CurvesOfForm {
     /// One row for each of `draughts` [m above the base line], in any order, of a body of triangles that are turned outward, both
     /// sides of it (see the head of the module). Angles of the waterline's ends and the parallel body are not defined. A draught
-    /// that is not a finite number gives an empty row with a remark and draught 0.
+    /// that is not a finite number gives an empty row with a remark and draught 0; one at the highest point is just below it.
+    ///
+    /// `finer` is a mesh of the same surfaces with every edge halved, where there is one: what is of second order in both is then
+    /// extrapolated.
     #[must_use]
     pub fn of_triangles(
         mesh: &TriangleMesh,
+        finer: Option<&TriangleMesh>,
         particulars: &PrincipalParticulars,
         draughts: &[f64],
         conventions: &Conventions,
@@ -245,54 +319,36 @@ impl CurvesOfForm {
         let mut sorted: Vec<f64> = draughts.iter().filter(|t| t.is_finite()).map(|t| t + 0.0).collect();
         sorted.sort_by(f64::total_cmp);
         sorted.dedup();
-        let bounds = mesh.bounds().unwrap_or_default();
+        let bounds = finer.unwrap_or(mesh).bounds().unwrap_or_default();
+        let depth = bounds[1][2] - bounds[0][2];
+        let near_top = |t: f64| (t - bounds[1][2]).abs() <= TOP[0] * depth;
+        let levels: Vec<f64> =
+            sorted.iter().map(|&t| if near_top(t) { bounds[1][2] - TOP[1] * depth } else { t }).collect();
         let midship = 0.5 * particulars.length_between_perpendiculars;
         let length = bounds[1][0] - bounds[0][0];
         let places: Vec<f64> =
             (0..STATIONS).map(|k| bounds[0][0] + length * (k as f64 + 0.5) / STATIONS as f64).collect();
-        let mut areas = Areas::new(places, &sorted);
-        let mut middle = Areas::new(vec![midship], &sorted);
-        let mut skins = vec![[Skin::default(); 2]; sorted.len() + 1];
-        let mut lines = vec![Line::default(); sorted.len()];
-        for corners in mesh.corners() {
-            areas.add(corners);
-            middle.add(corners);
-            // Volumes aft and forward of midship need no face between: its normal has no y.
-            let ahead = corners.map(|p| p[0] > midship);
-            if ahead == [false; 3] || ahead == [true; 3] {
-                add_skin(corners, !ahead[0], &sorted, &mut skins);
-            } else {
-                for (sign, aft) in [(1.0, true), (-1.0, false)] {
-                    let half = Clipped::new(&corners, |p| sign * (p[0] - midship));
-                    half.triangles().for_each(|part| add_skin(part, aft, &sorted, &mut skins));
-                }
-            }
-            let [low, high] = [f64::min, f64::max].map(|pick| pick(pick(corners[0][2], corners[1][2]), corners[2][2]));
-            let from = sorted.partition_point(|&t| t < low);
-            for (line, &t) in lines[from..].iter_mut().zip(&sorted[from..]).take_while(|(_, t)| **t < high) {
-                if let Some(cut) = Clipped::new(&corners, |p| p[2] - t).crossing {
-                    line.add(cut);
-                }
-            }
+        let mut found = sums(mesh, &levels, &places, midship);
+        if let Some(finer) = finer {
+            let fine = sums(finer, &levels, &places, midship);
+            found = found.iter().zip(fine).map(|(coarse, fine)| Sums::extrapolated(coarse, fine)).collect();
         }
-        let mut below = Skin::default();
-        let mut rows: Vec<Hydrostatics> = Vec::with_capacity(sorted.len());
-        for (at, &draught) in sorted.iter().enumerate() {
-            below.add(&skins[at][0]);
-            let mut skin = below;
-            skin.add(&skins[at][1]);
-            let line = &lines[at];
-            let largest = greatest(&areas.places, &areas.below(at));
-            let sections = Sections {
-                midship: middle.below(at)[0],
-                largest: largest.map_or(0.0, |(_, area)| area),
-                place: largest.map(|(x, _)| x),
-                parallel: None,
-            };
-            let mut row = row(particulars, draught, conventions, &skin.body(), &line.waterplane(), &sections);
-            row.remark = remark(draught, &bounds);
-            rows.push(row);
-        }
+        let rows: Vec<Hydrostatics> = sorted
+            .iter()
+            .zip(&found)
+            .map(|(&draught, sums)| {
+                let largest = greatest(&places, &sums.areas);
+                let sections = Sections {
+                    midship: sums.midship,
+                    largest: largest.map_or(0.0, |(_, area)| area),
+                    place: largest.map(|(x, _)| x),
+                    parallel: None,
+                };
+                let (body, plane) = (sums.skin.body(), sums.line.waterplane());
+                let remark = if near_top(draught) { None } else { remark(draught, &bounds) };
+                Hydrostatics { remark, ..row(particulars, draught, conventions, &body, &plane, &sections) }
+            })
+            .collect();
         let found = |draught: &f64| {
             let at = sorted.binary_search_by(|t| t.total_cmp(&(draught + 0.0))).ok()?;
             rows.get(at).cloned()
@@ -327,12 +383,12 @@ fn add_skin(corners: [[f64; 3]; 3], aft: bool, draughts: &[f64], skins: &mut [[S
     let [low, high] = [f64::min, f64::max].map(|pick| pick(pick(a[2], b[2]), c[2]));
     let level_deck = low.to_bits() == high.to_bits() && normal[2] > 0.0;
     let whole = draughts.partition_point(|&t| t < high || (level_deck && t <= high));
-    skins[whole][0].add(&Skin::of(corners, normal, &kind));
+    skins[whole][0].add(&Skin::of(corners, normal, &kind), 1.0);
     let from = draughts.partition_point(|&t| t <= low);
     for (skin, &t) in skins[from.min(whole)..whole].iter_mut().zip(&draughts[from.min(whole)..]) {
         for piece in Clipped::new(&corners, |p| p[2] - t).triangles() {
             let normal = cross(minus(piece[1], piece[0]), minus(piece[2], piece[0]));
-            skin[1].add(&Skin::of(piece, normal, &kind));
+            skin[1].add(&Skin::of(piece, normal, &kind), 1.0);
         }
     }
 }

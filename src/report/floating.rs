@@ -23,7 +23,8 @@ pub struct Floating {
 #[derive(Debug, Clone)]
 enum FloatingBody {
     Hull(Box<Hull>),
-    Triangles(TriangleMesh),
+    /// Of surfaces twice, the second time finer.
+    Triangles(Vec<TriangleMesh>),
 }
 
 impl Floating {
@@ -32,12 +33,22 @@ impl Floating {
     pub fn curves_of_form(&self, draughts: &[f64], conventions: &Conventions) -> CurvesOfForm {
         match &self.body {
             FloatingBody::Hull(hull) => CurvesOfForm::new(hull, draughts, conventions),
-            FloatingBody::Triangles(mesh) => CurvesOfForm::of_triangles(mesh, &self.particulars, draughts, conventions),
+            FloatingBody::Triangles(meshes) => of_meshes(meshes, &self.particulars, draughts, conventions),
         }
     }
 }
 
-/// A mesh (STL, OBJ) as the body that it is, and whatever else is a hull as that.
+fn of_meshes(
+    meshes: &[TriangleMesh],
+    particulars: &PrincipalParticulars,
+    draughts: &[f64],
+    conventions: &Conventions,
+) -> CurvesOfForm {
+    let none = TriangleMesh::default();
+    CurvesOfForm::of_triangles(meshes.first().unwrap_or(&none), meshes.get(1), particulars, draughts, conventions)
+}
+
+/// A mesh (STL, OBJ) or the surfaces of a CAD file (STEP, IGES) as the body that it is, and whatever else is a hull as that.
 ///
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
@@ -56,7 +67,7 @@ pub fn read_floating(path: &Path) -> Result<Floating, Failure> {
 }
 
 fn of_body(read: ReadBody) -> Floating {
-    let [least, greatest] = read.mesh.bounds().unwrap_or_default();
+    let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
     let extent = |k: usize| greatest[k] - least[k];
     let stated = read.stated;
     let mut particulars = PrincipalParticulars {
@@ -68,7 +79,7 @@ fn of_body(read: ReadBody) -> Floating {
     let conventions = Conventions::default();
     // The breadth of a ship is that of its waterline, which flare does not widen.
     if let (None, Some(draught)) = (stated.breadth, stated.draught) {
-        let row = CurvesOfForm::of_triangles(&read.mesh, &particulars, &[draught], &conventions).rows;
+        let row = of_meshes(&read.meshes, &particulars, &[draught], &conventions).rows;
         let afloat = row.first().map_or(0.0, |row| row.waterline_breadth);
         particulars.breadth = if afloat > 0.0 { afloat } else { particulars.breadth };
     }
@@ -79,5 +90,5 @@ fn of_body(read: ReadBody) -> Floating {
             particulars.length_between_perpendiculars
         ));
     }
-    Floating { body: FloatingBody::Triangles(read.mesh), particulars, conventions, notes }
+    Floating { body: FloatingBody::Triangles(read.meshes), particulars, conventions, notes }
 }

@@ -2,6 +2,10 @@
 //!
 //! Records of 80 columns: text in the first 72, a letter and a number from 73 on. Points run with u fastest.
 
+mod read;
+
+pub(in super::super) use read::{is_iges, read_iges};
+
 use super::{CadUnit, plain, real};
 use crate::hull::{Region, Solid, SolidFace};
 

@@ -3,7 +3,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Faults, MOST_TRIANGLES, MeshFault, regions};
+use super::super::fault::{Faults, RecordFault};
+use super::{MOST_TRIANGLES, regions};
 use crate::hull::{HullMesh, TriangleMesh};
 
 /// Whether this is the beginning of an OBJ file: lines of vertices before anything that has no place in one.
@@ -19,7 +20,7 @@ pub(in super::super) fn is_obj(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<MeshFault>> {
+pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
     let mut vertices: Vec<[f64; 3]> = Vec::new();

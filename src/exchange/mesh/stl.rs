@@ -5,7 +5,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Faults, MOST_TRIANGLES, MeshFault, normal, regions};
+use super::super::fault::{Faults, RecordFault};
+use super::{MOST_TRIANGLES, normal, regions};
 use crate::hull::{HullMesh, TriangleMesh};
 
 /// Bytes before the triangles of a binary file, and bytes of each.
@@ -32,14 +33,14 @@ pub(in super::super) fn is_stl(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.
-pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<TriangleMesh, Vec<MeshFault>> {
+pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     match binary_count(bytes) {
         Some(count) => read_binary(bytes, count),
         None => read_ascii(bytes),
     }
 }
 
-fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<MeshFault>> {
+fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFault>> {
     let mut faults = Faults::default();
     if count > MOST_TRIANGLES {
         faults.add(None, "", format!("{count} triangles; at most {MOST_TRIANGLES} are read"));
@@ -60,7 +61,7 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<MeshFault
     faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
 }
 
-fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<MeshFault>> {
+fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
     if !text.trim_start().starts_with("solid") {

@@ -1,4 +1,4 @@
-//! Bodies of triangles in their files: read, put into the ship's frame, cut into the sections of a table.
+//! Bodies of triangles, or of surfaces, in their files: read, put into the ship's frame, cut into the sections of a table.
 //!
 //! Units, scale, axes and origin are those of the conventions beside the file. Axes that are not said are found: the length is the
 //! longest, the breadth is along the axis about whose zero the body is symmetric or on one side of which it lies. Half a body is
@@ -7,13 +7,16 @@
 
 use std::f64::consts::PI;
 
-use super::super::mesh::{MeshFault, is_obj, is_stl, read_obj, read_stl};
+use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
+use super::super::fault::RecordFault;
+use super::super::mesh::{is_obj, is_stl, read_obj, read_stl};
 use super::outline::{Deck, point, take_off_deck};
 use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::settings::{BodyFrame, Settings};
 use super::{ReadTable, TableProblem, beside};
-use crate::hull::{StatedParticulars, TriangleMesh};
+use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
+use crate::spline::BsplineSurface;
 use crate::units::Notation;
 
 /// What points of sections that are left out are off by at most, over the breadth.
@@ -31,13 +34,19 @@ const SYMMETRIC: f64 = 1e-3;
 /// Points nearer to the centreplane than this part of the size of the body are on it.
 const ON_CENTREPLANE: f64 = 1e-6;
 
+/// What triangles leave surfaces by at most, over the longest extent of these.
+const DEVIATION: f64 = 1e-5;
+
+/// Ends of sections of surfaces that are as near to each other as this part of the length are joined.
+const SEAM: f64 = 2e-4;
+
 /// A body in the ship's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadBody {
     /// Its name; empty when nothing gives it one.
     pub name: String,
-    /// The triangles \[m\], both sides, turned outward.
-    pub mesh: TriangleMesh,
+    /// The triangles \[m\], both sides, turned outward; of surfaces twice, the second time with every edge halved.
+    pub meshes: Vec<TriangleMesh>,
     /// What the conventions beside the file state.
     pub stated: StatedParticulars,
     /// Warnings and notes: axes, units, openings.
@@ -46,22 +55,33 @@ pub struct ReadBody {
     sections: usize,
 }
 
+/// What stands in a file.
+enum Shape {
+    Triangles(TriangleMesh),
+    Surfaces(CadSurfaces),
+}
+
 /// The kinds of files, with what reads them.
-type Reader = fn(&[u8]) -> Result<TriangleMesh, Vec<MeshFault>>;
+type Reader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
 
 fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
     let name = name.to_ascii_lowercase();
-    if name.ends_with(".stl") || is_stl(bytes) {
-        Some(("STL", read_stl))
-    } else if name.ends_with(".obj") || is_obj(bytes) {
-        Some(("OBJ", read_obj))
+    let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
+    if is_step(bytes) || ends(&[".step", ".stp"]) {
+        Some(("STEP", |bytes| read_step(bytes).map(Shape::Surfaces)))
+    } else if is_iges(bytes) || ends(&[".iges", ".igs"]) {
+        Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
+    } else if ends(&[".stl"]) || is_stl(bytes) {
+        Some(("STL", |bytes| read_stl(bytes).map(Shape::Triangles)))
+    } else if ends(&[".obj"]) || is_obj(bytes) {
+        Some(("OBJ", |bytes| read_obj(bytes).map(Shape::Triangles)))
     } else {
         None
     }
 }
 
-/// Reads a body of triangles, STL or OBJ by its name or its content, with the conventions of the TOML beside it, given by its name
-/// and its text; none when it is no such file.
+/// Reads a body: triangles (STL, OBJ) or the surfaces of a CAD file (STEP, IGES), by its content or its name, with the conventions of
+/// the TOML beside it, given by its name and its text; none when it is no such file.
 pub fn read_body(
     name: &str,
     bytes: &[u8],
@@ -73,57 +93,91 @@ pub fn read_body(
     if let Some((beside, text)) = beside {
         beside::read(beside, text, &mut settings, &mut problems);
     }
-    let mesh = read(bytes).unwrap_or_else(|faults| {
-        for MeshFault { line, found, message } in faults {
+    let shape = read(bytes).unwrap_or_else(|faults| {
+        for RecordFault { line, found, message } in faults {
             let place = line.map_or(Place::FILE, Place::row);
             problems.error("E350", (place, found.as_str()), message, "");
         }
-        TriangleMesh::default()
+        Shape::Triangles(TriangleMesh::default())
     });
-    problems.note(format!("a mesh ({kind}) of {} triangles, {} vertices", mesh.triangles.len(), mesh.vertices.len()));
-    let mesh = framed(mesh, &settings, &mut problems);
+    let meshes = match shape {
+        Shape::Triangles(mesh) => {
+            let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
+            problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
+            framed(vec![mesh], &settings, Notation::Metres.metres(1.0), &mut problems)
+        }
+        Shape::Surfaces(CadSurfaces { surfaces, unit, notes }) => {
+            let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
+            let unit = unit.unwrap_or(1.0);
+            problems.note(format!(
+                "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
+                surfaces.len()
+            ));
+            notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
+            let size = extent(&surfaces);
+            let nested = [1, 2].map(|times| TriangleMesh::of_surfaces(&surfaces, DEVIATION * size, times));
+            framed(nested.to_vec(), &settings, unit, &mut problems)
+        }
+    };
     Some(problems.finish().map(|notes| ReadBody {
         name: settings.name.unwrap_or_default(),
-        mesh,
+        meshes,
         stated: settings.stated,
         notes,
         sections: settings.frame.sections.unwrap_or(SECTIONS),
     }))
 }
 
-/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward.
-fn framed(mesh: TriangleMesh, settings: &Settings, problems: &mut Problems) -> TriangleMesh {
-    let Some(bounds) = mesh.bounds().filter(|_| !problems.any_errors()) else { return mesh };
-    let BodyFrame { axes, scale, x_origin, z_origin, .. } = settings.frame;
-    let Some(axes) = axes.or_else(|| found_axes(bounds, problems)) else { return mesh };
-    let unit = settings.units.unwrap_or(Notation::Metres).metres(1.0) * scale.unwrap_or(1.0);
-    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
-    let mut place = |corner: [f64; 3]| {
-        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
-        [
-            x + x_origin.unwrap_or(0.0),
-            if y.abs() <= ON_CENTREPLANE * size { 0.0 } else { y },
-            z + z_origin.unwrap_or(0.0),
-        ]
+/// The longest extent of the control points.
+fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
+    let points = || surfaces.iter().flat_map(|surface| surface.points()).map(|[x, y, z, w]| [x / w, y / w, z / w]);
+    let along = |k: usize| {
+        let least = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) - least
     };
-    let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(&mut place)).collect();
-    let mut mesh = TriangleMesh::from_corners(corners.into_iter());
-    if mesh.is_half() {
-        problems.note("one side of the body is given; it is mirrored".to_owned());
-        mesh = mesh.mirrored();
+    (0..3).map(along).fold(0.0, f64::max)
+}
+
+/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are of one body and
+/// are moved alike; a second one comes from surfaces.
+fn framed(mut meshes: Vec<TriangleMesh>, settings: &Settings, unit: f64, problems: &mut Problems) -> Vec<TriangleMesh> {
+    let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
+    let BodyFrame { axes, scale, x_origin, z_origin, .. } = settings.frame;
+    let Some(axes) = axes.or_else(|| found_axes(bounds, problems)) else { return meshes };
+    let unit = settings.units.map_or(unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
+    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+    let surfaces = meshes.len() > 1;
+    let slack = ON_CENTREPLANE * size;
+    let place = |corner: [f64; 3]| {
+        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
+        [x + x_origin.unwrap_or(0.0), if y.abs() <= slack { 0.0 } else { y }, z + z_origin.unwrap_or(0.0)]
+    };
+    for (k, mesh) in meshes.iter_mut().enumerate() {
+        let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
+        *mesh = TriangleMesh::from_corners(corners.into_iter());
+        if mesh.is_half() {
+            if k == 0 {
+                problems.note("one side of the body is given; it is mirrored".to_owned());
+            }
+            *mesh = mesh.mirrored();
+        }
+        if surfaces {
+            *mesh = without_top(mesh);
+        }
+        let (oriented, turned) = std::mem::take(mesh).oriented();
+        *mesh = oriented;
+        if turned > 0 && !surfaces {
+            problems.note(format!("{turned} triangles are turned outward"));
+        }
     }
-    let (mut mesh, turned) = mesh.oriented();
-    if turned > 0 {
-        problems.note(format!("{turned} triangles are turned outward"));
-    }
-    let Some([least, greatest]) = mesh.bounds() else { return mesh };
+    let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
     let length = greatest[0] - least[0];
     if !(0.01..=1e4).contains(&length) {
         let message = format!("the body is {length} m long");
         problems.error("E351", Place::FILE, message, "Say units or scale in a TOML file of the same name beside it");
     }
     if x_origin.is_none() && least[0].abs() > 0.2 * length {
-        mesh.vertices.iter_mut().for_each(|vertex| vertex[0] -= least[0]);
+        meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
         let message = format!(
             "x of the file runs from {:.3} to {:.3} m; its aftmost point is taken as AP. x_origin in the TOML beside it says \
              otherwise",
@@ -139,16 +193,24 @@ fn framed(mesh: TriangleMesh, settings: &Settings, problems: &mut Problems) -> T
         );
         problems.warning("W320", Place::FILE, message, "");
     }
-    let open = mesh.open_edges();
+    let open = if surfaces { Vec::new() } else { meshes[0].open_edges() };
     if !open.is_empty() {
-        let lowest = open.iter().flatten().map(|&k| mesh.vertices[k][2]).fold(f64::INFINITY, f64::min);
+        let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
         let message = format!(
             "{} edges are open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
             open.len()
         );
         problems.warning("W351", Place::FILE, message, "");
     }
-    mesh
+    meshes
+}
+
+/// A body without what is level at its top: an untrimmed deck is wider than the hull, and closes nothing that counts.
+fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
+    let Some([least, greatest]) = mesh.bounds() else { return mesh.clone() };
+    let top = greatest[2] - ON_CENTREPLANE * (greatest[2] - least[2]);
+    let kept: Vec<[[f64; 3]; 3]> = mesh.corners().filter(|t| t.iter().any(|point| point[2] < top)).collect();
+    TriangleMesh::from_corners(kept.into_iter())
 }
 
 /// The axes of a body by its extents; none, with a problem, when they cannot be told.
@@ -189,6 +251,45 @@ fn found_axes([least, greatest]: [[f64; 3]; 2], problems: &mut Problems) -> Opti
     Some(frame)
 }
 
+/// Lines whose ends are within `slack` of each other as one, the nearest ends first.
+fn joined(mut lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
+    let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    loop {
+        let mut nearest: Option<(f64, usize, usize, [bool; 2])> = None;
+        for i in 0..lines.len() {
+            for j in i..lines.len() {
+                if lines[i].closed || lines[j].closed {
+                    continue;
+                }
+                for ends in [[false, false], [false, true], [true, false], [true, true]] {
+                    if i == j && ends != [true, false] {
+                        continue;
+                    }
+                    let end = |line: &MeshLine, last: bool| line.points[if last { line.points.len() - 1 } else { 0 }];
+                    let distance = apart(end(&lines[i], ends[0]), end(&lines[j], ends[1]));
+                    if distance <= slack && nearest.is_none_or(|found| distance < found.0) {
+                        nearest = Some((distance, i, j, ends));
+                    }
+                }
+            }
+        }
+        let Some((_, i, j, [last, other_last])) = nearest else { return lines };
+        if i == j {
+            lines[i].closed = true;
+            continue;
+        }
+        let mut other = lines.remove(j);
+        let line = &mut lines[i];
+        if !last {
+            line.points.reverse();
+        }
+        if other_last {
+            other.points.reverse();
+        }
+        line.points.extend(other.points);
+    }
+}
+
 impl ReadBody {
     /// The sections of the body as a table.
     ///
@@ -218,14 +319,17 @@ impl ReadBody {
 
     /// The sections, how far their sides differ with x, and how many loops are left out.
     fn cut(&self) -> (Vec<Section>, Vec<(f64, f64)>, usize) {
-        let Some([least, greatest]) = self.mesh.bounds() else { return (Vec::new(), Vec::new(), 0) };
+        let Some(mesh) = self.meshes.last() else { return (Vec::new(), Vec::new(), 0) };
+        let Some([least, greatest]) = mesh.bounds() else { return (Vec::new(), Vec::new(), 0) };
         let (length, breadth) = (greatest[0] - least[0], greatest[1] - least[1]);
         let (mut sections, mut gaps, mut aside) = (Vec::new(), Vec::new(), 0);
         for k in 0..=self.sections {
             let share = 0.5 * (1.0 - (PI * k as f64 / self.sections as f64).cos());
             let x = least[0] + length * share.clamp(INSIDE, 1.0 - INSIDE);
             let (mut branches, mut gap) = (Vec::new(), 0.0_f64);
-            for line in self.mesh.section(x) {
+            let lines = mesh.section(x);
+            let lines = if self.meshes.len() > 1 { joined(lines, SEAM * length) } else { lines };
+            for line in lines {
                 let points: Vec<_> =
                     line.thinned(THINNED * breadth).points.into_iter().map(|[y, z]| point(y, z)).collect();
                 match starboard_of(&points) {

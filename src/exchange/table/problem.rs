@@ -25,6 +25,7 @@
 //! | W310 | a length between perpendiculars that is not that of the table |
 //! | W320 | something was assumed that changes numbers |
 //! | W351 | a body that is not closed |
+//! | W352 | surfaces that are not read |
 //! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::spline::{BsplineSurface, KnotVector};
 
 /// A box 0 <= x <= 4, |y| <= 1, 0 <= z <= 2, two triangles a face.
 pub(super) fn brick() -> TriangleMesh {
@@ -73,4 +74,34 @@ fn sections_of_an_open_mesh_are_open() {
     assert_eq!(lines.len(), 1);
     let ends = [lines[0].points[0], lines[0].points[lines[0].points.len() - 1]];
     assert!(!lines[0].closed && ends.iter().all(|p| p[1] > 1.9), "{lines:?}");
+}
+
+/// Half a cylinder of radius 2 along x, as a rational surface.
+fn cylinder() -> BsplineSurface<4> {
+    let (u, v) = (KnotVector::uniform(1, 1).unwrap(), KnotVector::uniform(2, 2).unwrap());
+    let v = KnotVector::from_breakpoints(2, &v.breakpoints(), &[2]).unwrap();
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let arc = [[0.0, -2.0, 1.0], [2.0, -2.0, half], [2.0, 0.0, 1.0], [2.0, 2.0, half], [0.0, 2.0, 1.0]];
+    let points = [0.0, 10.0].iter().flat_map(|&x| arc.map(|[y, z, w]| [w * x, w * y, w * z, w])).collect();
+    BsplineSurface::new(u, v, points).unwrap()
+}
+
+#[test]
+fn rational_surfaces_are_met_within_the_deviation() {
+    let mut last = f64::NAN;
+    for times in [1, 2] {
+        let mesh = TriangleMesh::of_surfaces(&[cylinder()], 1e-3, times);
+        let bounds = mesh.bounds().unwrap();
+        assert!((bounds[1][1] - 2.0).abs() < 1e-12 && (bounds[0][2] + 2.0).abs() < 1e-12, "{bounds:?}");
+        let mut worst = 0.0_f64;
+        for [a, b, c] in mesh.corners() {
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                worst = worst.max(2.0 - (0.5 * (p[1] + q[1])).hypot(0.5 * (p[2] + q[2])));
+            }
+        }
+        assert!(worst < 1.2e-3 / (times * times) as f64, "{worst:e}");
+        assert!(last.is_nan() || (worst / last - 0.25).abs() < 0.02, "{worst:e} after {last:e}");
+        last = worst;
+        assert!((mesh.mirrored().report().area / (20.0 * 2.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
+    }
 }

@@ -29,7 +29,7 @@ fn notes(list: &[TableProblem]) -> String {
 #[test]
 fn a_box_becomes_a_table() {
     let read = body(&brick(|p| p), "[table]\nname = 'Box'\nT = 2.5\nsections = 8\n").unwrap();
-    assert!((read.mesh.report().volume - 960.0).abs() < 1e-9);
+    assert!((read.meshes[0].report().volume - 960.0).abs() < 1e-9);
     let table = read.table().unwrap().table;
     assert_eq!((table.name.as_str(), table.stated.draught, table.stations.len()), ("Box", Some(2.5), 9));
     for station in &table.stations {
@@ -44,7 +44,7 @@ fn a_box_becomes_a_table() {
 #[test]
 fn frames_are_stated_or_found() {
     let volume =
-        |text: &str, beside: &str| body(text, beside).map(|read| (read.mesh.report().volume, notes(&read.notes)));
+        |text: &str, beside: &str| body(text, beside).map(|read| (read.meshes[0].report().volume, notes(&read.notes)));
     // y up, x aft, feet, half of it.
     let half = brick(|[x, y, z]| [-x / 0.3048, z / 0.3048, -0.5 * (y + 3.0) / 0.3048]);
     let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\n").unwrap();
@@ -59,7 +59,7 @@ fn frames_are_stated_or_found() {
     let (_, said) = volume(&brick(|[x, y, z]| [x + 100.0, y, z]), "").unwrap();
     assert!(said.contains("taken as AP"), "{said}");
     let read = body(&brick(|[x, y, z]| [x + 100.0, y, z]), "[table]\nx_origin = -99\nz_origin = 0.5\n").unwrap();
-    assert_eq!(read.mesh.bounds(), Some([[1.0, -3.0, 0.5], [41.0, 3.0, 4.5]]));
+    assert_eq!(read.meshes[0].bounds(), Some([[1.0, -3.0, 0.5], [41.0, 3.0, 4.5]]));
     let error = volume(&brick(|[x, y, z]| [x, y + 9.0, z + 9.0]), "").unwrap_err();
     assert!(notes(&error).contains("E351") && notes(&error).contains("cannot be told"), "{error:?}");
     let error = volume(&brick(|p| p), "[table]\naxes = 'x x z'\nsections = 2\n").unwrap_err();
