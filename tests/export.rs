@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use loftsman::hull::{PanelMesh, PanelSettings};
+use loftsman::exchange::read_table;
+use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
 
@@ -52,9 +53,9 @@ fn files_are_not_overwritten_unasked() {
     assert_eq!(program(&forced).status.code(), Some(0));
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(
-        String::from_utf8_lossy(&wrong.stderr).contains("step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl")
-    );
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains(
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, csv, xlsx"
+    ));
 }
 
 /// The files of a small box. After a wanted change of a writer they are remade by
@@ -101,4 +102,26 @@ fn panels_of_an_immersed_deck_are_refused() {
     let refused = program(&["export", &hull, "-f", "gdf", "--draught", "12"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"));
+}
+
+#[test]
+fn sections_and_tables_are_read_back_as_the_hull() {
+    for (name, allowed) in [("bulk-carrier", 2e-3_f64), ("seed002-frigate", 2e-3), ("yacht", 3e-3)] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let draught = [hull.particulars().draught];
+        let volume =
+            |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
+        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "csv", "xlsx"]
+            .iter()
+            .map(|name| ExportFormat::ALL.into_iter().find(|format| format.name() == *name).unwrap())
+            .collect();
+        let settings =
+            ExportSettings { deviation: Some(3e-4 * hull.particulars().breadth), ..ExportSettings::default() };
+        for file in export(&hull, name, &formats, &settings).unwrap().files {
+            let table = read_table(&file.name, &file.contents).unwrap_or_else(|e| panic!("{}: {e:?}", file.name)).table;
+            let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
+            let error = volume(&fitted) / volume(&hull) - 1.0;
+            assert!(error.abs() < allowed, "{}: {error:e}", file.name);
+        }
+    }
 }

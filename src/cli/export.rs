@@ -13,7 +13,8 @@ use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, 
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
-    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl
+    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
+    /// gf, britfair, pias, pdstrip, freeship, csv, xlsx
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -22,7 +23,7 @@ pub(super) struct Arguments {
     /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
-    /// What meshes and polylines leave the surface by at most; without it a thousandth of the breadth
+    /// What meshes, polylines and sections leave the surface by at most; without it a thousandth of the breadth
     #[arg(long, value_parser = positive, value_name = "LENGTH")]
     deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom
@@ -56,6 +57,9 @@ stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals ou
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
 the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
+gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
+stations as points within the deviation. csv, xlsx: half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
+their own frames, have z = 0 on the base line.
 x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
 
 #[derive(Debug, Clone, Copy)]

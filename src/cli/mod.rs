@@ -67,7 +67,7 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
-    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL
+    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
     Export(export::Arguments),
     /// Read a table of offsets and write it in its own notation and layout, or in others
     Convert(convert::Arguments),

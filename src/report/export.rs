@@ -5,14 +5,15 @@ use std::f64::consts::PI;
 use super::failure::Failure;
 use super::files::OutputFile;
 use crate::exchange::{
-    CadUnit, DxfLine, write_dxf, write_gdf, write_glb, write_iges, write_nemoh, write_obj, write_pnl, write_step,
-    write_stl, write_stl_ascii,
+    CadUnit, DxfLine, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb,
+    write_iges, write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Cut, Hull, HullMesh, MeshReport, PanelMesh, PanelReport, PanelSettings, Region, Solid, default_buttocks,
-    default_stations, default_waterlines, whole_volume,
+    Cut, Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
+    default_buttocks, default_stations, default_waterlines, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::units::Notation;
 
 /// What is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,11 +38,25 @@ pub enum ExportFormat {
     Nemoh,
     /// Panels of HAMS.
     Pnl,
+    /// Sections for GHS.
+    Ghs,
+    /// Sections as BRITFAIR offsets.
+    Britfair,
+    /// Sections for PIAS.
+    Pias,
+    /// Immersed sections for PDSTRIP.
+    Pdstrip,
+    /// Sections as the text that FREE!ship and DELFTship import.
+    Freeship,
+    /// Half-breadths over stations and waterlines as CSV.
+    Csv,
+    /// The same as a workbook.
+    Xlsx,
 }
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 17] = [
         Self::Step,
         Self::Iges,
         Self::Dxf,
@@ -52,6 +67,13 @@ impl ExportFormat {
         Self::Gdf,
         Self::Nemoh,
         Self::Pnl,
+        Self::Ghs,
+        Self::Britfair,
+        Self::Pias,
+        Self::Pdstrip,
+        Self::Freeship,
+        Self::Csv,
+        Self::Xlsx,
     ];
 
     /// The name on the command line.
@@ -68,6 +90,13 @@ impl ExportFormat {
             Self::Gdf => "gdf",
             Self::Nemoh => "nemoh",
             Self::Pnl => "pnl",
+            Self::Ghs => "gf",
+            Self::Britfair => "britfair",
+            Self::Pias => "pias",
+            Self::Pdstrip => "pdstrip",
+            Self::Freeship => "freeship",
+            Self::Csv => "csv",
+            Self::Xlsx => "xlsx",
         }
     }
 
@@ -84,11 +113,22 @@ impl ExportFormat {
             Self::Gdf => ".gdf",
             Self::Nemoh => ".mar",
             Self::Pnl => ".pnl",
+            Self::Ghs => ".gf",
+            Self::Britfair => ".bri",
+            Self::Pias => "-pias.txt",
+            Self::Pdstrip => "-pdstrip.txt",
+            Self::Freeship => "-freeship.txt",
+            Self::Csv => ".csv",
+            Self::Xlsx => ".xlsx",
         }
     }
 
     const fn is_mesh(self) -> bool {
         matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
+    }
+
+    const fn is_sections(self) -> bool {
+        matches!(self, Self::Ghs | Self::Britfair | Self::Pias | Self::Pdstrip | Self::Freeship)
     }
 
     const fn is_panels(self) -> bool {
@@ -138,7 +178,7 @@ pub struct Exported {
     pub page: String,
 }
 
-/// Deviation of meshes and polylines over the breadth.
+/// Deviation of meshes, polylines and sections over the breadth.
 const DEVIATION: f64 = 1e-3;
 
 /// Panels over the length between perpendiculars.
@@ -256,8 +296,26 @@ pub fn export(
     } else {
         PanelMesh::default()
     };
+    let sections = if formats.iter().any(|format| format.is_sections()) {
+        let table = OffsetTable::of_sections(hull, &section_stations(hull), deviation);
+        let points = table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum::<usize>();
+        page.push(format!("sections: {} with {points} points, z from the base line", table.stations.len()));
+        table
+    } else {
+        OffsetTable::default()
+    };
     for &format in formats {
+        let file = format!("{name}{}", format.ending());
         let contents = match (format, &mesh, &solid) {
+            (ExportFormat::Ghs, ..) => write_ghs(&sections).into_bytes(),
+            (ExportFormat::Britfair, ..) => write_britfair(&sections).into_bytes(),
+            (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
+            (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
+            (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
+            (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
+                let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
+                OutputFile::table(&file, text, &TableForm::default())?.contents
+            }
             (ExportFormat::Gdf, ..) => write_gdf(&panels, title).into_bytes(),
             (ExportFormat::Nemoh, ..) => write_nemoh(&panels).into_bytes(),
             (ExportFormat::Pnl, ..) => write_pnl(&panels).into_bytes(),
@@ -272,7 +330,7 @@ pub fn export(
             }
             _ => continue,
         };
-        files.push(OutputFile { name: format!("{name}{}", format.ending()), contents });
+        files.push(OutputFile { name: file, contents });
     }
     if let Some(mesh) = &mesh {
         let named: Vec<&str> = Region::ALL
