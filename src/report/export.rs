@@ -20,7 +20,7 @@ use crate::units::Notation;
 pub enum ExportFormat {
     /// STEP AP214, a closed solid.
     Step,
-    /// IGES 5.3, B-spline surfaces.
+    /// IGES 5.3, the same solid.
     Iges,
     /// DXF R12: the curves of the lines plan in space.
     Dxf,

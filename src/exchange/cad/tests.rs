@@ -62,14 +62,15 @@ fn records_of_an_iges_file_have_80_columns_and_count_themselves() {
         assert_eq!(last.as_bytes()[from] as char, letter);
         assert_eq!(last[from + 1..from + 8].trim().parse::<usize>().unwrap(), counts[&letter]);
     }
-    assert_eq!(counts[&'D'], 12);
+    // Vertices, edges and their 12 curves, 6 faces of a surface and a loop, shell and solid.
+    assert_eq!(counts[&'D'], 2 * (2 + 12 + 6 * 3 + 2));
     // Every entity points to its own parameters.
     let directory: Vec<&str> = text.lines().filter(|line| line.as_bytes()[72] == b'D').collect();
     let body: Vec<&str> = text.lines().filter(|line| line.as_bytes()[72] == b'P').collect();
     for (k, pair) in directory.chunks(2).enumerate() {
         let first: usize = pair[0][8..16].trim().parse().unwrap();
         let count: usize = pair[1][24..32].trim().parse().unwrap();
-        assert!(body[first - 1].starts_with("128,"), "{}", body[first - 1]);
+        assert!(body[first - 1].starts_with(&format!("{},", pair[0][..8].trim())), "{}", body[first - 1]);
         assert!(body[first + count - 2][..64].trim_end().ends_with(';'));
         assert!(body[first - 1..first + count - 1].iter().all(|line| line[64..72].trim() == (2 * k + 1).to_string()));
     }
