@@ -51,7 +51,8 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
-as entity 186 of entities 128. Where the deck at side cuts the surface, the faces below it are interpolated, and the page says how closely.
+as entity 186 of entities 128. Where the deck at side or the \
+centreplane cuts the surface, the faces follow it within a distance that the page says.
 dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS.
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.

@@ -281,7 +281,7 @@ pub fn export(
         page.push(format!("solid: {} edges, faces {}", solid.edges.len(), faces.join(", ")));
         if solid.deviation > 0.0 {
             page.push(format!(
-                "the deck cuts the surface: below it the faces are interpolated, within {:.2e} m of the hull",
+                "the deck or the centreplane cuts the surface: the faces are within {:.2e} m of the hull",
                 solid.deviation
             ));
         }
