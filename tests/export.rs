@@ -54,7 +54,7 @@ fn files_are_not_overwritten_unasked() {
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&wrong.stderr).contains(
-        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, csv, xlsx"
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan"
     ));
 }
 
@@ -124,4 +124,38 @@ fn sections_and_tables_are_read_back_as_the_hull() {
             assert!(error.abs() < allowed, "{}: {error:e}", file.name);
         }
     }
+}
+
+#[test]
+fn the_drawn_plan_has_its_views_apart() {
+    let hull = read_source(&config("seed002-frigate.toml")).unwrap().hull;
+    let format = ExportFormat::ALL.into_iter().find(|format| format.name() == "dxf-plan").unwrap();
+    let exported = export(&hull, "f", &[format], &ExportSettings::default()).unwrap();
+    assert_eq!(exported.files[0].name, "f-plan.dxf");
+    let text = String::from_utf8(exported.files[0].contents.clone()).unwrap();
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let pairs: Vec<(&str, &str)> = lines.chunks(2).map(|pair| (pair[0], pair[1])).collect();
+    // The extents of the vertices of each view.
+    let mut extents = std::collections::BTreeMap::new();
+    let (mut vertex, mut view, mut x) = (false, String::new(), 0.0);
+    for (code, value) in pairs {
+        match code {
+            "0" => vertex = value == "VERTEX",
+            "8" => view = value.split('_').next().unwrap().to_owned(),
+            "10" => x = value.parse::<f64>().unwrap(),
+            "20" if vertex => {
+                let y: f64 = value.parse().unwrap();
+                let e = extents.entry(view.clone()).or_insert([x, y, x, y]);
+                *e = [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)];
+            }
+            "30" => assert_eq!(value, "0.0"),
+            _ => {}
+        }
+    }
+    let particulars = hull.particulars();
+    let [body, plan, profile] = ["BODY", "PLAN", "PROFILE"].map(|view| extents[view]);
+    let (length, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
+    assert!((profile[2] - profile[0] - length).abs() < 0.02 * length && profile[1].abs() < 1e-9, "{profile:?}");
+    assert!((plan[3] - plan[1] - 0.5 * breadth).abs() < 1e-3 * breadth && plan[3] < profile[1], "{plan:?}");
+    assert!((body[2] - body[0] - breadth).abs() < 1e-3 * breadth && body[0] > profile[2], "{body:?}");
 }

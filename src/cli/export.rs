@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
-    /// gf, britfair, pias, pdstrip, freeship, csv, xlsx
+    /// gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -53,7 +53,8 @@ const AFTER: &str = "\
 step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
 as entity 186 of entities 128. Where the deck at side or the \
 centreplane cuts the surface, the faces follow it within a distance that the page says.
-dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS.
+dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: R12, the three views of the lines plan in one \
+plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \

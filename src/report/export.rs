@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 
 use super::failure::Failure;
 use super::files::OutputFile;
+use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfLine, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb,
-    write_iges, write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
+    CadUnit, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb, write_iges,
+    write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Cut, Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
-    default_buttocks, default_stations, default_waterlines, section_stations, whole_volume,
+    Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
+    section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::Notation;
@@ -52,11 +53,13 @@ pub enum ExportFormat {
     Csv,
     /// The same as a workbook.
     Xlsx,
+    /// DXF R12: the three views of the lines plan, flat.
+    DxfPlan,
 }
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Step,
         Self::Iges,
         Self::Dxf,
@@ -74,6 +77,7 @@ impl ExportFormat {
         Self::Freeship,
         Self::Csv,
         Self::Xlsx,
+        Self::DxfPlan,
     ];
 
     /// The name on the command line.
@@ -97,6 +101,7 @@ impl ExportFormat {
             Self::Freeship => "freeship",
             Self::Csv => "csv",
             Self::Xlsx => "xlsx",
+            Self::DxfPlan => "dxf-plan",
         }
     }
 
@@ -120,6 +125,7 @@ impl ExportFormat {
             Self::Freeship => "-freeship.txt",
             Self::Csv => ".csv",
             Self::Xlsx => ".xlsx",
+            Self::DxfPlan => "-plan.dxf",
         }
     }
 
@@ -186,34 +192,6 @@ const PANELS: f64 = 50.0;
 
 fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
-}
-
-/// The curves of the lines plan in space, by layers.
-fn lines_plan(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
-    let mut lines = Vec::new();
-    let mut add = |layer: &str, cut: Cut| {
-        for branch in &hull.section(cut, 1e-9).branches {
-            let mut points = branch.polyline(deviation);
-            lowered(&mut points, datum);
-            let off = |points: &[[f64; 3]]| points.iter().any(|point| point[1].abs() > 1e-9);
-            let other: Vec<[f64; 3]> = points.iter().map(|&[x, y, z]| [x, 0.0 - y, z]).collect();
-            let mirrored = off(&points) && !matches!(cut, Cut::Plane { .. });
-            lines.push(DxfLine { layer: layer.to_owned(), points });
-            if mirrored {
-                lines.push(DxfLine { layer: layer.to_owned(), points: other });
-            }
-        }
-    };
-    for station in default_stations(hull) {
-        add("STATIONS", Cut::Station { x: station.x });
-    }
-    for z in default_waterlines(hull) {
-        add("WATERLINES", Cut::Waterline { z });
-    }
-    for y in default_buttocks(hull) {
-        add("BUTTOCKS", Cut::Buttock { y });
-    }
-    lines
 }
 
 /// A mesh and its line on the page.
@@ -312,6 +290,9 @@ pub fn export(
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
             (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
+            (ExportFormat::DxfPlan, ..) => {
+                write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit).into_bytes()
+            }
             (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
                 let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
                 OutputFile::table(&file, text, &TableForm::default())?.contents
@@ -326,7 +307,7 @@ pub fn export(
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Dxf, ..) => {
-                write_dxf(&lines_plan(hull, deviation, settings.datum), settings.unit).into_bytes()
+                write_dxf(&lines_in_space(hull, deviation, settings.datum), settings.unit).into_bytes()
             }
             _ => continue,
         };

@@ -13,6 +13,7 @@ mod fit;
 mod floating;
 mod generate;
 mod inspect;
+mod lines_plan;
 mod markdown;
 mod page;
 mod sanity;

@@ -1,4 +1,4 @@
-//! DXF of AutoCAD R12 (AC1009): polylines in space on named layers, which every program that reads DXF takes.
+//! DXF of AutoCAD R12 (AC1009): polylines on named layers, in space or flat, which every program that reads DXF takes.
 
 use std::fmt::Write as _;
 
@@ -11,6 +11,8 @@ pub struct DxfLine {
     pub layer: String,
     /// Points \[m\].
     pub points: Vec<[f64; 3]>,
+    /// Whether it lies in the plane z = 0 of a drawing.
+    pub flat: bool,
 }
 
 /// Colours of the AutoCAD index that are seen on black and on white, in turn for the layers.
@@ -30,22 +32,22 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
         let _ = writeln!(text, "{code:>3}\n{value}");
     };
     let scale = unit.in_a_metre();
-    let lines: Vec<(String, Vec<[f64; 3]>)> = lines
+    let lines: Vec<(String, Vec<[f64; 3]>, bool)> = lines
         .iter()
         .map(|line| {
             let points = line.points.iter().filter(|p| p.iter().all(|c| c.is_finite()));
-            (layer(&line.layer), points.map(|p| p.map(|c| c * scale + 0.0)).collect())
+            (layer(&line.layer), points.map(|p| p.map(|c| c * scale + 0.0)).collect(), line.flat)
         })
-        .filter(|(_, points): &(String, Vec<[f64; 3]>)| points.len() > 1)
+        .filter(|(_, points, _): &(String, Vec<[f64; 3]>, bool)| points.len() > 1)
         .collect();
     let mut layers: Vec<&str> = Vec::new();
-    for (name, _) in &lines {
+    for (name, ..) in &lines {
         if !layers.contains(&name.as_str()) {
             layers.push(name);
         }
     }
     let ends = |pick: fn(f64, f64) -> f64, from: f64| -> [f64; 3] {
-        let all = lines.iter().flat_map(|(_, points)| points);
+        let all = lines.iter().flat_map(|(_, points, _)| points);
         let found = all.fold([from; 3], |e, p| [0, 1, 2].map(|k| pick(e[k], p[k])));
         found.map(|c| if c.is_finite() { c } else { 0.0 })
     };
@@ -89,7 +91,7 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
     put(0, "ENDSEC");
     put(0, "SECTION");
     put(2, "ENTITIES");
-    for (name, points) in &lines {
+    for (name, points, flat) in &lines {
         put(0, "POLYLINE");
         put(8, name);
         put(66, "1");
@@ -97,14 +99,14 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
         for code in [10, 20, 30] {
             put(code, "0.0");
         }
-        put(70, "8");
+        put(70, if *flat { "0" } else { "8" });
         for point in points {
             put(0, "VERTEX");
             put(8, name);
             for (k, &coordinate) in point.iter().enumerate() {
                 put(10 * (k as u16 + 1), &number(coordinate));
             }
-            put(70, "32");
+            put(70, if *flat { "0" } else { "32" });
         }
         put(0, "SEQEND");
         put(8, name);

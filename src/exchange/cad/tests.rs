@@ -79,12 +79,13 @@ fn records_of_an_iges_file_have_80_columns_and_count_themselves() {
 #[test]
 fn a_dxf_file_has_its_layers_and_pairs() {
     let lines = [
-        DxfLine { layer: "stations".to_owned(), points: vec![[0.0, 0.0, 0.0], [0.0, 1.5, 2.0]] },
+        DxfLine { layer: "stations".to_owned(), points: vec![[0.0, 0.0, 0.0], [0.0, 1.5, 2.0]], flat: false },
         DxfLine {
             layer: "water lines".to_owned(),
             points: vec![[0.0, 0.0, 1.0], [f64::NAN, 0.0, 0.0], [1.0, 0.5, 1.0]],
+            flat: true,
         },
-        DxfLine { layer: "none".to_owned(), points: vec![[0.0; 3]] },
+        DxfLine { layer: "none".to_owned(), points: vec![[0.0; 3]], flat: false },
     ];
     let text = write_dxf(&lines, CadUnit::Millimetre);
     let all: Vec<&str> = text.lines().collect();
