@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{length, positive, stream};
-use crate::exchange::CadUnit;
+use crate::exchange::{CadUnit, DxfVersion};
 use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, write_all};
 
 #[derive(Debug, Args)]
@@ -23,6 +23,9 @@ pub(super) struct Arguments {
     /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
+    /// Version of DXF files: r12 or r2000
+    #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
+    dxf: DxfVersion,
     /// What meshes, polylines and sections leave the surface by at most; without it a thousandth of the breadth
     #[arg(long, value_parser = positive, value_name = "LENGTH")]
     deviation: Option<f64>,
@@ -53,7 +56,7 @@ const AFTER: &str = "\
 step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
 as entity 186 of entities 128. Where the deck at side or the \
 centreplane cuts the surface, the faces follow it within a distance that the page says.
-dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: R12, the three views of the lines plan in one \
+dxf: polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: the three views of the lines plan in one \
 plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
@@ -91,6 +94,14 @@ fn unit(text: &str) -> Result<CadUnit, String> {
     }
 }
 
+fn dxf_version(text: &str) -> Result<DxfVersion, String> {
+    match text {
+        "r12" => Ok(DxfVersion::R12),
+        "r2000" => Ok(DxfVersion::R2000),
+        _ => Err("expected r12 or r2000".to_owned()),
+    }
+}
+
 fn datum(text: &str) -> Result<Datum, String> {
     if text == "waterline" { Ok(Datum::Waterline) } else { length(text).map(Datum::Height) }
 }
@@ -105,6 +116,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let settings = ExportSettings {
         unit: arguments.unit,
+        dxf: arguments.dxf,
         deviation: arguments.deviation,
         across: usize::from(arguments.across),
         datum,

@@ -17,7 +17,7 @@ mod section;
 mod summary;
 mod table;
 
-pub use cad::{CadUnit, DxfLine, write_dxf, write_iges, write_step};
+pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use fairing::{RoundingEffect, changes_csv, fairing_json, priced, reached, status_word};
 pub use hgf::{HgfError, HgfShip, read_hgf};

@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb, write_iges,
-    write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
+    CadUnit, DxfVersion, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb,
+    write_iges, write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
     Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
@@ -23,7 +23,7 @@ pub enum ExportFormat {
     Step,
     /// IGES 5.3, the same solid.
     Iges,
-    /// DXF R12: the curves of the lines plan in space.
+    /// DXF: the curves of the lines plan in space.
     Dxf,
     /// Binary STL.
     Stl,
@@ -53,7 +53,7 @@ pub enum ExportFormat {
     Csv,
     /// The same as a workbook.
     Xlsx,
-    /// DXF R12: the three views of the lines plan, flat.
+    /// DXF: the three views of the lines plan, flat.
     DxfPlan,
 }
 
@@ -147,6 +147,8 @@ impl ExportFormat {
 pub struct ExportSettings {
     /// Unit of CAD files.
     pub unit: CadUnit,
+    /// Version of DXF files.
+    pub dxf: DxfVersion,
     /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
     pub deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom.
@@ -165,6 +167,7 @@ impl Default for ExportSettings {
     fn default() -> Self {
         Self {
             unit: CadUnit::Metre,
+            dxf: DxfVersion::R12,
             deviation: None,
             across: 8,
             datum: 0.0,
@@ -291,7 +294,7 @@ pub fn export(
             (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
             (ExportFormat::DxfPlan, ..) => {
-                write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit).into_bytes()
+                write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }
             (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
                 let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
@@ -307,7 +310,7 @@ pub fn export(
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Dxf, ..) => {
-                write_dxf(&lines_in_space(hull, deviation, settings.datum), settings.unit).into_bytes()
+                write_dxf(&lines_in_space(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }
             _ => continue,
         };

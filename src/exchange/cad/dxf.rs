@@ -1,4 +1,6 @@
-//! DXF of AutoCAD R12 (AC1009): polylines on named layers, in space or flat, which every program that reads DXF takes.
+//! DXF: polylines on named layers, in space or flat; of AutoCAD R12 (AC1009), which every program that reads DXF takes, or 2000.
+
+mod r2000;
 
 use std::fmt::Write as _;
 
@@ -15,6 +17,24 @@ pub struct DxfLine {
     pub flat: bool,
 }
 
+/// A version of the format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// AC1009.
+    #[default]
+    R12,
+    /// AC1015.
+    R2000,
+}
+
+/// The layer of a line, its points in the unit of the file, and whether it is flat.
+type Scaled = (String, Vec<[f64; 3]>, bool);
+
+/// A real number, always with a point.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
 /// Colours of the AutoCAD index that are seen on black and on white, in turn for the layers.
 const COLOURS: [u8; 6] = [5, 1, 3, 6, 4, 30];
 
@@ -26,19 +46,15 @@ fn layer(name: &str) -> String {
 
 /// Text of a DXF file. Points that are finite and lines of two points at least are written.
 #[must_use]
-pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
-    let mut text = String::new();
-    let mut put = |code: u16, value: &str| {
-        let _ = writeln!(text, "{code:>3}\n{value}");
-    };
+pub fn write_dxf(lines: &[DxfLine], unit: CadUnit, version: DxfVersion) -> String {
     let scale = unit.in_a_metre();
-    let lines: Vec<(String, Vec<[f64; 3]>, bool)> = lines
+    let lines: Vec<Scaled> = lines
         .iter()
         .map(|line| {
             let points = line.points.iter().filter(|p| p.iter().all(|c| c.is_finite()));
             (layer(&line.layer), points.map(|p| p.map(|c| c * scale + 0.0)).collect(), line.flat)
         })
-        .filter(|(_, points, _): &(String, Vec<[f64; 3]>, bool)| points.len() > 1)
+        .filter(|(_, points, _): &Scaled| points.len() > 1)
         .collect();
     let mut layers: Vec<&str> = Vec::new();
     for (name, ..) in &lines {
@@ -52,7 +68,17 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
         found.map(|c| if c.is_finite() { c } else { 0.0 })
     };
     let (least, greatest) = (ends(f64::min, f64::INFINITY), ends(f64::max, f64::NEG_INFINITY));
-    let number = |value: f64| format!("{value:?}");
+    if version == DxfVersion::R2000 {
+        let unit = match unit {
+            CadUnit::Metre => 6,
+            CadUnit::Millimetre => 4,
+        };
+        return r2000::write(&lines, &layers, [least, greatest], unit);
+    }
+    let mut text = String::new();
+    let mut put = |code: u16, value: &str| {
+        let _ = writeln!(text, "{code:>3}\n{value}");
+    };
     put(0, "SECTION");
     put(2, "HEADER");
     put(9, "$ACADVER");

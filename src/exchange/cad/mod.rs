@@ -5,7 +5,7 @@ mod iges;
 mod step;
 mod surfaces;
 
-pub use dxf::{DxfLine, write_dxf};
+pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
 pub(super) use iges::{is_iges, read_iges};
 pub use step::write_step;

@@ -87,7 +87,7 @@ fn a_dxf_file_has_its_layers_and_pairs() {
         },
         DxfLine { layer: "none".to_owned(), points: vec![[0.0; 3]], flat: false },
     ];
-    let text = write_dxf(&lines, CadUnit::Millimetre);
+    let text = write_dxf(&lines, CadUnit::Millimetre, DxfVersion::R12);
     let all: Vec<&str> = text.lines().collect();
     assert_eq!(all.len() % 2, 0);
     let pairs: Vec<(u16, &str)> = all.chunks(2).map(|pair| (pair[0].trim().parse().unwrap(), pair[1])).collect();
@@ -96,4 +96,27 @@ fn a_dxf_file_has_its_layers_and_pairs() {
     assert!(pairs.contains(&(2, "STATIONS")) && pairs.contains(&(2, "WATER_LINES")) && !pairs.contains(&(2, "NONE")));
     assert!(pairs.contains(&(20, "1500.0")));
     assert_eq!(pairs.last(), Some(&(0, "EOF")));
+}
+
+#[test]
+fn handles_of_a_drawing_of_2000_are_different_and_owned() {
+    let points = vec![[0.0, 1.0, 0.0], [2.0, 1.0, 0.0]];
+    let lines = [true, false].map(|flat| DxfLine { layer: "a".to_owned(), points: points.clone(), flat });
+    let text = write_dxf(&lines, CadUnit::Metre, DxfVersion::R2000);
+    let all: Vec<&str> = text.lines().map(str::trim).collect();
+    assert_eq!(all.len() % 2, 0);
+    let pairs: Vec<(&str, &str)> = all.chunks(2).map(|pair| (pair[0], pair[1])).collect();
+    // The seed stands first.
+    let handles: Vec<&str> =
+        pairs.iter().filter(|(code, _)| ["5", "105"].contains(code)).map(|(_, value)| *value).collect();
+    let different: std::collections::BTreeSet<&str> = handles.iter().copied().collect();
+    assert_eq!(different.len(), handles.len());
+    let number = |handle: &str| u32::from_str_radix(handle, 16).unwrap();
+    assert!(handles[1..].iter().all(|handle| number(handle) < number(handles[0])));
+    for (_, owner) in pairs.iter().filter(|(code, _)| ["330", "350"].contains(code)) {
+        assert!(*owner == "0" || different.contains(owner), "{owner}");
+    }
+    for kind in ["LWPOLYLINE", "POLYLINE", "SEQEND"] {
+        assert_eq!(pairs.iter().filter(|pair| **pair == ("0", kind)).count(), 1, "{kind}");
+    }
 }
