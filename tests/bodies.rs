@@ -224,3 +224,72 @@ fn sound(name: &str, bytes: &[u8]) {
         }
     }
 }
+
+fn golden(name: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)).unwrap()
+}
+
+/// The volume of the box of the golden files, read from a text with changes, and what is said about it.
+fn volume(name: &str, text: &str, beside: &str) -> Result<(f64, String), String> {
+    let said = |list: &[loftsman::exchange::TableProblem]| list.iter().map(|p| format!("{p}\n")).collect::<String>();
+    match read_body(name, text.as_bytes(), Some(("box.toml", beside))).unwrap() {
+        Ok(body) => {
+            let sum = |corners: [[f64; 3]; 3]| {
+                let [a, b, c] = corners;
+                let normal = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
+                normal * (a[1] + b[1] + c[1]) / 6.0
+            };
+            Ok((body.meshes[0].corners().map(sum).sum(), said(&body.notes)))
+        }
+        Err(list) => Err(said(&list)),
+    }
+}
+
+#[test]
+fn units_and_axes_of_cad_files() {
+    let close = |found: Result<(f64, String), String>, wanted: f64| {
+        let (found, said) = found.unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{found} for {wanted}: {said}");
+        said
+    };
+    let (iges, step) = (golden("box.igs"), golden("box.step"));
+    close(volume("box.igs", &iges, ""), 20_000.0);
+    close(volume("box.step", &step, ""), 20_000.0);
+    // Inches by the flag, feet by the name of the unit, inches by a unit of their own.
+    close(volume("a", &iges.replace("1.,6,1HM", "1.,1,1HM"), ""), 20_000.0 * 0.0254_f64.powi(3));
+    let named = iges.replace("1.,6,1HM,1,0.,15H19700101.000000,", "1.,3,2HFT,,0.,15H19700101.000000,");
+    close(volume("a", &named, ""), 20_000.0 * 0.3048_f64.powi(3));
+    let inches = "#10=(CONVERSION_BASED_UNIT('INCH',#9001)LENGTH_UNIT()NAMED_UNIT(#9003));\n\
+                  #9001=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#9002);\n\
+                  #9002=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));";
+    let text = step.replace("#10=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));", inches);
+    assert_ne!(text, step);
+    close(volume("a", &text, ""), 20_000.0 * 0.0254_f64.powi(3));
+    let milli = step.replace("SI_UNIT($,.METRE.)", "SI_UNIT(.MILLI.,.METRE.)");
+    close(volume("a", &milli, "[table]\nscale = 10\n"), 2e-2);
+    // What is stated stands over the file; axes turned and mirrored enclose the same.
+    close(volume("a", &milli, "[table]\nunits = 'm'\n"), 20_000.0);
+    let said = close(volume("a", &step, "[table]\naxes = '-x y z'\nx_origin = 100\n"), 20_000.0);
+    assert!(!said.contains("W320"), "{said}");
+}
+
+#[test]
+fn faults_of_cad_files_name_their_record() {
+    let (iges, step) = (golden("box.igs"), golden("box.step"));
+    let error = |name: &str, text: &str| volume(name, text, "").unwrap_err();
+    let cut: String = iges.lines().filter(|line| !line.ends_with("P     60")).map(|line| format!("{line}\n")).collect();
+    let found = error("box.igs", &cut);
+    assert!(
+        found.contains("E350") && found.contains("entity 128, D") && found.contains("parameters, expected"),
+        "{found}"
+    );
+    assert!(error("a.igs", "nothing\n").contains("no B-spline surfaces (entity 128)"));
+    // A net with a point that the file does not have.
+    let without = step.replacen("3,3,((#", "3,3,((#99999,#", 1);
+    assert_ne!(without, step);
+    let found = error("box.step", &without);
+    assert!(found.contains("row ") && found.contains("not a B-spline surface that can be used"), "{found}");
+    let found = error("box.step", &step.replace("DATA;", "DATA;\n#5;\n"));
+    assert!(found.contains("'#5'") && found.contains("not an instance"), "{found}");
+    assert!(error("a.stp", "ISO-10303-21;\nDATA;\nENDSEC;\n").contains("no B_SPLINE_SURFACE_WITH_KNOTS"));
+}
