@@ -174,7 +174,7 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     let exported = export(&hull, "box", &formats, &settings).unwrap();
     let mut random = Random(7);
     for file in &exported.files {
-        for _ in 0..150 {
+        for _ in 0..60 {
             let mut bytes = file.contents.clone();
             for _ in 0..=random.below(6) {
                 let at = random.below(bytes.len());

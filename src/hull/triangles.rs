@@ -91,10 +91,21 @@ impl TriangleMesh {
     /// that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
     #[must_use]
     pub fn oriented(mut self) -> (Self, usize) {
-        let mut neighbours: HashMap<(usize, usize), Vec<(usize, bool)>> = HashMap::new();
+        // Sorted, the two triangles of an edge stand beside each other; where three and more meet nothing follows.
+        let mut edges = Vec::with_capacity(3 * self.triangles.len());
         for (k, t) in self.triangles.iter().enumerate() {
-            for [p, q] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]] {
-                neighbours.entry((p.min(q), p.max(q))).or_default().push((k, p > q));
+            edges.extend((0..3).map(|e| {
+                let (p, q) = (t[e], t[(e + 1) % 3]);
+                (p.min(q), p.max(q), k, e, p > q)
+            }));
+        }
+        edges.sort_unstable();
+        let mut neighbours: Vec<[Option<(usize, bool)>; 3]> = vec![[None; 3]; self.triangles.len()];
+        for both in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if let [a, b] = both {
+                let alike = a.4 == b.4;
+                neighbours[a.2][a.3] = Some((b.2, alike));
+                neighbours[b.2][b.3] = Some((a.2, alike));
             }
         }
         let mut turn: Vec<Option<bool>> = vec![None; self.triangles.len()];
@@ -108,17 +119,10 @@ impl TriangleMesh {
                 let k = part[next];
                 next += 1;
                 let own_turn = turn[k] == Some(true);
-                let t = self.triangles[k];
-                for [p, q] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]] {
-                    // Where three and more meet nothing follows.
-                    let Some([a, b]) = neighbours.get(&(p.min(q), p.max(q))).and_then(|list| list.as_array::<2>())
-                    else {
-                        continue;
-                    };
-                    let (own, other) = if a.0 == k { (a, b) } else { (b, a) };
-                    if turn[other.0].is_none() {
-                        turn[other.0] = Some(own_turn != (own.1 == other.1));
-                        part.push(other.0);
+                for (other, alike) in neighbours[k].into_iter().flatten() {
+                    if turn[other].is_none() {
+                        turn[other] = Some(own_turn != alike);
+                        part.push(other);
                     }
                 }
             }
