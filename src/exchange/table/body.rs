@@ -37,6 +37,10 @@ const ON_CENTREPLANE: f64 = 1e-6;
 /// What triangles leave surfaces by at most, over the longest extent of these.
 const DEVIATION: f64 = 1e-5;
 
+/// More triangles than this are made fewer by a deviation that is doubled, and how often at most.
+const ENOUGH: usize = 150_000;
+const DOUBLINGS: usize = 6;
+
 /// Ends of sections of surfaces that are as near to each other as this part of the length are joined.
 const SEAM: f64 = 2e-4;
 
@@ -115,7 +119,18 @@ pub fn read_body(
             ));
             notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
             let size = extent(&surfaces);
-            let nested = [1, 2].map(|times| TriangleMesh::of_surfaces(&surfaces, DEVIATION * size, times));
+            // Surfaces of many small spans need no closer triangles than these.
+            let mut deviation = DEVIATION * size;
+            let mut coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
+            for _ in 0..DOUBLINGS {
+                if coarse.triangles.len() > ENOUGH {
+                    deviation *= 2.0;
+                    coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
+                }
+            }
+            let nested = [coarse, TriangleMesh::of_surfaces(&surfaces, deviation, 2)];
+            let triangles = nested[1].triangles.len();
+            problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
             framed(nested.to_vec(), &settings, unit, &mut problems)
         }
     };
