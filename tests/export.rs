@@ -4,6 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use loftsman::exchange::read_table;
+use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
 
 fn program(arguments: &[&str]) -> Output {
@@ -50,5 +53,109 @@ fn files_are_not_overwritten_unasked() {
     assert_eq!(program(&forced).status.code(), Some(0));
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&wrong.stderr).contains("step, iges, dxf, stl, stl-ascii, obj, glb"));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains(
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan"
+    ));
+}
+
+/// The files of a small box. After a wanted change of a writer they are remade by
+/// `loftsman export configs/box.toml -f FORMATS -o tests/golden --across 1 --panel 25m --force`.
+#[test]
+fn files_are_those_of_the_golden_folder() {
+    let hull = read_source(&config("box.toml")).unwrap().hull;
+    let settings = ExportSettings { across: 1, panel: Some(25.0), ..ExportSettings::default() };
+    let exported = export(&hull, "box", &ExportFormat::ALL, &settings).unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    for file in &exported.files {
+        let wanted = fs::read(golden.join(&file.name)).unwrap_or_default();
+        assert!(wanted == file.contents, "{} is not what tests/golden has", file.name);
+    }
+    assert_eq!(fs::read_dir(golden).unwrap().count(), exported.files.len());
+}
+
+#[test]
+fn panels_have_the_volume_of_the_hull_and_converge() {
+    for name in ["bulk-carrier", "fishing-vessel", "seed002-frigate", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let length = hull.particulars().length_between_perpendiculars;
+        let draught = 0.9 * hull.particulars().draught;
+        let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0);
+        let mut last = [f64::NAN; 2];
+        for parts in [25.0, 50.0, 100.0] {
+            let mesh = PanelMesh::new(&hull, &PanelSettings { draught, size: length / parts, flatness: 0.01 }).unwrap();
+            let report = mesh.report();
+            let errors = [report.volume / exact.displacement_volume - 1.0, report.area / exact.wetted_surface - 1.0];
+            let limit = 50.0 / (parts * parts);
+            assert!(errors.iter().all(|error| error.abs() < limit), "{name} {parts}: {errors:?}");
+            // Second order: a quarter, or near to it where rows are added one by one.
+            for (error, last) in errors.iter().zip(last) {
+                assert!(last.is_nan() || error.abs() < 0.45 * last || error.abs() < 1e-4, "{name} {parts}: {errors:?}");
+            }
+            last = errors.map(f64::abs);
+        }
+    }
+}
+
+#[test]
+fn panels_of_an_immersed_deck_are_refused() {
+    let hull = config("box.toml").display().to_string();
+    let refused = program(&["export", &hull, "-f", "gdf", "--draught", "12"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"));
+}
+
+#[test]
+fn sections_and_tables_are_read_back_as_the_hull() {
+    for (name, allowed) in [("bulk-carrier", 2e-3_f64), ("seed002-frigate", 2e-3), ("yacht", 3e-3)] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let draught = [hull.particulars().draught];
+        let volume =
+            |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
+        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "csv", "xlsx"]
+            .iter()
+            .map(|name| ExportFormat::ALL.into_iter().find(|format| format.name() == *name).unwrap())
+            .collect();
+        let settings =
+            ExportSettings { deviation: Some(3e-4 * hull.particulars().breadth), ..ExportSettings::default() };
+        for file in export(&hull, name, &formats, &settings).unwrap().files {
+            let table = read_table(&file.name, &file.contents).unwrap_or_else(|e| panic!("{}: {e:?}", file.name)).table;
+            let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
+            let error = volume(&fitted) / volume(&hull) - 1.0;
+            assert!(error.abs() < allowed, "{}: {error:e}", file.name);
+        }
+    }
+}
+
+#[test]
+fn the_drawn_plan_has_its_views_apart() {
+    let hull = read_source(&config("seed002-frigate.toml")).unwrap().hull;
+    let format = ExportFormat::ALL.into_iter().find(|format| format.name() == "dxf-plan").unwrap();
+    let exported = export(&hull, "f", &[format], &ExportSettings::default()).unwrap();
+    assert_eq!(exported.files[0].name, "f-plan.dxf");
+    let text = String::from_utf8(exported.files[0].contents.clone()).unwrap();
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let pairs: Vec<(&str, &str)> = lines.chunks(2).map(|pair| (pair[0], pair[1])).collect();
+    // The extents of the vertices of each view.
+    let mut extents = std::collections::BTreeMap::new();
+    let (mut vertex, mut view, mut x) = (false, String::new(), 0.0);
+    for (code, value) in pairs {
+        match code {
+            "0" => vertex = value == "VERTEX",
+            "8" => view = value.split('_').next().unwrap().to_owned(),
+            "10" => x = value.parse::<f64>().unwrap(),
+            "20" if vertex => {
+                let y: f64 = value.parse().unwrap();
+                let e = extents.entry(view.clone()).or_insert([x, y, x, y]);
+                *e = [e[0].min(x), e[1].min(y), e[2].max(x), e[3].max(y)];
+            }
+            "30" => assert_eq!(value, "0.0"),
+            _ => {}
+        }
+    }
+    let particulars = hull.particulars();
+    let [body, plan, profile] = ["BODY", "PLAN", "PROFILE"].map(|view| extents[view]);
+    let (length, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
+    assert!((profile[2] - profile[0] - length).abs() < 0.02 * length && profile[1].abs() < 1e-9, "{profile:?}");
+    assert!((plan[3] - plan[1] - 0.5 * breadth).abs() < 1e-3 * breadth && plan[3] < profile[1], "{plan:?}");
+    assert!((body[2] - body[0] - breadth).abs() < 1e-3 * breadth && body[0] > profile[2], "{body:?}");
 }

@@ -304,16 +304,8 @@ fn a_header_that_contradicts_the_numbers() {
 
 #[test]
 fn files_of_other_kinds_in_one_message() {
-    let iges = format!("{:<72}S      1\n", "a surface");
-    let cases: [(&str, &[u8], &str); 7] = [
-        ("a.stp", b"ISO-10303-21;\nHEADER;\n", "STEP"),
-        ("a.dat", iges.as_bytes(), "IGES"),
-        ("a.stl", b"solid ship\nfacet normal 0 0 1\nouter loop\n", "STL"),
-        ("b.stl", &[0; 90], "STL"),
-        ("a.3dm", b"3D Geometry File Format        50", "3dm"),
-        ("a.csv.gz", b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),
-        ("a.obj", b"# ship\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "OBJ"),
-    ];
+    let cases: [(&str, &[u8], &str); 2] =
+        [("a.3dm", b"3D Geometry File Format        50", "3dm"), ("a.csv.gz", b"\x1f\x8b\x08\0\0\0\0\0", "gzip")];
     for (name, bytes, kind) in cases {
         let found = errors(name, bytes);
         assert_eq!(found.len(), 1, "{name} {found:?}");

@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::{length, positive, stream};
-use crate::exchange::CadUnit;
+use crate::exchange::{CadUnit, DxfVersion};
 use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, write_all};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
+    /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
-    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb
+    /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
+    /// gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -22,7 +23,10 @@ pub(super) struct Arguments {
     /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
-    /// What meshes and polylines leave the surface by at most; without it a thousandth of the breadth
+    /// Version of DXF files: r12 or r2000
+    #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
+    dxf: DxfVersion,
+    /// What meshes, polylines and sections leave the surface by at most; without it a thousandth of the breadth
     #[arg(long, value_parser = positive, value_name = "LENGTH")]
     deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom
@@ -31,6 +35,15 @@ pub(super) struct Arguments {
     /// Height above the base line that is z = 0 in the files: a length, or `waterline` for the design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
+    /// Draught of panels above the base line [default: of the hull]
+    #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH")]
+    draught: Option<f64>,
+    /// Length of the sides of panels; without it a fiftieth of Lpp
+    #[arg(long, value_parser = positive, value_name = "LENGTH")]
+    panel: Option<f64>,
+    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles
+    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.01)]
+    flatness: f64,
     /// Overwrite files that are there already
     #[arg(long)]
     force: bool,
@@ -40,11 +53,18 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same faces as \
-entities 128. Where the deck at side cuts the surface, the faces below it are interpolated, and the page says how closely.
-dxf: R12, polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS.
+step: AP214, a closed solid of untrimmed B-spline faces with the exact net and knots of the hull; iges: 5.3, the same solid \
+as entity 186 of entities 128. Where the deck at side or the \
+centreplane cuts the surface, the faces follow it within a distance that the page says.
+dxf: polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: the three views of the lines plan in one \
+plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
+gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
+the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
+gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
+stations as points within the deviation. csv, xlsx: half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
+their own frames, have z = 0 on the base line.
 x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
 
 #[derive(Debug, Clone, Copy)]
@@ -61,11 +81,24 @@ fn format(text: &str) -> Result<ExportFormat, String> {
     })
 }
 
+fn flatness(text: &str) -> Result<f64, String> {
+    let ratio: f64 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    if (0.0..=1.0).contains(&ratio) { Ok(ratio) } else { Err("expected 0 to 1".to_owned()) }
+}
+
 fn unit(text: &str) -> Result<CadUnit, String> {
     match text {
         "m" => Ok(CadUnit::Metre),
         "mm" => Ok(CadUnit::Millimetre),
         _ => Err("expected m or mm".to_owned()),
+    }
+}
+
+fn dxf_version(text: &str) -> Result<DxfVersion, String> {
+    match text {
+        "r12" => Ok(DxfVersion::R12),
+        "r2000" => Ok(DxfVersion::R2000),
+        _ => Err("expected r12 or r2000".to_owned()),
     }
 }
 
@@ -83,9 +116,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let settings = ExportSettings {
         unit: arguments.unit,
+        dxf: arguments.dxf,
         deviation: arguments.deviation,
         across: usize::from(arguments.across),
         datum,
+        draught: arguments.draught,
+        panel: arguments.panel,
+        flatness: arguments.flatness,
     };
     let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
     write_all(&folder, &exported.files, arguments.force)?;

@@ -6,14 +6,15 @@ use clap::{Args, ValueEnum};
 
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
-use crate::hydrostatics::{CoefficientLength, Conventions, CurvesOfForm, LcbReference, PrismaticSection};
-use crate::report::{Failure, hydrostatics_page, read_source};
+use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection};
+use crate::report::{Failure, hydrostatics_page, read_floating};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
 #[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
+    /// hull.json, a folder that holds one, a design file, a table of offsets (which is fitted first), or a mesh or CAD
+    /// file (taken as it is)
     hull: PathBuf,
     /// Draughts above the base line [m], as 1:9:1
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
@@ -101,15 +102,15 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source(&arguments.hull)?;
+    let source = read_floating(&arguments.hull)?;
     source.notes.iter().for_each(|note| stream::message(note));
-    let table = CurvesOfForm::new(&source.hull, &arguments.draughts.0, &conventions(arguments, source.conventions));
+    let table = source.curves_of_form(&arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {
-        stream::json(&hydrostatics_json(&source.hull, &table).map_err(|e| Failure::Internal(e.to_string()))?)?
+        stream::json(&hydrostatics_json(source.hull(), &table).map_err(|e| Failure::Internal(e.to_string()))?)?
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {
-        hydrostatics_page(&table, source.hull.particulars().length_between_perpendiculars)
+        hydrostatics_page(&table, source.particulars.length_between_perpendiculars)
     };
     stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
 }

@@ -13,7 +13,7 @@ use crate::units::{Dimension, parse};
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets (which is fitted first)
+    /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Stations, from AP [m]; each list that is not given has the lines of a table of offsets
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]

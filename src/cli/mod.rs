@@ -32,7 +32,10 @@ const TABLES: &str = "\
 Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlines, one offset a line, or sections as points), \
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
-say what it leaves open (units, axes, Lpp, B, T).";
+say what it leaves open (units, axes, Lpp, B, T).
+Bodies: meshes as STL (binary, ASCII) and OBJ, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
+files, without what trims them; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up), x_origin \
+and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.
 #[derive(Debug, Parser)]
@@ -67,7 +70,7 @@ enum Command {
     Hydro(hydro::Arguments),
     /// Table of offsets of a hull at any stations and waterlines
     Offsets(offsets::Arguments),
-    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB
+    /// Write a hull for other programs: STEP, IGES, DXF, STL, OBJ, GLB, panels as GDF, NEMOH, PNL, sections
     Export(export::Arguments),
     /// Read a table of offsets and write it in its own notation and layout, or in others
     Convert(convert::Arguments),

@@ -11,7 +11,7 @@ use crate::units::Notation;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets
+    /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
     /// Stations, from AP [m]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]

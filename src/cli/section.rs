@@ -11,7 +11,7 @@ use crate::report::{Failure, read_source, sections_of};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
-    /// hull.json, a folder that holds one, a design file, or a table of offsets
+    /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
     #[command(flatten)]
     plane: Plane,

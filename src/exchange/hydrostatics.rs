@@ -141,15 +141,16 @@ pub fn row_json(row: &Hydrostatics) -> Value {
     Value::Object(object)
 }
 
-/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`.
+/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`; null for a body of triangles.
 ///
 /// # Errors
 /// A number that JSON cannot write; a [`Hull`] has none.
-pub fn hydrostatics_json(hull: &Hull, table: &CurvesOfForm) -> Result<Value, serde_json::Error> {
+pub fn hydrostatics_json(hull: Option<&Hull>, table: &CurvesOfForm) -> Result<Value, serde_json::Error> {
+    let written = hull.map(|hull| write_hull(hull, &table.conventions)).transpose()?;
     Ok(json!({
         "conventions": conventions_json(&table.conventions),
         "rows": table.rows.iter().map(row_json).collect::<Vec<_>>(),
-        "hull": serde_json::from_str::<Value>(&write_hull(hull, &table.conventions)?)?,
+        "hull": written.map(|text| serde_json::from_str::<Value>(&text)).transpose()?,
     }))
 }
 

@@ -5,6 +5,7 @@ mod cad;
 mod curve;
 mod fairing;
 mod fairing_read;
+mod fault;
 mod hgf;
 mod hull_json;
 mod hydrostatics;
@@ -19,7 +20,7 @@ mod section;
 mod summary;
 mod table;
 
-pub use cad::{CadUnit, DxfLine, write_dxf, write_iges, write_step};
+pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use fairing::{RoundingEffect, changes_csv, fairing_json, priced, reached, status_word};
 pub use fairing_read::{FairingFile, FairingFileError, read_changes, read_fairing};
@@ -27,7 +28,7 @@ pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
 pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
-pub use mesh::{write_glb, write_obj, write_stl, write_stl_ascii};
+pub use mesh::{write_gdf, write_glb, write_nemoh, write_obj, write_pnl, write_stl, write_stl_ascii};
 pub use offsets::{heights_csv, offsets_csv};
 pub use report_tables::{diagonals_csv, hydrostatics_workbook, section_areas_csv};
 pub use residuals::residuals_csv;
@@ -35,7 +36,8 @@ pub use scene::scene_json;
 pub use section::{section_csv, section_json};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{
-    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS, MOST_UNPACKED, ReadTable, Rounding,
-    Severity, TableProblem, TableWriting, WrittenTable, only_sections, read_fractions, read_particulars, read_table,
-    read_table_with, workbook, write_britfair, write_freeship, write_ghs, write_pdstrip, write_pias, write_table,
+    LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS, MOST_UNPACKED, ReadBody, ReadTable,
+    Rounding, Severity, TableProblem, TableWriting, WrittenTable, only_sections, read_body, read_fractions,
+    read_particulars, read_table, read_table_with, workbook, write_britfair, write_freeship, write_ghs, write_pdstrip,
+    write_pias, write_table,
 };

@@ -269,25 +269,30 @@ impl HullMesh {
     /// Checks closure and measures.
     #[must_use]
     pub fn report(&self) -> MeshReport {
-        let mut edges: HashMap<(usize, usize), [usize; 2]> = HashMap::new();
-        let (mut volume, mut area, mut least_angle) = (0.0, 0.0, std::f64::consts::PI);
-        for (_, corners) in &self.triangles {
-            let [a, b, c] = corners.map(|k| self.vertices[k]);
-            volume += dot(a, cross(b, c)) / 6.0;
-            area += 0.5 * length(cross(minus(b, a), minus(c, a)));
-            for (p, q, r) in [(a, b, c), (b, c, a), (c, a, b)] {
-                let (s, t) = (minus(q, p), minus(r, p));
-                least_angle = least_angle.min(length(cross(s, t)).atan2(dot(s, t)));
-            }
-            for k in 0..3 {
-                let (p, q) = (corners[k], corners[(k + 1) % 3]);
-                edges.entry((p.min(q), p.max(q))).or_default()[usize::from(p > q)] += 1;
-            }
-        }
-        let open_edges = edges.values().filter(|uses| **uses != [1, 1]).count();
-        let closed = edges.values().all(|uses| uses[0] == uses[1]) && !self.triangles.is_empty();
-        MeshReport { closed, edges: edges.len(), open_edges, least_angle, volume, area }
+        measure(&self.vertices, self.triangles.iter().map(|(_, corners)| *corners))
     }
+}
+
+/// Checks closure of triangles and measures them.
+pub(super) fn measure(vertices: &[[f64; 3]], triangles: impl Iterator<Item = [usize; 3]>) -> MeshReport {
+    let mut edges: HashMap<(usize, usize), [usize; 2]> = HashMap::new();
+    let (mut volume, mut area, mut least_angle) = (0.0, 0.0, std::f64::consts::PI);
+    for corners in triangles {
+        let [a, b, c] = corners.map(|k| vertices[k]);
+        volume += dot(a, cross(b, c)) / 6.0;
+        area += 0.5 * length(cross(minus(b, a), minus(c, a)));
+        for (p, q, r) in [(a, b, c), (b, c, a), (c, a, b)] {
+            let (s, t) = (minus(q, p), minus(r, p));
+            least_angle = least_angle.min(length(cross(s, t)).atan2(dot(s, t)));
+        }
+        for k in 0..3 {
+            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+            edges.entry((p.min(q), p.max(q))).or_default()[usize::from(p > q)] += 1;
+        }
+    }
+    let open_edges = edges.values().filter(|uses| **uses != [1, 1]).count();
+    let closed = edges.values().all(|uses| uses[0] == uses[1]) && !edges.is_empty();
+    MeshReport { closed, edges: edges.len(), open_edges, least_angle, volume, area }
 }
 
 /// The volume \[m^3\] of the body up to its deck, from the rows over the net.

@@ -5,7 +5,8 @@
 //! Every face is run so that its normal S_u x S_v points out of the body, and its loop counter-clockwise seen from outside.
 //!
 //! Where the deck at side cuts the surface, the part below it has no exact B-spline: it is interpolated on a net of
-//! [`FINENESS`] times the spans, and what the new surface leaves the old one by is told.
+//! [`FINENESS`] times the spans, and what the new surface leaves the old one by is told. Where the surface goes through the
+//! centreplane its net ends there, so that the sides do not go through each other; that is told as well.
 
 use super::form::Hull;
 use super::mesh::Region;
@@ -16,6 +17,9 @@ const CENTREPLANE: f64 = 1e-9;
 
 /// Points closer than this part of the length of the hull are one.
 const SAME: f64 = 1e-9;
+
+/// Intervals of a span in which a surface is looked at.
+const SAMPLES: usize = 6;
 
 /// Spans for one span where the surface is interpolated below its deck.
 const FINENESS: usize = 6;
@@ -53,7 +57,7 @@ pub struct Solid {
     pub edges: Vec<Edge>,
     /// Faces.
     pub faces: Vec<SolidFace>,
-    /// What the sides leave the surface of the hull by \[m\]: 0, or what was measured where the deck cuts it.
+    /// What the sides leave the surface of the hull by \[m\]: 0, or what was measured where the deck or the centreplane cuts it.
     pub deviation: f64,
 }
 
@@ -175,6 +179,29 @@ fn below_deck(hull: &Hull, parameter: impl Fn(f64) -> f64) -> Result<(BsplineSur
     Ok((below, deviation))
 }
 
+/// Points of every span of a surface.
+fn samples(surface: &BsplineSurface<3>) -> Vec<[f64; 2]> {
+    let within = |knots: &KnotVector| -> Vec<f64> {
+        let breaks = knots.breakpoints();
+        let part = |w: &[f64], k: usize| w[0] + (w[1] - w[0]) * k as f64 / SAMPLES as f64;
+        breaks.windows(2).flat_map(|w| (0..=SAMPLES).map(move |k| part(w, k))).collect()
+    };
+    let vs = within(surface.v());
+    within(surface.u()).into_iter().flat_map(|u| vs.iter().map(move |&v| [u, v])).collect()
+}
+
+/// Whether the surface goes through the centreplane, where the sides would go through each other.
+fn crosses(surface: &BsplineSurface<3>, slack: f64) -> bool {
+    // A net that is not negative makes no surface that is.
+    surface.points().iter().any(|point| point[1] < -slack)
+        && samples(surface).into_iter().any(|[u, v]| surface.eval(u, v)[1] < -slack)
+}
+
+/// The greatest difference of the half-breadths of two surfaces of the same knots \[m\].
+fn moved(a: &BsplineSurface<3>, b: &BsplineSurface<3>) -> f64 {
+    samples(a).into_iter().map(|[u, v]| (a.eval(u, v)[1] - b.eval(u, v)[1]).abs()).fold(0.0, f64::max)
+}
+
 impl Solid {
     /// The body of a hull up to its deck.
     ///
@@ -189,9 +216,12 @@ impl Solid {
         let (surface, deviation) = if cut { below_deck(hull, parameter)? } else { (hull.surface().clone(), 0.0) };
         let breadth = surface.points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
         let slack = CENTREPLANE * breadth;
+        let crossed = crosses(&surface, slack);
+        let on_centreplane = |y: f64| y.abs() <= slack || (crossed && y < 0.0);
         let points: Vec<[f64; 3]> =
-            surface.points().iter().map(|&[x, y, z]| [x, if y.abs() <= slack { 0.0 } else { y }, z]).collect();
+            surface.points().iter().map(|&[x, y, z]| [x, if on_centreplane(y) { 0.0 } else { y }, z]).collect();
         let port = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
+        let deviation = if crossed { deviation.max(moved(&surface, &port)) } else { deviation };
         let starboard = BsplineSurface::new(surface.u().clone(), surface.v().clone(), mirrored(port.points()))?;
         let long = hull.particulars().length_between_perpendiculars;
         let mut builder = Builder { vertices: Vec::new(), edges: Vec::new(), same: SAME * long };

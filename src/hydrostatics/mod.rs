@@ -10,6 +10,7 @@ mod sections;
 mod skin;
 mod station;
 mod table;
+mod triangles;
 mod volume;
 mod waterplane;
 

@@ -7,7 +7,7 @@ use super::sections::{Sections, sections};
 use super::station::Stations;
 use super::volume::{Body, bodies};
 use super::waterplane::{Rule, Waterplane, bottom_area, waterplane};
-use crate::hull::{Hull, Immersion, UpperEnd};
+use crate::hull::{Hull, Immersion, PrincipalParticulars, UpperEnd};
 use crate::spline::MAX_DEGREE;
 
 /// Hydrostatics of a hull at a list of draughts.
@@ -42,7 +42,7 @@ impl CurvesOfForm {
                 rows.push(nothing_immersed(hull, draught, conventions));
                 continue;
             };
-            let mut row = row(hull, draught, conventions, body, waterplane, section);
+            let mut row = row(hull.particulars(), draught, conventions, body, waterplane, section);
             row.remark = remark(hull, draught, immersion);
             rows.push(row);
         }
@@ -139,15 +139,14 @@ fn immersed_deck(hull: &Hull, immersion: &Immersion) -> Vec<[f64; 2]> {
 }
 
 /// All quantities of one draught from its integrals.
-fn row(
-    hull: &Hull,
+pub(super) fn row(
+    particulars: &PrincipalParticulars,
     draught: f64,
     conventions: &Conventions,
     body: &Body,
     plane: &Waterplane,
     section: &Sections,
 ) -> Hydrostatics {
-    let particulars = hull.particulars();
     let (lpp, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
     let length = match conventions.coefficient_length {
         CoefficientLength::BetweenPerpendiculars => lpp,
@@ -239,7 +238,7 @@ fn row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hull::{Functional, PrincipalParticulars};
+    use crate::hull::Functional;
     use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
     use proptest::prelude::*;
 

@@ -4,22 +4,26 @@ use std::f64::consts::PI;
 
 use super::failure::Failure;
 use super::files::OutputFile;
+use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfLine, write_dxf, write_glb, write_iges, write_obj, write_step, write_stl, write_stl_ascii,
+    CadUnit, DxfVersion, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb,
+    write_iges, write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Cut, Hull, HullMesh, MeshReport, Region, Solid, default_buttocks, default_stations, default_waterlines,
-    whole_volume,
+    Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
+    section_stations, whole_volume,
 };
+use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::units::Notation;
 
 /// What is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportFormat {
     /// STEP AP214, a closed solid.
     Step,
-    /// IGES 5.3, B-spline surfaces.
+    /// IGES 5.3, the same solid.
     Iges,
-    /// DXF R12: the curves of the lines plan in space.
+    /// DXF: the curves of the lines plan in space.
     Dxf,
     /// Binary STL.
     Stl,
@@ -29,11 +33,52 @@ pub enum ExportFormat {
     Obj,
     /// Binary glTF 2.0.
     Glb,
+    /// Panels of WAMIT.
+    Gdf,
+    /// Panels of NEMOH.
+    Nemoh,
+    /// Panels of HAMS.
+    Pnl,
+    /// Sections for GHS.
+    Ghs,
+    /// Sections as BRITFAIR offsets.
+    Britfair,
+    /// Sections for PIAS.
+    Pias,
+    /// Immersed sections for PDSTRIP.
+    Pdstrip,
+    /// Sections as the text that FREE!ship and DELFTship import.
+    Freeship,
+    /// Half-breadths over stations and waterlines as CSV.
+    Csv,
+    /// The same as a workbook.
+    Xlsx,
+    /// DXF: the three views of the lines plan, flat.
+    DxfPlan,
 }
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 7] = [Self::Step, Self::Iges, Self::Dxf, Self::Stl, Self::StlAscii, Self::Obj, Self::Glb];
+    pub const ALL: [Self; 18] = [
+        Self::Step,
+        Self::Iges,
+        Self::Dxf,
+        Self::Stl,
+        Self::StlAscii,
+        Self::Obj,
+        Self::Glb,
+        Self::Gdf,
+        Self::Nemoh,
+        Self::Pnl,
+        Self::Ghs,
+        Self::Britfair,
+        Self::Pias,
+        Self::Pdstrip,
+        Self::Freeship,
+        Self::Csv,
+        Self::Xlsx,
+        Self::DxfPlan,
+    ];
 
     /// The name on the command line.
     #[must_use]
@@ -46,6 +91,17 @@ impl ExportFormat {
             Self::StlAscii => "stl-ascii",
             Self::Obj => "obj",
             Self::Glb => "glb",
+            Self::Gdf => "gdf",
+            Self::Nemoh => "nemoh",
+            Self::Pnl => "pnl",
+            Self::Ghs => "gf",
+            Self::Britfair => "britfair",
+            Self::Pias => "pias",
+            Self::Pdstrip => "pdstrip",
+            Self::Freeship => "freeship",
+            Self::Csv => "csv",
+            Self::Xlsx => "xlsx",
+            Self::DxfPlan => "dxf-plan",
         }
     }
 
@@ -59,11 +115,30 @@ impl ExportFormat {
             Self::StlAscii => "-ascii.stl",
             Self::Obj => ".obj",
             Self::Glb => ".glb",
+            Self::Gdf => ".gdf",
+            Self::Nemoh => ".mar",
+            Self::Pnl => ".pnl",
+            Self::Ghs => ".gf",
+            Self::Britfair => ".bri",
+            Self::Pias => "-pias.txt",
+            Self::Pdstrip => "-pdstrip.txt",
+            Self::Freeship => "-freeship.txt",
+            Self::Csv => ".csv",
+            Self::Xlsx => ".xlsx",
+            Self::DxfPlan => "-plan.dxf",
         }
     }
 
     const fn is_mesh(self) -> bool {
         matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
+    }
+
+    const fn is_sections(self) -> bool {
+        matches!(self, Self::Ghs | Self::Britfair | Self::Pias | Self::Pdstrip | Self::Freeship)
+    }
+
+    const fn is_panels(self) -> bool {
+        matches!(self, Self::Gdf | Self::Nemoh | Self::Pnl)
     }
 }
 
@@ -72,17 +147,34 @@ impl ExportFormat {
 pub struct ExportSettings {
     /// Unit of CAD files.
     pub unit: CadUnit,
+    /// Version of DXF files.
+    pub dxf: DxfVersion,
     /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
     pub deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom.
     pub across: usize,
-    /// Height that is z = 0 in the files, above the base line \[m\].
+    /// Height that is z = 0 in the files, above the base line \[m\]; in panels it is the waterline.
     pub datum: f64,
+    /// Draught of panels above the base line \[m\]; none: that of the hull.
+    pub draught: Option<f64>,
+    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars.
+    pub panel: Option<f64>,
+    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal.
+    pub flatness: f64,
 }
 
 impl Default for ExportSettings {
     fn default() -> Self {
-        Self { unit: CadUnit::Metre, deviation: None, across: 8, datum: 0.0 }
+        Self {
+            unit: CadUnit::Metre,
+            dxf: DxfVersion::R12,
+            deviation: None,
+            across: 8,
+            datum: 0.0,
+            draught: None,
+            panel: None,
+            flatness: 0.01,
+        }
     }
 }
 
@@ -95,39 +187,14 @@ pub struct Exported {
     pub page: String,
 }
 
-/// Deviation of meshes and polylines over the breadth.
+/// Deviation of meshes, polylines and sections over the breadth.
 const DEVIATION: f64 = 1e-3;
+
+/// Panels over the length between perpendiculars.
+const PANELS: f64 = 50.0;
 
 fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
-}
-
-/// The curves of the lines plan in space, by layers.
-fn lines_plan(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
-    let mut lines = Vec::new();
-    let mut add = |layer: &str, cut: Cut| {
-        for branch in &hull.section(cut, 1e-9).branches {
-            let mut points = branch.polyline(deviation);
-            lowered(&mut points, datum);
-            let off = |points: &[[f64; 3]]| points.iter().any(|point| point[1].abs() > 1e-9);
-            let other: Vec<[f64; 3]> = points.iter().map(|&[x, y, z]| [x, 0.0 - y, z]).collect();
-            let mirrored = off(&points) && !matches!(cut, Cut::Plane { .. });
-            lines.push(DxfLine { layer: layer.to_owned(), points });
-            if mirrored {
-                lines.push(DxfLine { layer: layer.to_owned(), points: other });
-            }
-        }
-    };
-    for station in default_stations(hull) {
-        add("STATIONS", Cut::Station { x: station.x });
-    }
-    for z in default_waterlines(hull) {
-        add("WATERLINES", Cut::Waterline { z });
-    }
-    for y in default_buttocks(hull) {
-        add("BUTTOCKS", Cut::Buttock { y });
-    }
-    lines
 }
 
 /// A mesh and its line on the page.
@@ -145,10 +212,30 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
     )
 }
 
+/// The panels and their line on the page.
+fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
+    let particulars = hull.particulars();
+    let draught = settings.draught.unwrap_or(particulars.draught);
+    let size = settings.panel.unwrap_or(particulars.length_between_perpendiculars / PANELS);
+    let asked = PanelSettings { draught, size, flatness: settings.flatness };
+    let mesh = PanelMesh::new(hull, &asked).map_err(|error| Failure::Usage(error.to_string()))?;
+    let PanelReport { panels, triangles, unevenness, longest, volume, area } = mesh.report();
+    let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
+    let line = format!(
+        "panels: {panels} on one side, {triangles} of them triangles, sides up to {longest:.3} m, corners within {unevenness:.2e} m of \
+         their planes; z = 0 at draught {draught:.3} m; volume {volume:.6e} m3, {:+.2e} of the hull's {:.6e} m3; area {area:.5e} m2, \
+         {:+.2e} of the wetted surface",
+        volume / row.displacement_volume - 1.0,
+        row.displacement_volume,
+        area / row.wetted_surface - 1.0,
+    );
+    Ok((mesh, line))
+}
+
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed.
+/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when there are no panels at the draught.
 pub fn export(
     hull: &Hull,
     name: &str,
@@ -175,7 +262,7 @@ pub fn export(
         page.push(format!("solid: {} edges, faces {}", solid.edges.len(), faces.join(", ")));
         if solid.deviation > 0.0 {
             page.push(format!(
-                "the deck cuts the surface: below it the faces are interpolated, within {:.2e} m of the hull",
+                "the deck or the centreplane cuts the surface: the faces are within {:.2e} m of the hull",
                 solid.deviation
             ));
         }
@@ -183,8 +270,39 @@ pub fn export(
     } else {
         None
     };
+    let panels = if formats.iter().any(|format| format.is_panels()) {
+        let (panels, line) = panels(hull, settings)?;
+        page.push(line);
+        panels
+    } else {
+        PanelMesh::default()
+    };
+    let sections = if formats.iter().any(|format| format.is_sections()) {
+        let table = OffsetTable::of_sections(hull, &section_stations(hull), deviation);
+        let points = table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum::<usize>();
+        page.push(format!("sections: {} with {points} points, z from the base line", table.stations.len()));
+        table
+    } else {
+        OffsetTable::default()
+    };
     for &format in formats {
+        let file = format!("{name}{}", format.ending());
         let contents = match (format, &mesh, &solid) {
+            (ExportFormat::Ghs, ..) => write_ghs(&sections).into_bytes(),
+            (ExportFormat::Britfair, ..) => write_britfair(&sections).into_bytes(),
+            (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
+            (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
+            (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
+            (ExportFormat::DxfPlan, ..) => {
+                write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
+            }
+            (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
+                let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
+                OutputFile::table(&file, text, &TableForm::default())?.contents
+            }
+            (ExportFormat::Gdf, ..) => write_gdf(&panels, title).into_bytes(),
+            (ExportFormat::Nemoh, ..) => write_nemoh(&panels).into_bytes(),
+            (ExportFormat::Pnl, ..) => write_pnl(&panels).into_bytes(),
             (ExportFormat::Stl, Some(mesh), _) => write_stl(mesh, title),
             (ExportFormat::StlAscii, Some(mesh), _) => write_stl_ascii(mesh).into_bytes(),
             (ExportFormat::Obj, Some(mesh), _) => write_obj(mesh, title).into_bytes(),
@@ -192,11 +310,11 @@ pub fn export(
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Dxf, ..) => {
-                write_dxf(&lines_plan(hull, deviation, settings.datum), settings.unit).into_bytes()
+                write_dxf(&lines_in_space(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }
             _ => continue,
         };
-        files.push(OutputFile { name: format!("{name}{}", format.ending()), contents });
+        files.push(OutputFile { name: file, contents });
     }
     if let Some(mesh) = &mesh {
         let named: Vec<&str> = Region::ALL

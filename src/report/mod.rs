@@ -10,8 +10,10 @@ mod fair_figures;
 mod fair_page;
 mod files;
 mod fit;
+mod floating;
 mod generate;
 mod inspect;
+mod lines_plan;
 mod markdown;
 mod page;
 mod result;
@@ -33,6 +35,7 @@ pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_j
 pub use fair_page::{fair_line, fair_page};
 pub use files::{OutputFile, write_all, write_run};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
+pub use floating::{Floating, read_floating};
 pub use generate::{Outputs, generate_outputs};
 pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};

@@ -104,8 +104,8 @@ pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
     })
 }
 
-/// The hull of a `hull.json`, of a folder that holds one, of a design file, or of a table of offsets, through which a
-/// surface is laid.
+/// The hull of a `hull.json`, of a folder that holds one, of a design file, or of a table of offsets or a mesh, through
+/// which a surface is laid.
 ///
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
@@ -132,6 +132,16 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
     }
 }
 
+/// The name and the text of the TOML file of the same name beside a file, when there is one.
+pub(super) fn beside(path: &Path) -> Result<Option<(String, String)>, Failure> {
+    let beside = path.with_extension("toml");
+    if !beside.is_file() {
+        return Ok(None);
+    }
+    let text = utf8(&beside, read_bytes(&beside)?)?;
+    Ok(Some((beside.display().to_string(), text)))
+}
+
 /// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the same
 /// name beside it, when there is one.
 ///
@@ -139,17 +149,15 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
 pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
     let bytes = read_bytes(path)?;
-    let beside = path.with_extension("toml");
-    let conventions = if beside.is_file() { Some(utf8(&beside, read_bytes(&beside)?)?) } else { None };
-    let shown = beside.display().to_string();
-    let beside = conventions.as_deref().map(|text| (shown.as_str(), text));
+    let beside = beside(path)?;
+    let beside = beside.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
     let read = exchange::read_table_with(&path.display().to_string(), &bytes, beside);
     read.map(|ReadTable { table, notes }| (table, notes))
         .map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))
 }
 
 /// A problem of a table among the messages about files.
-fn of_table(problem: TableProblem) -> Diagnostic {
+pub(super) fn of_table(problem: TableProblem) -> Diagnostic {
     // A field of a table is counted, a column of a text file is not: it goes into the message.
     let place = problem.column.map(|column| format!("column {column}, ")).unwrap_or_default();
     let quoted = if problem.found.is_empty() { String::new() } else { format!("{place}'{}': ", problem.found) };

@@ -1,4 +1,6 @@
-//! DXF of AutoCAD R12 (AC1009): polylines in space on named layers, which every program that reads DXF takes.
+//! DXF: polylines on named layers, in space or flat; of AutoCAD R12 (AC1009), which every program that reads DXF takes, or 2000.
+
+mod r2000;
 
 use std::fmt::Write as _;
 
@@ -11,6 +13,26 @@ pub struct DxfLine {
     pub layer: String,
     /// Points \[m\].
     pub points: Vec<[f64; 3]>,
+    /// Whether it lies in the plane z = 0 of a drawing.
+    pub flat: bool,
+}
+
+/// A version of the format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// AC1009.
+    #[default]
+    R12,
+    /// AC1015.
+    R2000,
+}
+
+/// The layer of a line, its points in the unit of the file, and whether it is flat.
+type Scaled = (String, Vec<[f64; 3]>, bool);
+
+/// A real number, always with a point.
+fn number(value: f64) -> String {
+    format!("{value:?}")
 }
 
 /// Colours of the AutoCAD index that are seen on black and on white, in turn for the layers.
@@ -24,33 +46,39 @@ fn layer(name: &str) -> String {
 
 /// Text of a DXF file. Points that are finite and lines of two points at least are written.
 #[must_use]
-pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
-    let mut text = String::new();
-    let mut put = |code: u16, value: &str| {
-        let _ = writeln!(text, "{code:>3}\n{value}");
-    };
+pub fn write_dxf(lines: &[DxfLine], unit: CadUnit, version: DxfVersion) -> String {
     let scale = unit.in_a_metre();
-    let lines: Vec<(String, Vec<[f64; 3]>)> = lines
+    let lines: Vec<Scaled> = lines
         .iter()
         .map(|line| {
             let points = line.points.iter().filter(|p| p.iter().all(|c| c.is_finite()));
-            (layer(&line.layer), points.map(|p| p.map(|c| c * scale + 0.0)).collect())
+            (layer(&line.layer), points.map(|p| p.map(|c| c * scale + 0.0)).collect(), line.flat)
         })
-        .filter(|(_, points): &(String, Vec<[f64; 3]>)| points.len() > 1)
+        .filter(|(_, points, _): &Scaled| points.len() > 1)
         .collect();
     let mut layers: Vec<&str> = Vec::new();
-    for (name, _) in &lines {
+    for (name, ..) in &lines {
         if !layers.contains(&name.as_str()) {
             layers.push(name);
         }
     }
     let ends = |pick: fn(f64, f64) -> f64, from: f64| -> [f64; 3] {
-        let all = lines.iter().flat_map(|(_, points)| points);
+        let all = lines.iter().flat_map(|(_, points, _)| points);
         let found = all.fold([from; 3], |e, p| [0, 1, 2].map(|k| pick(e[k], p[k])));
         found.map(|c| if c.is_finite() { c } else { 0.0 })
     };
     let (least, greatest) = (ends(f64::min, f64::INFINITY), ends(f64::max, f64::NEG_INFINITY));
-    let number = |value: f64| format!("{value:?}");
+    if version == DxfVersion::R2000 {
+        let unit = match unit {
+            CadUnit::Metre => 6,
+            CadUnit::Millimetre => 4,
+        };
+        return r2000::write(&lines, &layers, [least, greatest], unit);
+    }
+    let mut text = String::new();
+    let mut put = |code: u16, value: &str| {
+        let _ = writeln!(text, "{code:>3}\n{value}");
+    };
     put(0, "SECTION");
     put(2, "HEADER");
     put(9, "$ACADVER");
@@ -89,7 +117,7 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
     put(0, "ENDSEC");
     put(0, "SECTION");
     put(2, "ENTITIES");
-    for (name, points) in &lines {
+    for (name, points, flat) in &lines {
         put(0, "POLYLINE");
         put(8, name);
         put(66, "1");
@@ -97,14 +125,14 @@ pub fn write_dxf(lines: &[DxfLine], unit: CadUnit) -> String {
         for code in [10, 20, 30] {
             put(code, "0.0");
         }
-        put(70, "8");
+        put(70, if *flat { "0" } else { "8" });
         for point in points {
             put(0, "VERTEX");
             put(8, name);
             for (k, &coordinate) in point.iter().enumerate() {
                 put(10 * (k as u16 + 1), &number(coordinate));
             }
-            put(70, "32");
+            put(70, if *flat { "0" } else { "32" });
         }
         put(0, "SEQEND");
         put(8, name);

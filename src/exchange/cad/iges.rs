@@ -1,9 +1,15 @@
-//! IGES 5.3 (US PRO, 1996): each face of the solid as a B-spline surface, entity 128, untrimmed.
+//! IGES 5.3 (US PRO, 1996): the solid as a manifold B-rep, entity 186, its faces untrimmed B-spline surfaces, entities 128.
 //!
-//! Records of 80 columns: text in the first 72, a letter and a number from 73 on. Points run with u fastest.
+//! Records of 80 columns: text in the first 72, a letter and a number from 73 on.
 
+mod entities;
+mod read;
+
+pub(in super::super) use read::{is_iges, read_iges};
+
+use self::entities::entities;
 use super::{CadUnit, plain, real};
-use crate::hull::{Region, Solid, SolidFace};
+use crate::hull::{Region, Solid};
 
 /// Text of a parameter record.
 const WIDTH: usize = 64;
@@ -21,25 +27,6 @@ const fn colour(region: Region) -> usize {
         Region::Transom | Region::Bow => 7,
         Region::Deck => 5,
     }
-}
-
-/// Entity 128 with its parameters.
-fn parameters(face: &SolidFace, scale: f64) -> Vec<String> {
-    let surface = &face.surface;
-    let [rows, columns] = surface.shape();
-    let (u, v) = (surface.u(), surface.v());
-    let mut list: Vec<String> =
-        [128, rows - 1, columns - 1, u.degree(), v.degree(), 0, 0, 1, 0, 0].iter().map(ToString::to_string).collect();
-    list.extend(u.knots().iter().chain(v.knots()).map(|&knot| real(knot)));
-    list.extend(std::iter::repeat_n("1.".to_owned(), rows * columns));
-    for j in 0..columns {
-        for i in 0..rows {
-            list.extend(surface.point(i, j).map(|coordinate| real(coordinate * scale)));
-        }
-    }
-    let ((a, b), (c, d)) = (u.domain(), v.domain());
-    list.extend([a, b, c, d].map(real));
-    list
 }
 
 /// Fields with commas between them and `;` at the end, broken between fields into records of `width` columns.
@@ -106,24 +93,23 @@ pub fn write_iges(solid: &Solid, name: &str, unit: CadUnit) -> String {
     for (k, line) in global.iter().enumerate() {
         put(line, 'G', k + 1);
     }
-    let bodies: Vec<Vec<String>> =
-        solid.faces.iter().map(|face| records(&parameters(face, unit.in_a_metre()), WIDTH)).collect();
+    let entities = entities(solid, unit.in_a_metre());
+    let bodies: Vec<Vec<String>> = entities.iter().map(|entity| records(&entity.parameters, WIDTH)).collect();
     let mut first = 1;
-    for (k, (face, body)) in solid.faces.iter().zip(&bodies).enumerate() {
-        let label: String = face.name.replace("hull ", "").chars().take(8).collect::<String>().to_uppercase();
+    for (k, (entity, body)) in entities.iter().zip(&bodies).enumerate() {
+        let status = if entity.dependent { "00010000" } else { "00000000" };
         put(
-            &format!("{:>8}{first:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 128, 0, 1, 0, 0, 0, 0, "00000000"),
+            &format!("{:>8}{first:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{status:>8}", entity.kind, 0, 1, 0, 0, 0, 0),
             'D',
             2 * k + 1,
         );
+        let (form, colour, label) = (entity.form, entity.colour, &entity.label);
         put(
             &format!(
-                "{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{label:>8}{:>8}",
-                128,
+                "{:>8}{:>8}{colour:>8}{:>8}{form:>8}{:>8}{:>8}{label:>8}{:>8}",
+                entity.kind,
                 0,
-                colour(face.region),
                 body.len(),
-                0,
                 "",
                 "",
                 0

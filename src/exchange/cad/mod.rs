@@ -1,12 +1,16 @@
-//! Hulls for CAD: the B-spline surfaces themselves, exact nets and knots.
+//! Hulls for CAD, and the surfaces of its files: the B-splines themselves, exact nets and knots.
 
 mod dxf;
 mod iges;
 mod step;
+mod surfaces;
 
-pub use dxf::{DxfLine, write_dxf};
+pub use dxf::{DxfLine, DxfVersion, write_dxf};
 pub use iges::write_iges;
+pub(super) use iges::{is_iges, read_iges};
 pub use step::write_step;
+pub(super) use step::{is_step, read_step};
+pub(super) use surfaces::CadSurfaces;
 
 /// Unit of length of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

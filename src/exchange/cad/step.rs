@@ -2,6 +2,10 @@
 
 use std::fmt::Write as _;
 
+mod read;
+
+pub(in super::super) use read::{is_step, read_step};
+
 use super::{CadUnit, multiplicities, plain, real};
 use crate::hull::{Region, Solid};
 use crate::spline::{BsplineCurve, BsplineSurface};

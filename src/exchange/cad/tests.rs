@@ -62,14 +62,15 @@ fn records_of_an_iges_file_have_80_columns_and_count_themselves() {
         assert_eq!(last.as_bytes()[from] as char, letter);
         assert_eq!(last[from + 1..from + 8].trim().parse::<usize>().unwrap(), counts[&letter]);
     }
-    assert_eq!(counts[&'D'], 12);
+    // Vertices, edges and their 12 curves, 6 faces of a surface and a loop, shell and solid.
+    assert_eq!(counts[&'D'], 2 * (2 + 12 + 6 * 3 + 2));
     // Every entity points to its own parameters.
     let directory: Vec<&str> = text.lines().filter(|line| line.as_bytes()[72] == b'D').collect();
     let body: Vec<&str> = text.lines().filter(|line| line.as_bytes()[72] == b'P').collect();
     for (k, pair) in directory.chunks(2).enumerate() {
         let first: usize = pair[0][8..16].trim().parse().unwrap();
         let count: usize = pair[1][24..32].trim().parse().unwrap();
-        assert!(body[first - 1].starts_with("128,"), "{}", body[first - 1]);
+        assert!(body[first - 1].starts_with(&format!("{},", pair[0][..8].trim())), "{}", body[first - 1]);
         assert!(body[first + count - 2][..64].trim_end().ends_with(';'));
         assert!(body[first - 1..first + count - 1].iter().all(|line| line[64..72].trim() == (2 * k + 1).to_string()));
     }
@@ -78,14 +79,15 @@ fn records_of_an_iges_file_have_80_columns_and_count_themselves() {
 #[test]
 fn a_dxf_file_has_its_layers_and_pairs() {
     let lines = [
-        DxfLine { layer: "stations".to_owned(), points: vec![[0.0, 0.0, 0.0], [0.0, 1.5, 2.0]] },
+        DxfLine { layer: "stations".to_owned(), points: vec![[0.0, 0.0, 0.0], [0.0, 1.5, 2.0]], flat: false },
         DxfLine {
             layer: "water lines".to_owned(),
             points: vec![[0.0, 0.0, 1.0], [f64::NAN, 0.0, 0.0], [1.0, 0.5, 1.0]],
+            flat: true,
         },
-        DxfLine { layer: "none".to_owned(), points: vec![[0.0; 3]] },
+        DxfLine { layer: "none".to_owned(), points: vec![[0.0; 3]], flat: false },
     ];
-    let text = write_dxf(&lines, CadUnit::Millimetre);
+    let text = write_dxf(&lines, CadUnit::Millimetre, DxfVersion::R12);
     let all: Vec<&str> = text.lines().collect();
     assert_eq!(all.len() % 2, 0);
     let pairs: Vec<(u16, &str)> = all.chunks(2).map(|pair| (pair[0].trim().parse().unwrap(), pair[1])).collect();
@@ -94,4 +96,27 @@ fn a_dxf_file_has_its_layers_and_pairs() {
     assert!(pairs.contains(&(2, "STATIONS")) && pairs.contains(&(2, "WATER_LINES")) && !pairs.contains(&(2, "NONE")));
     assert!(pairs.contains(&(20, "1500.0")));
     assert_eq!(pairs.last(), Some(&(0, "EOF")));
+}
+
+#[test]
+fn handles_of_a_drawing_of_2000_are_different_and_owned() {
+    let points = vec![[0.0, 1.0, 0.0], [2.0, 1.0, 0.0]];
+    let lines = [true, false].map(|flat| DxfLine { layer: "a".to_owned(), points: points.clone(), flat });
+    let text = write_dxf(&lines, CadUnit::Metre, DxfVersion::R2000);
+    let all: Vec<&str> = text.lines().map(str::trim).collect();
+    assert_eq!(all.len() % 2, 0);
+    let pairs: Vec<(&str, &str)> = all.chunks(2).map(|pair| (pair[0], pair[1])).collect();
+    // The seed stands first.
+    let handles: Vec<&str> =
+        pairs.iter().filter(|(code, _)| ["5", "105"].contains(code)).map(|(_, value)| *value).collect();
+    let different: std::collections::BTreeSet<&str> = handles.iter().copied().collect();
+    assert_eq!(different.len(), handles.len());
+    let number = |handle: &str| u32::from_str_radix(handle, 16).unwrap();
+    assert!(handles[1..].iter().all(|handle| number(handle) < number(handles[0])));
+    for (_, owner) in pairs.iter().filter(|(code, _)| ["330", "350"].contains(code)) {
+        assert!(*owner == "0" || different.contains(owner), "{owner}");
+    }
+    for kind in ["LWPOLYLINE", "POLYLINE", "SEQEND"] {
+        assert_eq!(pairs.iter().filter(|pair| **pair == ("0", kind)).count(), 1, "{kind}");
+    }
 }

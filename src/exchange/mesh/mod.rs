@@ -1,15 +1,26 @@
-//! Meshes of triangles for other programs: STL, OBJ, GLB.
+//! Meshes for other programs: triangles as STL, OBJ, GLB; panels below a draught as GDF, NEMOH, PNL.
 
+mod gdf;
 mod glb;
+mod nemoh;
 mod obj;
+mod pnl;
 mod stl;
 
+pub use gdf::write_gdf;
 pub use glb::write_glb;
+pub use nemoh::write_nemoh;
 pub use obj::write_obj;
+pub(super) use obj::{is_obj, read_obj};
+pub use pnl::write_pnl;
+pub(super) use stl::{is_stl, read_stl};
 pub use stl::{write_stl, write_stl_ascii};
 
 use crate::hull::{HullMesh, Region};
 use crate::spline::{cross, dot, minus};
+
+/// Meshes of more triangles are not read.
+const MOST_TRIANGLES: usize = 4_000_000;
 
 /// Regions of a mesh that have triangles, in the order of files, each with its triangles.
 fn regions(mesh: &HullMesh) -> Vec<(Region, Vec<[usize; 3]>)> {
@@ -17,6 +28,11 @@ fn regions(mesh: &HullMesh) -> Vec<(Region, Vec<[usize; 3]>)> {
         mesh.triangles.iter().filter(|(region, _)| *region == wanted).map(|(_, corners)| *corners).collect()
     };
     Region::ALL.into_iter().map(|region| (region, of(region))).filter(|(_, list)| !list.is_empty()).collect()
+}
+
+/// A name on one line of printable ASCII, at most 72 of its characters.
+fn title(name: &str) -> String {
+    name.chars().take(72).map(|c| if c == ' ' || c.is_ascii_graphic() { c } else { '_' }).collect()
 }
 
 /// The normal of unit length of a triangle; zero where it has no area.

@@ -1,9 +1,76 @@
-//! Wavefront OBJ: vertices once, a group for each region.
+//! Wavefront OBJ: vertices once, a group for each region. Read are vertices and faces (numbers from 1, or back from the last one when
+//! negative; `a/b/c` means the vertex a); faces of more corners become fans of triangles, everything else is passed over.
 
 use std::fmt::Write as _;
 
-use super::regions;
-use crate::hull::HullMesh;
+use super::super::fault::{Faults, RecordFault};
+use super::{MOST_TRIANGLES, regions};
+use crate::hull::{HullMesh, TriangleMesh};
+
+/// Whether this is the beginning of an OBJ file: lines of vertices before anything that has no place in one.
+#[must_use]
+pub(in super::super) fn is_obj(bytes: &[u8]) -> bool {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
+    let vertices = start.lines().filter(|line| line.starts_with("v ")).count();
+    let others = start.lines().filter(|line| !line.starts_with(['#', 'v', 'o', 'g', 'm'])).count();
+    vertices > 2 && 2 * vertices > others
+}
+
+/// Reads an OBJ file, in its own units and axes.
+///
+/// # Errors
+/// Every fault of the file, up to a number of them.
+pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut faults = Faults::default();
+    let mut vertices: Vec<[f64; 3]> = Vec::new();
+    let mut corners: Vec<[[f64; 3]; 3]> = Vec::new();
+    for (k, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let point: Vec<&str> = words.collect();
+                // A vertex may carry a weight or a colour.
+                if let Some(point) = faults.point(k + 1, line, &point[..point.len().min(3)], 3) {
+                    vertices.push(point);
+                }
+            }
+            Some("f") => {
+                let mut face: Vec<[f64; 3]> = Vec::new();
+                let before = faults.list.len();
+                for word in words {
+                    let number = word.split('/').next().unwrap_or_default().parse::<i64>();
+                    let place = number.ok().and_then(|n| match n {
+                        1.. => usize::try_from(n - 1).ok(),
+                        0 => None,
+                        _ => vertices.len().checked_sub(usize::try_from(n.unsigned_abs()).ok()?),
+                    });
+                    match place.and_then(|place| vertices.get(place)) {
+                        Some(point) => face.push(*point),
+                        None => {
+                            faults.add(Some(k + 1), word, format!("no vertex; there are {} so far", vertices.len()))
+                        }
+                    }
+                }
+                if face.len() < 3 && faults.list.len() == before {
+                    faults.add(Some(k + 1), line, format!("a face of {} corners", face.len()));
+                }
+                corners.extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
+            }
+            _ => {}
+        }
+        if corners.len() > MOST_TRIANGLES {
+            faults.add(Some(k + 1), "", format!("more than {MOST_TRIANGLES} triangles"));
+        }
+        if faults.is_full() || corners.len() > MOST_TRIANGLES {
+            break;
+        }
+    }
+    if corners.is_empty() && faults.list.is_empty() {
+        faults.add(None, "", "no faces".to_owned());
+    }
+    faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
+}
 
 /// Text of an OBJ file \[m\]; x forward, y to port, z up.
 #[must_use]

@@ -1,9 +1,112 @@
 //! STL (3D Systems, 1988): binary, all regions in one solid; and ASCII, a named solid for each region.
+//!
+//! A file is binary when its length is 84 + 50 n bytes, n being the number in bytes 81 to 84, whatever it begins with. Normals of
+//! files are not read.
 
 use std::fmt::Write as _;
 
-use super::{normal, regions};
-use crate::hull::HullMesh;
+use super::super::fault::{Faults, RecordFault};
+use super::{MOST_TRIANGLES, normal, regions};
+use crate::hull::{HullMesh, TriangleMesh};
+
+/// Bytes before the triangles of a binary file, and bytes of each.
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+/// The number of triangles of a binary file; none when the length is not that of one.
+fn binary_count(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(HEADER - 4..HEADER)?.iter().rev().fold(0_usize, |n, &byte| n << 8 | usize::from(byte));
+    (count > 0 && bytes.len() == HEADER + RECORD * count).then_some(count)
+}
+
+/// Whether these are the bytes of an STL file.
+#[must_use]
+pub(in super::super) fn is_stl(bytes: &[u8]) -> bool {
+    if binary_count(bytes).is_some() {
+        return true;
+    }
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
+    start.trim_start().starts_with("solid") && start.contains("facet")
+}
+
+/// Reads an STL file, in its own units and axes.
+///
+/// # Errors
+/// Every fault of the file, up to a number of them.
+pub(in super::super) fn read_stl(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+    match binary_count(bytes) {
+        Some(count) => read_binary(bytes, count),
+        None => read_ascii(bytes),
+    }
+}
+
+fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFault>> {
+    let mut faults = Faults::default();
+    if count > MOST_TRIANGLES {
+        faults.add(None, "", format!("{count} triangles; at most {MOST_TRIANGLES} are read"));
+        return Err(faults.list);
+    }
+    let mut corners = Vec::with_capacity(count);
+    for (k, record) in bytes[HEADER..].chunks_exact(RECORD).enumerate() {
+        let mut triangle = [[0.0; 3]; 3];
+        for (slot, real) in triangle.iter_mut().flatten().zip(record[12..48].chunks_exact(4)) {
+            *slot = f64::from(f32::from_le_bytes([real[0], real[1], real[2], real[3]]));
+        }
+        if triangle.iter().flatten().all(|c| c.is_finite()) {
+            corners.push(triangle);
+        } else {
+            faults.add(None, "", format!("triangle {} has a corner that is no number", k + 1));
+        }
+    }
+    faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
+}
+
+fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut faults = Faults::default();
+    if !text.trim_start().starts_with("solid") {
+        let count =
+            bytes.get(HEADER - 4..HEADER).map_or(0, |word| word.iter().rev().fold(0, |n, &b| n << 8 | usize::from(b)));
+        let wanted = HEADER + RECORD * count;
+        faults.add(None, "", format!("{} bytes; a binary file of {count} triangles has {wanted}", bytes.len()));
+        return Err(faults.list);
+    }
+    let (mut corners, mut triangle) = (Vec::new(), Vec::new());
+    for (k, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        match words.next().map(str::to_ascii_lowercase).as_deref() {
+            Some("vertex") => {
+                let point: Vec<&str> = words.collect();
+                if let Some(point) = faults.point(k + 1, line, &point, 3) {
+                    triangle.push(point);
+                }
+            }
+            Some("outer") => triangle.clear(),
+            Some("endloop") => match triangle[..] {
+                [a, b, c] => corners.push([a, b, c]),
+                _ => faults.add(Some(k + 1), line, format!("a loop of {} corners, expected 3", triangle.len())),
+            },
+            None | Some("solid" | "facet" | "endfacet" | "endsolid") => {}
+            Some(_) => {
+                faults.add(
+                    Some(k + 1),
+                    line,
+                    "expected solid, facet, outer loop, vertex, endloop or their ends".to_owned(),
+                );
+            }
+        }
+        if corners.len() > MOST_TRIANGLES {
+            faults.add(Some(k + 1), "", format!("more than {MOST_TRIANGLES} triangles"));
+        }
+        if faults.is_full() || corners.len() > MOST_TRIANGLES {
+            break;
+        }
+    }
+    if corners.is_empty() && faults.list.is_empty() {
+        faults.add(None, "", "no triangles".to_owned());
+    }
+    faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
+}
 
 /// Binary STL: 80 bytes of header, the number of triangles, and for each its normal, its corners as 32-bit reals \[m\] and two bytes
 /// that say nothing.

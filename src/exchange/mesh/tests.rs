@@ -1,4 +1,5 @@
 use super::*;
+use crate::hull::PanelMesh;
 
 /// A tetrahedron of unit edges along the axes, normals out.
 fn mesh() -> HullMesh {
@@ -62,4 +63,35 @@ fn the_chunks_of_a_glb_have_their_lengths() {
     let views = json["bufferViews"].as_array().unwrap();
     let end = views.iter().map(|view| view["byteOffset"].as_u64().unwrap() + view["byteLength"].as_u64().unwrap());
     assert_eq!(end.max().unwrap() as usize, binary);
+}
+
+/// A quadrilateral and a triangle.
+fn panels() -> PanelMesh {
+    PanelMesh {
+        vertices: vec![[0.0, 1.5, -2.0], [0.0, 1.5, 0.0], [4.0, 1.5, 0.0], [4.0, 1.5, -2.0], [5.5, 0.0, 0.0]],
+        panels: vec![[0, 1, 2, 3], [3, 2, 4, 4]],
+    }
+}
+
+#[test]
+fn a_gdf_file_has_four_corners_for_each_panel() {
+    assert_eq!(
+        write_gdf(&panels(), "a\nb"),
+        "a_b\n1 9.80665 ULEN GRAV\n0 1 ISX ISY\n2\n0 1.5 -2\n0 1.5 0\n4 1.5 0\n4 1.5 -2\n4 1.5 -2\n4 1.5 0\n5.5 0 0\n5.5 0 0\n"
+    );
+}
+
+#[test]
+fn a_nemoh_file_ends_its_lists_with_zeros() {
+    assert_eq!(
+        write_nemoh(&panels()),
+        "2 1\n1 0 1.5 -2\n2 0 1.5 0\n3 4 1.5 0\n4 4 1.5 -2\n5 5.5 0 0\n0 0 0 0\n1 2 3 4\n4 3 5 5\n0 0 0 0\n"
+    );
+}
+
+#[test]
+fn a_pnl_file_counts_the_corners_of_panels() {
+    let text = write_pnl(&panels());
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!((lines[3], lines[6], lines[14], lines[15]), ("2 5 0 1", "1 0 1.5 -2", "1 4 1 2 3 4", "2 3 4 3 5"));
 }

@@ -1,11 +1,10 @@
-//! Files of other kinds that are given for a table by mistake: surfaces, meshes, drawings, archives, pictures.
+//! Files of other kinds that are given for a table by mistake: drawings, archives, pictures.
 //!
 //! They are told by their first bytes, where these are published, and else by the ending of the name together with what a text
 //! of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.
-const FIRST_BYTES: [(&[u8], &str); 12] = [
-    (b"ISO-10303-21", "a STEP file (ISO 10303-21)"),
+const FIRST_BYTES: [(&[u8], &str); 11] = [
     (b"3D Geometry File Format", "a Rhinoceros file (3dm)"),
     (b"\x1f\x8b", "a file compressed by gzip"),
     (b"BZh", "a file compressed by bzip2"),
@@ -20,13 +19,8 @@ const FIRST_BYTES: [(&[u8], &str); 12] = [
 ];
 
 /// Endings of names of files that are no text, or none that we read.
-const ENDINGS: [(&str, &str); 9] = [
-    (".stl", "a mesh (STL)"),
+const ENDINGS: [(&str, &str); 4] = [
     (".3dm", "a Rhinoceros file (3dm)"),
-    (".stp", "a STEP file (ISO 10303-21)"),
-    (".step", "a STEP file (ISO 10303-21)"),
-    (".igs", "an IGES file"),
-    (".iges", "an IGES file"),
     (".dxf", "a drawing (DXF)"),
     (".dwg", "a drawing (DWG)"),
     (".fbm", "a FREE!ship model (binary)"),
@@ -37,23 +31,10 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
     if let Some((_, kind)) = FIRST_BYTES.iter().find(|(first, _)| bytes.starts_with(first)) {
         return Some(kind);
     }
-    // Lines of IGES have 80 columns, the 73rd of which names their part: S comes first.
-    let line = bytes.split(|&b| matches!(b, b'\n' | b'\r')).next().unwrap_or_default();
-    if line.len() >= 80 && line[72] == b'S' && line[73..80].iter().all(|b| b.is_ascii_digit() || *b == b' ') {
-        return Some("an IGES file");
-    }
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
     let mut words = start.split_whitespace();
-    if words.next() == Some("solid") && start.contains("facet normal") {
-        return Some("a mesh (STL)");
-    }
-    if (words.next(), start.split_whitespace().next()) == (Some("SECTION"), Some("0")) {
+    if (words.next(), words.next()) == (Some("0"), Some("SECTION")) {
         return Some("a drawing (DXF)");
-    }
-    let vertices = start.lines().filter(|line| line.starts_with("v ")).count();
-    if vertices > 2 && 2 * vertices > start.lines().filter(|line| !line.starts_with(['#', 'v', 'o', 'g', 'm'])).count()
-    {
-        return Some("a mesh (OBJ)");
     }
     let name = name.to_ascii_lowercase();
     ENDINGS.iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, kind)| *kind)

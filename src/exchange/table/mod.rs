@@ -1,4 +1,4 @@
-//! Tables of offsets in the layouts of many programs, read into one [`OffsetTable`], and written back.
+//! Tables of offsets in the layouts of many programs, and bodies as sections, read into one [`OffsetTable`], and written back.
 //!
 //! Fields (CSV, XLSX) become a layout (matrix, tidy, pairs); positions, units and cells make the table; checks
 //! look at the whole. Everything that is wrong is returned at once, each with its row and column; everything that was
@@ -7,6 +7,7 @@
 
 mod assemble;
 mod beside;
+mod body;
 mod britfair;
 mod checks;
 mod delftship;
@@ -34,6 +35,7 @@ mod write;
 mod xlsx;
 
 pub use beside::read_particulars;
+pub use body::{ReadBody, read_body};
 pub use britfair::write as write_britfair;
 pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
@@ -73,6 +75,9 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
 /// # Errors
 /// Every problem of both files at once, in the order of rows and columns.
 pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
+    if let Some(body) = read_body(name, bytes, beside) {
+        return body.and_then(ReadBody::table);
+    }
     let mut problems = Problems::new(name);
     if let Some(format) = foreign::format(name, bytes) {
         let message = format!("{format} is not read");

@@ -16,12 +16,16 @@
 //! | E312 | a table that is too large |
 //! | E313 | a table with too little in it |
 //! | E315 | a length that is no ship's |
+//! | E350 | a record of a body that cannot be read |
+//! | E351 | a body whose size or axes cannot be |
 //! | W306 | no profiles of stem and stern |
 //! | W307 | few waterlines below the draught |
 //! | W308 | a draught above the top of the table |
 //! | W309 | a breadth that is not that of the table |
 //! | W310 | a length between perpendiculars that is not that of the table |
 //! | W320 | something was assumed that changes numbers |
+//! | W351 | a body that is not closed |
+//! | W352 | surfaces that are not read |
 //! | W312 | more remarks than are shown |
 //! | N321 | what was detected: layout, separator, order, units |
 

@@ -18,6 +18,11 @@
 //! Lpp = 62.0                  # B, T, D likewise
 //! separator = ";"             # , ; | tab
 //! decimal = ","               # , .
+//! axes = "x -z y"             # of a body of triangles or surfaces: our x, y, z in terms of the file's
+//! scale = 59.407              # of a body: metres (or units) for one of the file, a model's scale
+//! x_origin = 71.056           # of a body: where the origin of the file is, forward of AP, above the base line [m]
+//! z_origin = 6.15
+//! sections = 40               # of a body: spaces between the sections of its table
 //!
 //! [endings]                   # profiles as pairs [z, x] at the waterlines
 //! stern = [[0.0, 1.2], [1.5, 0.4]]
@@ -72,10 +77,25 @@ pub(super) struct Settings {
     pub(super) endings: [Vec<[f64; 2]>; 2],
     pub(super) transom: Option<TransomPlane>,
     pub(super) lines: Vec<FeatureLine>,
+    /// How a body lies in its file.
+    pub(super) frame: BodyFrame,
+}
+
+/// How a body lies in its file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct BodyFrame {
+    /// The file's axis, 0 to 2, and its sign, for x, y and z.
+    pub(super) axes: Option<[(usize, f64); 3]>,
+    pub(super) scale: Option<f64>,
+    /// Where the origin of the file is in x and in z \[m\].
+    pub(super) x_origin: Option<f64>,
+    pub(super) z_origin: Option<f64>,
+    /// Spaces between sections.
+    pub(super) sections: Option<usize>,
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 18] = [
+pub(super) const KEYS: [&str; 23] = [
     "name",
     "units",
     "x_units",
@@ -94,6 +114,11 @@ pub(super) const KEYS: [&str; 18] = [
     "separator",
     "decimal",
     "comment",
+    "axes",
+    "scale",
+    "x_origin",
+    "z_origin",
+    "sections",
 ];
 
 /// A value of a key.
@@ -193,6 +218,11 @@ impl Settings {
                 self.separator = Some(choice(key, value, &all)?);
             }
             "decimal" => self.decimal_comma = Some(choice(key, value, &[(",", true), (".", false)])?),
+            "axes" => self.frame.axes = Some(axes(key, value)?),
+            "scale" => self.frame.scale = Some(length(key, value)?),
+            "x_origin" => self.frame.x_origin = Some(place(key, value)?),
+            "z_origin" => self.frame.z_origin = Some(place(key, value)?),
+            "sections" => self.frame.sections = Some(count(key, value)?),
             _ => return Err((format!("{key} is not a convention of a table"), String::new())),
         }
         Ok(())
@@ -244,6 +274,51 @@ fn choice<T: Copy>(key: &str, value: &Value, all: &[(&str, T)]) -> Result<T, (St
         let names: Vec<&str> = all.iter().map(|(name, _)| *name).filter(|name| *name != "\t").collect();
         (format!("{key} is {}", found(value)), format!("Known are {}", names.join(", ")))
     })
+}
+
+/// Three different axes of a file with their signs, `x -z y`.
+fn axes(key: &str, value: &Value) -> Result<[(usize, f64); 3], (String, String)> {
+    let wrong = || {
+        let remedy = "Give the file's axis for our x (forward), y (to port) and z (up), as \"x -z y\"".to_owned();
+        (format!("{key} is {}", found(value)), remedy)
+    };
+    let words = match value {
+        Value::Text(text) => text.to_ascii_lowercase(),
+        _ => return Err(wrong()),
+    };
+    let mut list = Vec::new();
+    for word in words.split([' ', ',']).filter(|word| !word.is_empty()) {
+        let (sign, name) = word.strip_prefix('-').map_or((1.0, word.trim_start_matches('+')), |name| (-1.0, name));
+        let axis = ["x", "y", "z"].iter().position(|axis| *axis == name).ok_or_else(wrong)?;
+        list.push((axis, sign));
+    }
+    match list[..] {
+        [a, b, c] if a.0 != b.0 && b.0 != c.0 && c.0 != a.0 => Ok([a, b, c]),
+        _ => Err(wrong()),
+    }
+}
+
+/// A length of either sign.
+fn place(key: &str, value: &Value) -> Result<f64, (String, String)> {
+    let number = match value {
+        Value::Number(number) => *number,
+        Value::Text(text) => parse_length(text).map_err(|error| (format!("{key}: {error}"), String::new()))?,
+        Value::Other(kind) => return Err((format!("{key} is {kind}, expected a length"), String::new())),
+    };
+    if number.abs() < 1e5 { Ok(number) } else { Err((format!("{key} is {number}"), String::new())) }
+}
+
+/// A number of things.
+fn count(key: &str, value: &Value) -> Result<usize, (String, String)> {
+    let number = match value {
+        Value::Number(number) => *number,
+        Value::Text(text) => text.trim().parse().unwrap_or(f64::NAN),
+        Value::Other(_) => f64::NAN,
+    };
+    if (4.0..=400.0).contains(&number) && number.fract() <= 0.0 {
+        return Ok(number as usize);
+    }
+    Err((format!("{key} is {}", found(value)), "Give a whole number from 4 to 400".to_owned()))
 }
 
 /// A length or a number that is larger than zero.

@@ -93,3 +93,25 @@ fn below_a_deck_that_cuts_the_surface_the_sides_are_interpolated() {
     let middle = deck.surface.eval(0.5 * (a + b), 0.5);
     assert!((middle[2] - 3.6).abs() < 1e-3, "{middle:?}");
 }
+
+#[test]
+fn a_surface_that_crosses_the_centreplane_gives_faces_that_do_not() {
+    let (u, v) = (KnotVector::uniform(2, 2).unwrap(), KnotVector::uniform(1, 2).unwrap());
+    let mut points = Vec::new();
+    for (i, &s) in u.greville().iter().enumerate() {
+        for (j, &t) in v.greville().iter().enumerate() {
+            // One point of the net beyond the centreplane.
+            let y = if (i, j) == (1, 0) { -0.2 } else { 4.0 * t };
+            points.push([60.0 * s, y, 4.0 * t]);
+        }
+    }
+    let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 4.0], [60.0, 4.0]]).unwrap();
+    let particulars =
+        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: 3.0, depth: 4.0 };
+    let hull = Hull::new("dip", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
+    let solid = Solid::new(&hull).unwrap();
+    assert!(solid.is_closed());
+    assert!(solid.deviation > 0.05 && solid.deviation < 0.2, "{}", solid.deviation);
+    let port = solid.faces.iter().find(|face| face.name == "hull port").unwrap();
+    assert!(port.surface.points().iter().all(|point| point[1] >= 0.0));
+}

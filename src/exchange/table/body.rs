@@ -1,0 +1,371 @@
+//! Bodies of triangles, or of surfaces, in their files: read, put into the ship's frame, cut into the sections of a table.
+//!
+//! Units, scale, axes and origin are those of the conventions beside the file. Axes that are not said are found: the length is the
+//! longest, the breadth is along the axis about whose zero the body is symmetric or on one side of which it lies. Half a body is
+//! mirrored. Triangles are turned outward. Sections of a table lie at x = x_a + L (1 - cos(pi k/n))/2, closer at the ends, and
+//! their points are thinned to [`THINNED`] of the breadth.
+
+use std::f64::consts::PI;
+
+use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
+use super::super::fault::RecordFault;
+use super::super::mesh::{is_obj, is_stl, read_obj, read_stl};
+use super::outline::{Deck, point, take_off_deck};
+use super::problem::{Place, Problems};
+use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::settings::{BodyFrame, Settings};
+use super::{ReadTable, TableProblem, beside};
+use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
+use crate::spline::BsplineSurface;
+use crate::units::Notation;
+
+/// What points of sections that are left out are off by at most, over the breadth.
+const THINNED: f64 = 2e-5;
+
+/// Spaces between the sections of a table.
+const SECTIONS: usize = 40;
+
+/// The first and the last section lie inside the body by this part of its length.
+const INSIDE: f64 = 1e-5;
+
+/// A body whose ends of an axis differ by less than this part of its size is symmetric about the zero of the axis.
+const SYMMETRIC: f64 = 1e-3;
+
+/// Points nearer to the centreplane than this part of the size of the body are on it.
+const ON_CENTREPLANE: f64 = 1e-6;
+
+/// What triangles leave surfaces by at most, over the longest extent of these.
+const DEVIATION: f64 = 1e-5;
+
+/// More triangles than this are made fewer by a deviation that is doubled, and how often at most.
+const ENOUGH: usize = 150_000;
+const DOUBLINGS: usize = 6;
+
+/// Ends of sections of surfaces that are as near to each other as this part of the length are joined.
+const SEAM: f64 = 2e-4;
+
+/// A body in the ship's frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadBody {
+    /// Its name; empty when nothing gives it one.
+    pub name: String,
+    /// The triangles \[m\], both sides, turned outward; of surfaces twice, the second time with every edge halved.
+    pub meshes: Vec<TriangleMesh>,
+    /// What the conventions beside the file state.
+    pub stated: StatedParticulars,
+    /// Warnings and notes: axes, units, openings.
+    pub notes: Vec<TableProblem>,
+    /// Spaces between the sections of its table.
+    sections: usize,
+}
+
+/// What stands in a file.
+enum Shape {
+    Triangles(TriangleMesh),
+    Surfaces(CadSurfaces),
+}
+
+/// The kinds of files, with what reads them.
+type Reader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
+
+fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
+    let name = name.to_ascii_lowercase();
+    let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
+    if is_step(bytes) || ends(&[".step", ".stp"]) {
+        Some(("STEP", |bytes| read_step(bytes).map(Shape::Surfaces)))
+    } else if is_iges(bytes) || ends(&[".iges", ".igs"]) {
+        Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
+    } else if ends(&[".stl"]) || is_stl(bytes) {
+        Some(("STL", |bytes| read_stl(bytes).map(Shape::Triangles)))
+    } else if ends(&[".obj"]) || is_obj(bytes) {
+        Some(("OBJ", |bytes| read_obj(bytes).map(Shape::Triangles)))
+    } else {
+        None
+    }
+}
+
+/// Reads a body: triangles (STL, OBJ) or the surfaces of a CAD file (STEP, IGES), by its content or its name, with the conventions of
+/// the TOML beside it, given by its name and its text; none when it is no such file.
+pub fn read_body(
+    name: &str,
+    bytes: &[u8],
+    beside: Option<(&str, &str)>,
+) -> Option<Result<ReadBody, Vec<TableProblem>>> {
+    let (kind, read) = reader(name, bytes)?;
+    let mut problems = Problems::new(name);
+    let mut settings = Settings::default();
+    if let Some((beside, text)) = beside {
+        beside::read(beside, text, &mut settings, &mut problems);
+    }
+    let shape = read(bytes).unwrap_or_else(|faults| {
+        for RecordFault { line, found, message } in faults {
+            let place = line.map_or(Place::FILE, Place::row);
+            problems.error("E350", (place, found.as_str()), message, "");
+        }
+        Shape::Triangles(TriangleMesh::default())
+    });
+    let meshes = match shape {
+        Shape::Triangles(mesh) => {
+            let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
+            problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
+            framed(vec![mesh], &settings, Notation::Metres.metres(1.0), &mut problems)
+        }
+        Shape::Surfaces(CadSurfaces { surfaces, unit, notes }) => {
+            let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
+            let unit = unit.unwrap_or(1.0);
+            problems.note(format!(
+                "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
+                surfaces.len()
+            ));
+            notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
+            let size = extent(&surfaces);
+            // Surfaces of many small spans need no closer triangles than these.
+            let mut deviation = DEVIATION * size;
+            let mut coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
+            for _ in 0..DOUBLINGS {
+                if coarse.triangles.len() > ENOUGH {
+                    deviation *= 2.0;
+                    coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
+                }
+            }
+            let nested = [coarse, TriangleMesh::of_surfaces(&surfaces, deviation, 2)];
+            let triangles = nested[1].triangles.len();
+            problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
+            framed(nested.to_vec(), &settings, unit, &mut problems)
+        }
+    };
+    Some(problems.finish().map(|notes| ReadBody {
+        name: settings.name.unwrap_or_default(),
+        meshes,
+        stated: settings.stated,
+        notes,
+        sections: settings.frame.sections.unwrap_or(SECTIONS),
+    }))
+}
+
+/// The longest extent of the control points.
+fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
+    let points = || surfaces.iter().flat_map(|surface| surface.points()).map(|[x, y, z, w]| [x / w, y / w, z / w]);
+    let along = |k: usize| {
+        let least = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) - least
+    };
+    (0..3).map(along).fold(0.0, f64::max)
+}
+
+/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are of one body and
+/// are moved alike; a second one comes from surfaces.
+fn framed(mut meshes: Vec<TriangleMesh>, settings: &Settings, unit: f64, problems: &mut Problems) -> Vec<TriangleMesh> {
+    let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
+    let BodyFrame { axes, scale, x_origin, z_origin, .. } = settings.frame;
+    let Some(axes) = axes.or_else(|| found_axes(bounds, problems)) else { return meshes };
+    let unit = settings.units.map_or(unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
+    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+    let surfaces = meshes.len() > 1;
+    let slack = ON_CENTREPLANE * size;
+    let place = |corner: [f64; 3]| {
+        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
+        [x + x_origin.unwrap_or(0.0), if y.abs() <= slack { 0.0 } else { y }, z + z_origin.unwrap_or(0.0)]
+    };
+    for (k, mesh) in meshes.iter_mut().enumerate() {
+        let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
+        *mesh = TriangleMesh::from_corners(corners.into_iter());
+        if mesh.is_half() {
+            if k == 0 {
+                problems.note("one side of the body is given; it is mirrored".to_owned());
+            }
+            *mesh = mesh.mirrored();
+        }
+        if surfaces {
+            *mesh = without_top(mesh);
+        }
+        let (oriented, turned) = std::mem::take(mesh).oriented();
+        *mesh = oriented;
+        if turned > 0 && !surfaces {
+            problems.note(format!("{turned} triangles are turned outward"));
+        }
+    }
+    let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
+    let length = greatest[0] - least[0];
+    if !(0.01..=1e4).contains(&length) {
+        let message = format!("the body is {length} m long");
+        problems.error("E351", Place::FILE, message, "Say units or scale in a TOML file of the same name beside it");
+    }
+    if x_origin.is_none() && least[0].abs() > 0.2 * length {
+        meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
+        let message = format!(
+            "x of the file runs from {:.3} to {:.3} m; its aftmost point is taken as AP. x_origin in the TOML beside it says \
+             otherwise",
+            least[0], greatest[0]
+        );
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    let depth = greatest[2] - least[2];
+    if z_origin.is_none() && least[2].abs() > 0.2 * depth {
+        let message = format!(
+            "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
+            least[2]
+        );
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    let open = if surfaces { Vec::new() } else { meshes[0].open_edges() };
+    if !open.is_empty() {
+        let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
+        let message = format!(
+            "{} edges are open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
+            open.len()
+        );
+        problems.warning("W351", Place::FILE, message, "");
+    }
+    meshes
+}
+
+/// A body without what is level at its top: an untrimmed deck is wider than the hull, and closes nothing that counts.
+fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
+    let Some([least, greatest]) = mesh.bounds() else { return mesh.clone() };
+    let top = greatest[2] - ON_CENTREPLANE * (greatest[2] - least[2]);
+    let kept: Vec<[[f64; 3]; 3]> = mesh.corners().filter(|t| t.iter().any(|point| point[2] < top)).collect();
+    TriangleMesh::from_corners(kept.into_iter())
+}
+
+/// The axes of a body by its extents; none, with a problem, when they cannot be told.
+fn found_axes([least, greatest]: [[f64; 3]; 2], problems: &mut Problems) -> Option<[(usize, f64); 3]> {
+    let extent = |k: usize| greatest[k] - least[k];
+    let long = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)).then(b.cmp(&a)))?;
+    let size = extent(long);
+    let across = |k: usize| {
+        let near = |value: f64| value.abs() <= SYMMETRIC * size;
+        near(least[k] + greatest[k]) || near(least[k]) || near(greatest[k])
+    };
+    let symmetric = |k: usize| (least[k] + greatest[k]).abs() <= SYMMETRIC * size;
+    let names = ["x", "y", "z"];
+    // The right-handed frame in which the longest axis is forward and the third is up.
+    let (y, z) = ((long + 1) % 3, (long + 2) % 3);
+    let frame = match [y, z].map(|k| (symmetric(k), across(k))) {
+        [(true, _), (false, _)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        [(false, _), (true, _)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        [(false, true), (false, false)] => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        [(false, false), (false, true)] => [(long, 1.0), (z, -1.0), (y, 1.0)],
+        // Both may be: what is usual.
+        [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
+        _ => {
+            let message = format!(
+                "the axes cannot be told: x runs from {} to {}, y from {} to {}, z from {} to {}",
+                least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
+            );
+            let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";
+            problems.error("E351", Place::FILE, message, remedy);
+            return None;
+        }
+    };
+    if frame.map(|(axis, _)| axis) != [0, 1, 2] {
+        let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
+        let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
+        problems.warning("W320", Place::FILE, message, "");
+    }
+    Some(frame)
+}
+
+/// Lines whose ends are within `slack` of each other as one, the nearest ends first.
+fn joined(mut lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
+    let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    loop {
+        let mut nearest: Option<(f64, usize, usize, [bool; 2])> = None;
+        for i in 0..lines.len() {
+            for j in i..lines.len() {
+                if lines[i].closed || lines[j].closed {
+                    continue;
+                }
+                for ends in [[false, false], [false, true], [true, false], [true, true]] {
+                    if i == j && ends != [true, false] {
+                        continue;
+                    }
+                    let end = |line: &MeshLine, last: bool| line.points[if last { line.points.len() - 1 } else { 0 }];
+                    let distance = apart(end(&lines[i], ends[0]), end(&lines[j], ends[1]));
+                    if distance <= slack && nearest.is_none_or(|found| distance < found.0) {
+                        nearest = Some((distance, i, j, ends));
+                    }
+                }
+            }
+        }
+        let Some((_, i, j, [last, other_last])) = nearest else { return lines };
+        if i == j {
+            lines[i].closed = true;
+            continue;
+        }
+        let mut other = lines.remove(j);
+        let line = &mut lines[i];
+        if !last {
+            line.points.reverse();
+        }
+        if other_last {
+            other.points.reverse();
+        }
+        line.points.extend(other.points);
+    }
+}
+
+impl ReadBody {
+    /// The sections of the body as a table.
+    ///
+    /// # Errors
+    /// Every problem of the sections.
+    pub fn table(self) -> Result<ReadTable, Vec<TableProblem>> {
+        let mut problems = Problems::new("");
+        let (sections, gaps, aside) = self.cut();
+        note_asymmetry(&gaps, &mut problems);
+        if aside > 0 {
+            let message = format!("{aside} loops that do not reach the centreplane are left out");
+            problems.warning("W332", Place::FILE, message, "");
+        }
+        let Self { name, stated, notes, .. } = self;
+        let body = Body { name, stated, sections, origin: Origin::AfterPerpendicular, unit: 1.0 };
+        problems.decimals = 6;
+        let file = notes.first().map(|note| note.file.clone()).unwrap_or_default();
+        let named = |problem: TableProblem| TableProblem { file: file.clone(), ..problem };
+        match table(body, problems) {
+            Ok(read) => {
+                let notes = notes.iter().cloned().chain(read.notes.into_iter().map(named)).collect();
+                Ok(ReadTable { table: read.table, notes })
+            }
+            Err(list) => Err(list.into_iter().map(named).collect()),
+        }
+    }
+
+    /// The sections, how far their sides differ with x, and how many loops are left out.
+    fn cut(&self) -> (Vec<Section>, Vec<(f64, f64)>, usize) {
+        let Some(mesh) = self.meshes.last() else { return (Vec::new(), Vec::new(), 0) };
+        let Some([least, greatest]) = mesh.bounds() else { return (Vec::new(), Vec::new(), 0) };
+        let (length, breadth) = (greatest[0] - least[0], greatest[1] - least[1]);
+        let (mut sections, mut gaps, mut aside) = (Vec::new(), Vec::new(), 0);
+        for k in 0..=self.sections {
+            let share = 0.5 * (1.0 - (PI * k as f64 / self.sections as f64).cos());
+            let x = least[0] + length * share.clamp(INSIDE, 1.0 - INSIDE);
+            let (mut branches, mut gap) = (Vec::new(), 0.0_f64);
+            let lines = mesh.section(x);
+            let lines = if self.meshes.len() > 1 { joined(lines, SEAM * length) } else { lines };
+            for line in lines {
+                let points: Vec<_> =
+                    line.thinned(THINNED * breadth).points.into_iter().map(|[y, z]| point(y, z)).collect();
+                match starboard_of(&points) {
+                    Some((found, apart)) => {
+                        branches.extend(found);
+                        gap = gap.max(apart);
+                    }
+                    None => aside += 1,
+                }
+            }
+            branches.sort_by(|a, b| a[0].z.total_cmp(&b[0].z));
+            if branches.is_empty() {
+                continue;
+            }
+            let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
+            gaps.push((gap, x));
+            sections.push(Section { name: None, x, place: Place::FILE, branches, deck });
+        }
+        (sections, gaps, aside)
+    }
+}
+
+#[cfg(test)]
+mod tests;

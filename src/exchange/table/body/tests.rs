@@ -1,0 +1,98 @@
+use super::super::Severity;
+use super::*;
+
+/// A box of corners (0, -3, 0) and (40, 3, 4) with its deck, as OBJ in axes that `place` gives.
+fn brick(place: impl Fn([f64; 3]) -> [f64; 3]) -> String {
+    let mut text = String::new();
+    for k in 0..8 {
+        let [x, y, z] = place([
+            if k & 1 == 0 { 0.0 } else { 40.0 },
+            if k & 2 == 0 { -3.0 } else { 3.0 },
+            if k & 4 == 0 { 0.0 } else { 4.0 },
+        ]);
+        text.push_str(&format!("v {x} {y} {z}\n"));
+    }
+    for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        text.push_str(&format!("f {} {} {} {}\n", a + 1, b + 1, c + 1, d + 1));
+    }
+    text
+}
+
+fn body(text: &str, beside: &str) -> Result<ReadBody, Vec<TableProblem>> {
+    read_body("a.obj", text.as_bytes(), Some(("a.toml", beside))).unwrap()
+}
+
+fn notes(list: &[TableProblem]) -> String {
+    list.iter().map(|note| format!("{note}\n")).collect()
+}
+
+#[test]
+fn a_box_becomes_a_table() {
+    let read = body(&brick(|p| p), "[table]\nname = 'Box'\nT = 2.5\nsections = 8\n").unwrap();
+    assert!((read.meshes[0].report().volume - 960.0).abs() < 1e-9);
+    let table = read.table().unwrap().table;
+    assert_eq!((table.name.as_str(), table.stated.draught, table.stations.len()), ("Box", Some(2.5), 9));
+    for station in &table.stations {
+        assert_eq!(station.outlines.len(), 1);
+        let points: Vec<[f64; 2]> = station.outlines[0].iter().map(|p| [p.y, p.z]).collect();
+        assert_eq!(points, [[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]]);
+        assert_eq!((station.deck_height, station.deck_half_breadth), (Some(4.0), Some(3.0)));
+    }
+    assert!((table.stations[4].station.x - 20.0).abs() < 1e-9);
+}
+
+#[test]
+fn frames_are_stated_or_found() {
+    let volume =
+        |text: &str, beside: &str| body(text, beside).map(|read| (read.meshes[0].report().volume, notes(&read.notes)));
+    // y up, x aft, feet, half of it.
+    let half = brick(|[x, y, z]| [-x / 0.3048, z / 0.3048, -0.5 * (y + 3.0) / 0.3048]);
+    let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\n").unwrap();
+    assert!((found - 960.0).abs() < 1e-9 && said.contains("mirrored"), "{found} {said}");
+    // y up is seen when z is the axis of symmetry; the height does not begin at 0.
+    let (found, said) = volume(&brick(|[x, y, z]| [x, z - 1.0, -y]), "").unwrap();
+    assert!((found - 960.0).abs() < 1e-9 && said.contains("\"x -z y\""), "{found} {said}");
+    assert!(said.contains("lowest point is -1.000 m"), "{said}");
+    // A mirrored frame is turned outward.
+    let (found, said) = volume(&brick(|[x, y, z]| [x, -y, z]), "[table]\nscale = 2\n").unwrap();
+    assert!((found - 8.0 * 960.0).abs() < 1e-9 && said.contains("12 triangles are turned"), "{found} {said}");
+    let (_, said) = volume(&brick(|[x, y, z]| [x + 100.0, y, z]), "").unwrap();
+    assert!(said.contains("taken as AP"), "{said}");
+    let read = body(&brick(|[x, y, z]| [x + 100.0, y, z]), "[table]\nx_origin = -99\nz_origin = 0.5\n").unwrap();
+    assert_eq!(read.meshes[0].bounds(), Some([[1.0, -3.0, 0.5], [41.0, 3.0, 4.5]]));
+    let error = volume(&brick(|[x, y, z]| [x, y + 9.0, z + 9.0]), "").unwrap_err();
+    assert!(notes(&error).contains("E351") && notes(&error).contains("cannot be told"), "{error:?}");
+    let error = volume(&brick(|p| p), "[table]\naxes = 'x x z'\nsections = 2\n").unwrap_err();
+    assert_eq!(error.iter().filter(|p| p.severity == Severity::Error && p.code == "E311").count(), 2, "{error:?}");
+}
+
+#[test]
+fn faults_say_their_line() {
+    let error = |name: &str, bytes: &[u8]| notes(&read_body(name, bytes, None).unwrap().unwrap_err());
+    let found = error("a.obj", b"v 0 0 0\nv 1 x 0\nv 1 1\nf 1 2 9\nf 1 -1\n");
+    for part in ["row 2", "'x'", "row 3", "2 numbers, expected 3", "row 4", "'9'", "row 5", "a face of 2"] {
+        assert!(found.contains(part), "{part}: {found}");
+    }
+    let found = error("a.stl", b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1e999\nendloop\nwall\n");
+    for part in ["row 4", "row 5", "a loop of 0 corners", "row 6", "E350"] {
+        assert!(found.contains(part), "{part}: {found}");
+    }
+    assert!(error("b.stl", &[0; 90]).contains("90 bytes; a binary file of 0 triangles has 84"));
+    let mut bytes = vec![0; 134];
+    bytes[80] = 1;
+    bytes[96..100].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert!(error("b.stl", &bytes).contains("triangle 1 has a corner that is no number"));
+    assert!(error("c.obj", b"v 0 0 0\n").contains("no faces"));
+}
+
+#[test]
+fn an_open_body_is_told() {
+    let text: String =
+        brick(|p| p).lines().filter(|line| *line != "f 5 6 8 7").map(|line| format!("{line}\n")).collect();
+    let read = body(&text, "").unwrap();
+    assert!(notes(&read.notes).contains("W351") && notes(&read.notes).contains("4 edges are open"), "{:?}", read.notes);
+    let table = read.table().unwrap().table;
+    // The sections end at the edge.
+    assert!(table.stations.iter().all(|station| (station.outlines[0][2].z - 4.0).abs() < 1e-12));
+    assert!(table.stations.iter().all(|station| station.outlines[0].len() == 3), "{:?}", table.stations[3].outlines);
+}

@@ -1,0 +1,92 @@
+//! The sections of a hull as lines of points, for programs that take nothing else.
+
+use super::cell::{Marks, OutlinePoint, StatedParticulars};
+use super::form::Hull;
+use super::offsets::{OffsetStation, OffsetTable, StationOffsets, default_stations};
+use super::section::{Cut, Face};
+
+/// Ends of pieces of a section that are as near as this part of the breadth are one point.
+const SAME: f64 = 1e-7;
+
+/// Places on each end of the profile at which there is a section, from its lowest to its highest point.
+const PROFILE: usize = 5;
+
+/// Sections nearer to each other than this part of the length are one.
+const APART: f64 = 2e-3;
+
+/// Stations of the sections of a hull: the default ones, and between and beyond them places along the stem and the stern profile, so
+/// that raked ends are not cut short.
+#[must_use]
+pub fn section_stations(hull: &Hull) -> Vec<OffsetStation> {
+    let mut stations = default_stations(hull);
+    let apart = APART * hull.particulars().length_between_perpendiculars;
+    let ((aft, fore), (low, high)) = (hull.surface().u().domain(), hull.surface().v().domain());
+    for u in [aft, fore] {
+        for k in 0..PROFILE {
+            let v = low + (high - low) * k as f64 / (PROFILE - 1) as f64;
+            let x = hull.surface().eval(u, v)[0];
+            if stations.iter().all(|station| (station.x - x).abs() > apart) {
+                stations.push(OffsetStation { name: format!("{x:.3}"), x });
+            }
+        }
+    }
+    stations.sort_by(|a, b| a.x.total_cmp(&b.x));
+    stations
+}
+
+impl OffsetTable {
+    /// The sections at the given stations as points from the centreplane below to the deck at side, so dense that the lines between
+    /// them leave the sections by at most `deviation` \[m\]; a branch for each piece that does not hang together. Stations at which
+    /// the hull has no breadth are left out.
+    #[must_use]
+    pub fn of_sections(hull: &Hull, stations: &[OffsetStation], deviation: f64) -> Self {
+        let p = hull.particulars();
+        let stations = stations
+            .iter()
+            .map(|station| StationOffsets {
+                outlines: outlines(hull, station.x, deviation),
+                ..StationOffsets::new(station.name.clone(), station.x)
+            })
+            .filter(|station| station.outlines.iter().flatten().any(|point| point.y > SAME * p.breadth))
+            .collect();
+        Self {
+            name: hull.name().to_owned(),
+            stated: StatedParticulars {
+                length_between_perpendiculars: Some(p.length_between_perpendiculars),
+                breadth: Some(p.breadth),
+                draught: Some(p.draught),
+                depth: Some(p.depth),
+            },
+            stations,
+            ..Self::default()
+        }
+    }
+}
+
+/// The branches of the section at `x`.
+fn outlines(hull: &Hull, x: f64, deviation: f64) -> Vec<Vec<OutlinePoint>> {
+    let slack = SAME * hull.particulars().breadth;
+    let section = hull.section(Cut::Station { x }, 1e-9);
+    let mut pieces: Vec<Vec<[f64; 2]>> = section
+        .branches
+        .iter()
+        .filter(|branch| matches!(branch.face, Face::Side | Face::Bottom))
+        .map(|branch| {
+            let points = branch.polyline(deviation).into_iter();
+            points.map(|[_, y, z]| [if y.abs() <= slack { 0.0 } else { y.max(0.0) }, z]).collect()
+        })
+        .filter(|line: &Vec<[f64; 2]>| line.len() > 1)
+        .collect();
+    // From below, the bottom before the side that begins at its edge.
+    pieces.sort_by(|a, b| a[0][1].total_cmp(&b[0][1]).then(a[0][0].total_cmp(&b[0][0])));
+    let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
+    for piece in pieces {
+        let near = |a: [f64; 2]| (a[0] - piece[0][0]).abs() <= slack && (a[1] - piece[0][1]).abs() <= slack;
+        match lines.last_mut().filter(|line| near(line[line.len() - 1])) {
+            Some(line) => line.extend_from_slice(&piece[1..]),
+            None => lines.push(piece),
+        }
+    }
+    let point = |[y, z]: [f64; 2]| OutlinePoint { y, z, marks: Marks::default() };
+    lines.into_iter().map(|line| line.into_iter().map(point).collect()).collect()
+}

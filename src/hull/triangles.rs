@@ -1,0 +1,303 @@
+//! A body given by nothing but triangles.
+//!
+//! Its section by a plane x = X takes every vertex on the plane for one just forward of it (simulation of simplicity: the section is
+//! that at X - 0), so that a plane that meets vertices, edges or whole triangles cuts each triangle in one line or none, and lines
+//! end on edges that two triangles share. Sections of closed meshes are therefore closed loops at every X, without tolerances.
+
+mod surfaces;
+
+use super::mesh::{MeshReport, measure};
+use crate::spline::{cross, dot, minus};
+use std::collections::HashMap;
+
+/// Corners of half a body nearer to the centreplane than this part of its largest extent are on it.
+const CENTREPLANE: f64 = 1e-6;
+
+/// A mesh of triangles, normals outward (right-hand rule).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TriangleMesh {
+    /// Vertices \[m\], each once.
+    pub vertices: Vec<[f64; 3]>,
+    /// Triangles as indices of vertices.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// A connected line of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshLine {
+    /// Points (y, z) \[m\]; the first is not repeated at the end of a closed line.
+    pub points: Vec<[f64; 2]>,
+    /// Whether the last point is joined to the first.
+    pub closed: bool,
+}
+
+impl TriangleMesh {
+    /// A mesh of triangles given by their corners; equal corners are one vertex, triangles with two of them are left out, and
+    /// so are corners that are not finite.
+    #[must_use]
+    pub fn from_corners(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> Self {
+        let mut mesh = Self::default();
+        let mut known: HashMap<[u64; 3], usize> = HashMap::new();
+        for triangle in corners.filter(|triangle| triangle.iter().flatten().all(|c| c.is_finite())) {
+            let places = triangle.map(|point| {
+                // -0 is 0.
+                let point = point.map(|c| c + 0.0);
+                *known.entry(point.map(f64::to_bits)).or_insert_with(|| {
+                    mesh.vertices.push(point);
+                    mesh.vertices.len() - 1
+                })
+            });
+            let [a, b, c] = places;
+            if a != b && b != c && c != a {
+                mesh.triangles.push(places);
+            }
+        }
+        mesh
+    }
+
+    /// The corners of the triangles \[m\].
+    pub fn corners(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
+        self.triangles.iter().map(|triangle| triangle.map(|k| self.vertices[k]))
+    }
+
+    /// Least and greatest coordinates \[m\]; none without vertices.
+    #[must_use]
+    pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
+        let first = *self.vertices.first()?;
+        let fold = |pick: fn(f64, f64) -> f64| {
+            self.vertices.iter().fold(first, |ends, point| [0, 1, 2].map(|k| pick(ends[k], point[k])))
+        };
+        Some([fold(f64::min), fold(f64::max)])
+    }
+
+    /// Checks closure and measures.
+    #[must_use]
+    pub fn report(&self) -> MeshReport {
+        measure(&self.vertices, self.triangles.iter().copied())
+    }
+
+    /// The edges that belong to one triangle.
+    #[must_use]
+    pub fn open_edges(&self) -> Vec<[usize; 2]> {
+        let mut uses: HashMap<(usize, usize), usize> = HashMap::new();
+        let edges = || self.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+        for [p, q] in edges() {
+            *uses.entry((p.min(q), p.max(q))).or_default() += 1;
+        }
+        edges().filter(|&[p, q]| uses.get(&(p.min(q), p.max(q))) == Some(&1)).collect()
+    }
+
+    /// The mesh with every triangle turned so that neighbours run through their common edge in opposite directions, and the parts
+    /// that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
+    #[must_use]
+    pub fn oriented(mut self) -> (Self, usize) {
+        // Sorted, the two triangles of an edge stand beside each other; where three and more meet nothing follows.
+        let mut edges = Vec::with_capacity(3 * self.triangles.len());
+        for (k, t) in self.triangles.iter().enumerate() {
+            edges.extend((0..3).map(|e| {
+                let (p, q) = (t[e], t[(e + 1) % 3]);
+                (p.min(q), p.max(q), k, e, p > q)
+            }));
+        }
+        edges.sort_unstable();
+        let mut neighbours: Vec<[Option<(usize, bool)>; 3]> = vec![[None; 3]; self.triangles.len()];
+        for both in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if let [a, b] = both {
+                let alike = a.4 == b.4;
+                neighbours[a.2][a.3] = Some((b.2, alike));
+                neighbours[b.2][b.3] = Some((a.2, alike));
+            }
+        }
+        let mut turn: Vec<Option<bool>> = vec![None; self.triangles.len()];
+        for first in 0..self.triangles.len() {
+            if turn[first].is_some() {
+                continue;
+            }
+            turn[first] = Some(false);
+            let (mut part, mut next) = (vec![first], 0);
+            while next < part.len() {
+                let k = part[next];
+                next += 1;
+                let own_turn = turn[k] == Some(true);
+                for (other, alike) in neighbours[k].into_iter().flatten() {
+                    if turn[other].is_none() {
+                        turn[other] = Some(own_turn != alike);
+                        part.push(other);
+                    }
+                }
+            }
+            let sum: f64 = part
+                .iter()
+                .map(|&k| {
+                    let [a, b, c] = self.triangles[k].map(|v| self.vertices[v]);
+                    let along = cross(minus(b, a), minus(c, a))[1] * (a[1] + b[1] + c[1]);
+                    if turn[k] == Some(true) { -along } else { along }
+                })
+                .sum();
+            if sum < 0.0 {
+                part.iter().for_each(|&k| turn[k] = turn[k].map(|t| !t));
+            }
+        }
+        let mut turned = 0;
+        for (triangle, _) in self.triangles.iter_mut().zip(&turn).filter(|(_, turn)| **turn == Some(true)) {
+            triangle.swap(1, 2);
+            turned += 1;
+        }
+        (self, turned)
+    }
+
+    /// Whether all of the body is on one side of the centreplane, and reaches it.
+    #[must_use]
+    pub fn is_half(&self) -> bool {
+        let Some([least, greatest]) = self.bounds() else { return false };
+        let size = (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max);
+        let slack = CENTREPLANE * size;
+        (least[1].abs() <= slack) != (greatest[1].abs() <= slack)
+    }
+
+    /// The whole of a body of which one side is given: triangles on the centreplane are left out, the others mirrored.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let Some([least, greatest]) = self.bounds() else { return self.clone() };
+        let slack = CENTREPLANE * (0..3).map(|k| greatest[k] - least[k]).fold(0.0, f64::max);
+        let flat = |[x, y, z]: [f64; 3]| if y.abs() <= slack { [x, 0.0, z] } else { [x, y, z] };
+        let half: Vec<[[f64; 3]; 3]> =
+            self.corners().map(|t| t.map(flat)).filter(|t| t.iter().any(|point| point[1].abs() > 0.0)).collect();
+        let mirror = |[x, y, z]: [f64; 3]| [x, 0.0 - y, z];
+        let other = half.iter().map(|&[a, b, c]| [mirror(a), mirror(c), mirror(b)]);
+        Self::from_corners(half.iter().copied().chain(other))
+    }
+
+    /// The section by the plane x = `x` (see the head), lines in the order of the triangles where they begin.
+    #[must_use]
+    pub fn section(&self, x: f64) -> Vec<MeshLine> {
+        type EdgeKey = (usize, usize);
+        let aft = |k: usize| self.vertices[k][0] < x;
+        let mut lines: Vec<(EdgeKey, EdgeKey)> = Vec::new();
+        for t in &self.triangles {
+            let below = t.map(aft);
+            if below == [true; 3] || below == [false; 3] {
+                continue;
+            }
+            let (mut from, mut to) = ((0, 0), (0, 0));
+            for k in 0..3 {
+                let (p, q) = (t[k], t[(k + 1) % 3]);
+                match (below[k], below[(k + 1) % 3]) {
+                    (true, false) => from = (p.min(q), p.max(q)),
+                    (false, true) => to = (p.min(q), p.max(q)),
+                    _ => {}
+                }
+            }
+            lines.push((from, to));
+        }
+        let mut begins: HashMap<EdgeKey, Vec<usize>> = HashMap::new();
+        let mut ends: HashMap<EdgeKey, usize> = HashMap::new();
+        for (k, (from, to)) in lines.iter().enumerate().rev() {
+            begins.entry(*from).or_default().push(k);
+            *ends.entry(*to).or_default() += 1;
+        }
+        let point = |(p, q): EdgeKey| {
+            let (a, b) = (self.vertices[p], self.vertices[q]);
+            let share = (x - a[0]) / (b[0] - a[0]);
+            [a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])]
+        };
+        let mut used = vec![false; lines.len()];
+        let mut found = Vec::new();
+        // Lines with a loose end first, then the loops.
+        for loose in [true, false] {
+            for first in 0..lines.len() {
+                if used[first] || (loose && ends.contains_key(&lines[first].0)) {
+                    continue;
+                }
+                let mut edges = vec![lines[first].0];
+                let mut at = first;
+                loop {
+                    used[at] = true;
+                    edges.push(lines[at].1);
+                    let next = begins.get(&lines[at].1).and_then(|list| list.iter().rev().find(|&&k| !used[k]));
+                    match next {
+                        Some(&next) => at = next,
+                        None => break,
+                    }
+                }
+                let closed = edges.len() > 2 && edges[0] == edges[edges.len() - 1];
+                if closed {
+                    edges.pop();
+                }
+                let mut points: Vec<[f64; 2]> = edges.into_iter().map(point).collect();
+                let same = |a: &[f64; 2], b: &[f64; 2]| a.map(f64::to_bits) == b.map(f64::to_bits);
+                points.dedup_by(|a, b| same(a, b));
+                while closed && points.len() > 1 && same(&points[0], &points[points.len() - 1]) {
+                    points.pop();
+                }
+                if points.len() > 1 {
+                    found.push(MeshLine { points, closed });
+                }
+            }
+        }
+        found
+    }
+}
+
+impl MeshLine {
+    /// The line without the points that its other points keep within `deviation` \[m\] (Ramer, Douglas and Peucker).
+    #[must_use]
+    pub fn thinned(&self, deviation: f64) -> Self {
+        let mut points = self.points.clone();
+        if self.closed {
+            points.push(points[0]);
+        }
+        let mut kept = vec![false; points.len()];
+        let last = points.len() - 1;
+        (kept[0], kept[last]) = (true, true);
+        // A loop begins and ends with its first point; the first cut is at the point farthest from it.
+        let mut open = vec![(0, last)];
+        while let Some((from, to)) = open.pop() {
+            let (a, b) = (points[from], points[to]);
+            let chord = [b[0] - a[0], b[1] - a[1]];
+            let squared = chord[0] * chord[0] + chord[1] * chord[1];
+            let off = |p: [f64; 2]| {
+                let out = [p[0] - a[0], p[1] - a[1]];
+                let share = if squared > 0.0 { (out[0] * chord[0] + out[1] * chord[1]) / squared } else { 0.0 };
+                let share = share.clamp(0.0, 1.0);
+                (out[0] - share * chord[0]).hypot(out[1] - share * chord[1])
+            };
+            let farthest = (from + 1..to).map(|k| (k, off(points[k]))).max_by(|p, q| p.1.total_cmp(&q.1));
+            if let Some((k, distance)) = farthest
+                && distance > deviation
+            {
+                kept[k] = true;
+                open.extend([(from, k), (k, to)]);
+            }
+        }
+        if self.closed {
+            kept[last] = false;
+        }
+        let points = points.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| point).collect();
+        Self { points, closed: self.closed }
+    }
+
+    /// The area that a closed line encloses, and what an open one does with the centreplane, |int y dz| \[m^2\].
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        let pairs = self.points.windows(2).map(|pair| (pair[0], pair[1]));
+        let last = self.closed.then(|| (self.points[self.points.len() - 1], self.points[0]));
+        pairs.chain(last).map(|(a, b)| 0.5 * (a[0] + b[0]) * (b[1] - a[1])).sum::<f64>().abs()
+    }
+}
+
+/// Twice the area of a triangle, as a vector along its normal.
+pub(super) fn doubled(corners: [[f64; 3]; 3]) -> [f64; 3] {
+    let [a, b, c] = corners;
+    cross(minus(b, a), minus(c, a))
+}
+
+/// Area of a triangle \[m^2\].
+#[must_use]
+pub fn triangle_area(corners: [[f64; 3]; 3]) -> f64 {
+    let normal = doubled(corners);
+    0.5 * dot(normal, normal).sqrt()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,103 @@
+//! What floats: a hull, or a body of triangles whose hydrostatics need no surface.
+
+use std::path::Path;
+
+use super::failure::Failure;
+use super::source::{beside, of_table, read_bytes, read_source};
+use crate::exchange::{ReadBody, read_body};
+use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
+use crate::hydrostatics::{Conventions, CurvesOfForm};
+
+/// A body with the conventions of its tables.
+#[derive(Debug, Clone)]
+pub struct Floating {
+    body: FloatingBody,
+    /// Its main dimensions; of a body of triangles as far as they are stated, else its extents.
+    pub particulars: PrincipalParticulars,
+    /// Conventions of its tables.
+    pub conventions: Conventions,
+    /// What was assumed, in words for the user.
+    pub notes: Vec<String>,
+}
+
+#[derive(Debug, Clone)]
+enum FloatingBody {
+    Hull(Box<Hull>),
+    /// Of surfaces twice, the second time finer.
+    Triangles(Vec<TriangleMesh>),
+}
+
+impl Floating {
+    /// The hull; none of a body of triangles.
+    #[must_use]
+    pub fn hull(&self) -> Option<&Hull> {
+        match &self.body {
+            FloatingBody::Hull(hull) => Some(hull),
+            FloatingBody::Triangles(_) => None,
+        }
+    }
+
+    /// Hydrostatics at draughts above the base line \[m\].
+    #[must_use]
+    pub fn curves_of_form(&self, draughts: &[f64], conventions: &Conventions) -> CurvesOfForm {
+        match &self.body {
+            FloatingBody::Hull(hull) => CurvesOfForm::new(hull, draughts, conventions),
+            FloatingBody::Triangles(meshes) => of_meshes(meshes, &self.particulars, draughts, conventions),
+        }
+    }
+}
+
+fn of_meshes(
+    meshes: &[TriangleMesh],
+    particulars: &PrincipalParticulars,
+    draughts: &[f64],
+    conventions: &Conventions,
+) -> CurvesOfForm {
+    let none = TriangleMesh::default();
+    CurvesOfForm::of_triangles(meshes.first().unwrap_or(&none), meshes.get(1), particulars, draughts, conventions)
+}
+
+/// A mesh (STL, OBJ) or the surfaces of a CAD file (STEP, IGES) as the body that it is, and whatever else is a hull as that.
+///
+/// # Errors
+/// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
+pub fn read_floating(path: &Path) -> Result<Floating, Failure> {
+    if path.is_file() {
+        let (bytes, said) = (read_bytes(path)?, beside(path)?);
+        let said = said.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
+        if let Some(body) = read_body(&path.display().to_string(), &bytes, said) {
+            return body.map(of_body).map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()));
+        }
+    }
+    let source = read_source(path)?;
+    let particulars = *source.hull.particulars();
+    let body = FloatingBody::Hull(Box::new(source.hull));
+    Ok(Floating { body, particulars, conventions: source.conventions, notes: source.notes })
+}
+
+fn of_body(read: ReadBody) -> Floating {
+    let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
+    let extent = |k: usize| greatest[k] - least[k];
+    let stated = read.stated;
+    let mut particulars = PrincipalParticulars {
+        length_between_perpendiculars: stated.length_between_perpendiculars.unwrap_or(extent(0)),
+        breadth: stated.breadth.unwrap_or(extent(1)),
+        draught: stated.draught.unwrap_or(extent(2)),
+        depth: stated.depth.unwrap_or(extent(2)),
+    };
+    let conventions = Conventions::default();
+    // The breadth of a ship is that of its waterline, which flare does not widen.
+    if let (None, Some(draught)) = (stated.breadth, stated.draught) {
+        let row = of_meshes(&read.meshes, &particulars, &[draught], &conventions).rows;
+        let afloat = row.first().map_or(0.0, |row| row.waterline_breadth);
+        particulars.breadth = if afloat > 0.0 { afloat } else { particulars.breadth };
+    }
+    let mut notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
+    if stated.length_between_perpendiculars.is_none() {
+        notes.push(format!(
+            "Lpp is not stated; it is taken as the length of the body, {:.3} m, from x = 0",
+            particulars.length_between_perpendiculars
+        ));
+    }
+    Floating { body: FloatingBody::Triangles(read.meshes), particulars, conventions, notes }
+}

@@ -1,0 +1,295 @@
+//! Bodies of triangles: what is exported is read back, floats as the hull does, and becomes a table that can be fitted.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use loftsman::exchange::{CadUnit, Severity, read_body, read_table};
+use loftsman::hull::{FitMethod, Hull};
+use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
+
+#[path = "random/mod.rs"]
+mod random;
+use random::Random;
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
+}
+
+fn config(name: &str) -> Hull {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(format!("{name}.toml"));
+    read_source(&path).unwrap().hull
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bodies").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The files of a hull, with the conventions that its dimensions give.
+fn files(hull: &Hull, name: &str, formats: &[ExportFormat]) -> Vec<PathBuf> {
+    let folder = folder(name);
+    let particulars = hull.particulars();
+    let deviation = Some(3e-4 * particulars.breadth);
+    let exported = export(hull, name, formats, &ExportSettings { deviation, ..ExportSettings::default() }).unwrap();
+    let beside = format!(
+        "[table]\nLpp = {}\nB = {}\nT = {}\nx_origin = 0\n",
+        particulars.length_between_perpendiculars, particulars.breadth, particulars.draught
+    );
+    let write = |file: &loftsman::report::OutputFile| {
+        let path = folder.join(&file.name);
+        fs::write(&path, &file.contents).unwrap();
+        fs::write(path.with_extension("toml"), &beside).unwrap();
+        path
+    };
+    exported.files.iter().map(write).collect()
+}
+
+const MESHES: [ExportFormat; 3] = [ExportFormat::Stl, ExportFormat::StlAscii, ExportFormat::Obj];
+
+fn main_quantities(row: &Hydrostatics) -> [f64; 9] {
+    [
+        row.displacement_volume,
+        row.lcb.unwrap(),
+        row.kb.unwrap(),
+        row.waterplane_area,
+        row.lcf.unwrap(),
+        row.transverse_inertia,
+        row.longitudinal_inertia,
+        row.midship_section_area,
+        row.wetted_surface,
+    ]
+}
+
+#[test]
+fn exported_meshes_float_as_their_hulls() {
+    for name in ["box", "bulk-carrier", "seed002-frigate", "yacht"] {
+        let hull = config(name);
+        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
+        let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
+        for path in files(&hull, name, &MESHES) {
+            let floating = read_floating(&path).unwrap();
+            assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
+            let found = floating.curves_of_form(&draughts, &Conventions::default()).rows;
+            for (a, b) in found.iter().zip(&exact) {
+                for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
+                    assert!(
+                        (x / y - 1.0).abs() < 4e-3,
+                        "{} at {}: quantity {k} is {x} for {y}",
+                        path.display(),
+                        a.draught
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
+    for name in ["box", "wigley"] {
+        let hull = config(name);
+        let draughts = [0.4, 0.75].map(|share| share * hull.particulars().draught);
+        let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
+        for path in files(&hull, &format!("surfaces-{name}"), &[ExportFormat::Step, ExportFormat::Iges]) {
+            let found = read_floating(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
+            for (a, b) in found.iter().zip(&exact) {
+                for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
+                    // A single line is not averaged over the triangles as a volume is.
+                    let allowed = if k < 3 { 2e-6 } else { 2e-4 };
+                    assert!(
+                        (x / y - 1.0).abs() < allowed,
+                        "{} at {}: quantity {k} is {x} for {y}",
+                        path.display(),
+                        a.draught
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn surfaces_in_millimetres_become_a_table() {
+    let hull = config("wigley");
+    let settings = ExportSettings { unit: CadUnit::Millimetre, ..ExportSettings::default() };
+    let exported = export(&hull, "wigley", &[ExportFormat::Step, ExportFormat::Iges], &settings).unwrap();
+    for file in &exported.files {
+        let table = read_table(&file.name, &file.contents).unwrap().table;
+        assert_eq!(table.stations.len(), 41, "{}", file.name);
+        for station in &table.stations {
+            assert_eq!(station.outlines.len(), 1, "{} at {}", file.name, station.station.x);
+            for point in &station.outlines[0] {
+                let y = hull.half_breadth(station.station.x, point.z).unwrap_or(0.0);
+                assert!((point.y - y).abs() < 4e-3, "{} at {}: {point:?} for {y}", file.name, station.station.x);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mesh_is_fitted_like_a_table() {
+    let hull = config("bulk-carrier");
+    let path = files(&hull, "fitted", &[ExportFormat::Stl]).remove(0);
+    let (table, _) = loftsman::report::read_table_file(&path).unwrap();
+    assert_eq!(table.stations.len(), 41);
+    let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
+    let draught = [hull.particulars().draught];
+    let volume = |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
+    let error = volume(&fitted) / volume(&hull) - 1.0;
+    assert!(error.abs() < 2e-3, "{error:e}");
+}
+
+#[test]
+fn the_commands_take_meshes() {
+    let hull = config("yacht");
+    let path = files(&hull, "commands", &[ExportFormat::Obj]).remove(0).display().to_string();
+    let told = program(&["hydro", &path, "--draughts", "0.3,0.6", "--csv"]);
+    assert_eq!(told.status.code(), Some(0), "{}", String::from_utf8_lossy(&told.stderr));
+    assert_eq!(String::from_utf8_lossy(&told.stdout).lines().count(), 4);
+    assert!(String::from_utf8_lossy(&told.stderr).contains("a mesh (OBJ)"));
+    let out = Path::new(&path).with_extension("csv").display().to_string();
+    let converted = program(&["convert", &path, &out]);
+    assert_eq!(converted.status.code(), Some(0), "{}", String::from_utf8_lossy(&converted.stderr));
+    // The table is the one that the mesh gives, to the rounding of its notation.
+    let read = |name: &str| read_table(name, &fs::read(name).unwrap()).unwrap().table;
+    let (table, mesh) = (read(&out), loftsman::report::read_table_file(Path::new(&path)).unwrap().0);
+    assert_eq!(table.stations.len(), mesh.stations.len());
+    for (a, b) in table.stations.iter().zip(&mesh.stations) {
+        assert!((a.station.x - b.station.x).abs() < 1e-6);
+        assert_eq!(a.outlines.iter().flatten().count(), b.outlines.iter().flatten().count());
+    }
+    let missing = program(&["hydro", "no.stl", "--draughts", "1"]);
+    assert_eq!(missing.status.code(), Some(6));
+}
+
+#[test]
+fn damaged_meshes_and_random_bytes_never_stop_the_program() {
+    let hull = config("box");
+    let settings = ExportSettings { across: 1, ..ExportSettings::default() };
+    let formats = [&MESHES[..], &[ExportFormat::Step, ExportFormat::Iges]].concat();
+    let exported = export(&hull, "box", &formats, &settings).unwrap();
+    let mut random = Random(7);
+    for file in &exported.files {
+        for _ in 0..60 {
+            let mut bytes = file.contents.clone();
+            for _ in 0..=random.below(6) {
+                let at = random.below(bytes.len());
+                match random.below(4) {
+                    0 => bytes[at] = random.next() as u8,
+                    1 => bytes.truncate(at.max(1)),
+                    2 => {
+                        bytes.remove(at);
+                    }
+                    _ => bytes.splice(at..at, *b"-9,(nan 1e9,").for_each(drop),
+                }
+                if bytes.is_empty() {
+                    bytes.push(0);
+                }
+            }
+            for name in [file.name.as_str(), "unknown"] {
+                sound(name, &bytes);
+            }
+        }
+    }
+    for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
+        let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
+        for name in ["a.stl", "a.obj", "a.igs", "a.step"] {
+            sound(name, &bytes);
+        }
+    }
+    // A count that promises more than there is.
+    let mut bytes = vec![0; 84];
+    bytes[80..].copy_from_slice(&u32::MAX.to_le_bytes());
+    sound("a.stl", &bytes);
+}
+
+fn sound(name: &str, bytes: &[u8]) {
+    if let Some(read) = read_body(name, bytes, None) {
+        match read {
+            Ok(body) => {
+                assert!(body.meshes.iter().flat_map(|mesh| mesh.vertices.iter().flatten()).all(|c| c.is_finite()));
+                if let Ok(read) = body.table() {
+                    let points = read.table.stations.iter().flat_map(|s| s.outlines.iter().flatten());
+                    assert!(points.into_iter().all(|p| p.y >= 0.0 && p.y.is_finite() && p.z.is_finite()));
+                }
+            }
+            Err(problems) => {
+                assert!(problems.iter().any(|p| p.severity == Severity::Error) && problems.len() < 300);
+                assert!(problems.iter().all(|p| p.found.chars().count() < 200));
+            }
+        }
+    }
+}
+
+fn golden(name: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)).unwrap()
+}
+
+/// The volume of the box of the golden files, read from a text with changes, and what is said about it.
+fn volume(name: &str, text: &str, beside: &str) -> Result<(f64, String), String> {
+    let said = |list: &[loftsman::exchange::TableProblem]| list.iter().map(|p| format!("{p}\n")).collect::<String>();
+    match read_body(name, text.as_bytes(), Some(("box.toml", beside))).unwrap() {
+        Ok(body) => {
+            let sum = |corners: [[f64; 3]; 3]| {
+                let [a, b, c] = corners;
+                let normal = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
+                normal * (a[1] + b[1] + c[1]) / 6.0
+            };
+            Ok((body.meshes[0].corners().map(sum).sum(), said(&body.notes)))
+        }
+        Err(list) => Err(said(&list)),
+    }
+}
+
+#[test]
+fn units_and_axes_of_cad_files() {
+    let close = |found: Result<(f64, String), String>, wanted: f64| {
+        let (found, said) = found.unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{found} for {wanted}: {said}");
+        said
+    };
+    let (iges, step) = (golden("box.igs"), golden("box.step"));
+    close(volume("box.igs", &iges, ""), 20_000.0);
+    close(volume("box.step", &step, ""), 20_000.0);
+    // Inches by the flag, feet by the name of the unit, inches by a unit of their own.
+    close(volume("a", &iges.replace("1.,6,1HM", "1.,1,1HM"), ""), 20_000.0 * 0.0254_f64.powi(3));
+    let named = iges.replace("1.,6,1HM,1,0.,15H19700101.000000,", "1.,3,2HFT,,0.,15H19700101.000000,");
+    close(volume("a", &named, ""), 20_000.0 * 0.3048_f64.powi(3));
+    let inches = "#10=(CONVERSION_BASED_UNIT('INCH',#9001)LENGTH_UNIT()NAMED_UNIT(#9003));\n\
+                  #9001=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#9002);\n\
+                  #9002=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));";
+    let text = step.replace("#10=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.));", inches);
+    assert_ne!(text, step);
+    close(volume("a", &text, ""), 20_000.0 * 0.0254_f64.powi(3));
+    let milli = step.replace("SI_UNIT($,.METRE.)", "SI_UNIT(.MILLI.,.METRE.)");
+    close(volume("a", &milli, "[table]\nscale = 10\n"), 2e-2);
+    // What is stated stands over the file; axes turned and mirrored enclose the same.
+    close(volume("a", &milli, "[table]\nunits = 'm'\n"), 20_000.0);
+    let said = close(volume("a", &step, "[table]\naxes = '-x y z'\nx_origin = 100\n"), 20_000.0);
+    assert!(!said.contains("W320"), "{said}");
+}
+
+#[test]
+fn faults_of_cad_files_name_their_record() {
+    let (iges, step) = (golden("box.igs"), golden("box.step"));
+    let error = |name: &str, text: &str| volume(name, text, "").unwrap_err();
+    let cut: String = iges.lines().filter(|line| !line.ends_with("P     60")).map(|line| format!("{line}\n")).collect();
+    let found = error("box.igs", &cut);
+    assert!(
+        found.contains("E350") && found.contains("entity 128, D") && found.contains("parameters, expected"),
+        "{found}"
+    );
+    assert!(error("a.igs", "nothing\n").contains("no B-spline surfaces (entity 128)"));
+    // A net with a point that the file does not have.
+    let without = step.replacen("3,3,((#", "3,3,((#99999,#", 1);
+    assert_ne!(without, step);
+    let found = error("box.step", &without);
+    assert!(found.contains("row ") && found.contains("not a B-spline surface that can be used"), "{found}");
+    let found = error("box.step", &step.replace("DATA;", "DATA;\n#5;\n"));
+    assert!(found.contains("'#5'") && found.contains("not an instance"), "{found}");
+    assert!(error("a.stp", "ISO-10303-21;\nDATA;\nENDSEC;\n").contains("no B_SPLINE_SURFACE_WITH_KNOTS"));
+}
