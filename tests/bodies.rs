@@ -271,6 +271,11 @@ fn units_and_axes_of_cad_files() {
     close(volume("a", &milli, "[table]\nunits = 'm'\n"), 20_000.0);
     let said = close(volume("a", &step, "[table]\naxes = '-x y z'\nx_origin = 100\n"), 20_000.0);
     assert!(!said.contains("W320"), "{said}");
+    // Surfaces of other kinds are named and left out.
+    let other = step.replace("DATA;\n", "DATA;\n#9001=CYLINDRICAL_SURFACE('',#1,1.);\n");
+    assert_ne!(other, step);
+    let said = close(volume("a", &other, ""), 20_000.0);
+    assert!(said.contains("W352") && said.contains("1 CYLINDRICAL_SURFACE are not read"), "{said}");
 }
 
 #[test]

@@ -11,6 +11,9 @@ use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use crate::hull::{Entry, FitMethod, Hull, OffsetTable};
 
+/// A cell: (station, waterline).
+type Cell = (usize, usize);
+
 /// What a job starts from.
 pub(super) struct Started {
     /// Suspects of the table.
@@ -26,8 +29,8 @@ pub(super) struct Started {
     pub(super) surface: FairSurface,
     /// The search for the weight, on a net of its own.
     pub(super) search: Option<Search>,
-    /// Cells that are left out: (station, waterline).
-    pub(super) excluded: Vec<(usize, usize)>,
+    /// Cells that are left out.
+    pub(super) excluded: Vec<Cell>,
 }
 
 /// The table as it is faired.
@@ -37,11 +40,11 @@ struct Cleaned {
     clean: OffsetTable,
     /// With the expected values in their place: the surface through it needs some.
     charted: OffsetTable,
-    excluded: Vec<(usize, usize)>,
+    excluded: Vec<Cell>,
 }
 
 impl Cleaned {
-    fn leave_out(&mut self, (station, waterline): (usize, usize), expected: f64) {
+    fn leave_out(&mut self, (station, waterline): Cell, expected: f64) {
         self.clean.stations[station].half_breadths[waterline].entry = Entry::Unknown;
         self.charted.stations[station].half_breadths[waterline].entry = Entry::Given(expected.max(0.0));
         self.excluded.push((station, waterline));
@@ -151,7 +154,7 @@ impl Modelled {
     }
 
     /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.
-    fn gross_errors(&self) -> Result<Vec<((usize, usize), f64)>, FairError> {
+    fn gross_errors(&self) -> Result<Vec<(Cell, f64)>, FairError> {
         let Some(search) = &self.search else { return Ok(Vec::new()) };
         let found = gross_errors(&search.smoother, &search.smoothed)?.into_iter();
         let cells = found.filter_map(|(k, more)| match self.surface.places[k] {
