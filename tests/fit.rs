@@ -191,6 +191,21 @@ fn outlines(path: &str) -> Option<OffsetTable> {
     Some(read_table(&name, &std::fs::read(&path).ok()?).expect("a readable table").table)
 }
 
+/// Sections of three points, with the corner at the same share of the girth in all.
+#[test]
+fn a_box_of_three_points_a_section() {
+    let mut text = "station,x [m],point,y [m],z [m]\n".to_owned();
+    for station in 0..11 {
+        for (point, [y, z]) in [[0, 0], [10, 0], [10, 10]].into_iter().enumerate() {
+            text.push_str(&format!("{station},{},{point},{y},{z}\n", 10 * station));
+        }
+    }
+    let mut table = read_table("box.csv", text.as_bytes()).expect("a readable table").table;
+    table.stated.draught = Some(5.0);
+    let volume = Functional::Volume.value(&fit(&table).hull, 5.0);
+    assert!((volume / 10_000.0 - 1.0).abs() < 1e-9, "{volume}");
+}
+
 /// Sections with flat bottoms, bulbs, skegs and nearly level sterns: points met, nothing swings, published volumes. The hollows of meshes
 /// that are put on one height (GHS, trawler) leave a trace in half-breadth that is long where the section is nearly level.
 #[test]

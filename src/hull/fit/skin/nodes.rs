@@ -19,6 +19,9 @@ const DENSITY: f64 = 1.5;
 const LEAST: usize = 61;
 const MOST: usize = 121;
 
+/// Nodes closer than this are one.
+const SAME: f64 = 1e-9;
+
 /// Sections of up to as many points are met at every point.
 const FEW: usize = 40;
 
@@ -131,6 +134,11 @@ pub(super) fn nodes(parameters: &[Vec<f64>]) -> Vec<f64> {
         result.push(all[k] + part * (all[k + 1] - all[k]));
     }
     (result[0], result[count - 1]) = (0.0, 1.0);
+    // Points at the same parameter in all sections draw many nodes to it; one is enough.
+    result.dedup_by(|later, earlier| *later - *earlier < SAME);
+    if let Some(last) = result.last_mut() {
+        *last = 1.0;
+    }
     result
 }
 
