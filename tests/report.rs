@@ -158,7 +158,13 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
 
     let (fair, _) = faired();
     let copy = |name: &str| fs::copy(fair.join(name), path.join(name)).map(drop).unwrap();
-    ["hull.json", "fairing.json"].into_iter().for_each(copy);
+    copy("fairing.json");
+    // A bare name: the folder is the one that the program stands in.
+    let here =
+        Command::new(env!("CARGO_BIN_EXE_loftsman")).args(["report", "fairing.json"]).current_dir(&path).output();
+    let message = String::from_utf8(here.unwrap().stderr).unwrap();
+    assert!(message.starts_with("E181 . found broken.json, fairing.json"), "{message}");
+    copy("hull.json");
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected changes.csv, which `fair` writes"]);
     copy("changes.csv");
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected start.json"]);

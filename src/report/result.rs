@@ -103,7 +103,8 @@ pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
     if path.is_dir() {
         return of_folder(beside(path));
     }
-    let folder = path.parent().unwrap_or(Path::new(""));
+    // The parent of a bare name is empty, which is no folder that could be listed or named.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let named = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     if path.is_file() && ["fairing.json", "summary.json", "fit.json", "manifest.json"].contains(&named.as_str()) {
         return of_folder(beside(folder));
