@@ -181,11 +181,10 @@ fn place(table: &OffsetTable, change: &Change) -> Value {
 /// The lines of a table, which `changes.csv` names.
 fn lines(table: &OffsetTable, outcome: &Outcome) -> Value {
     let lines = TableLines::new(table, outcome);
-    let stations: Vec<Value> =
-        table.stations.iter().map(|s| json!({ "name": s.station.name, "x": number(s.station.x) })).collect();
-    let endings: Vec<[Value; 2]> = table.endings.iter().map(|ends| ends.map(json_number)).collect();
+    let stations: Vec<Value> = lines.stations.iter().map(|s| json!({ "name": s.name, "x": number(s.x) })).collect();
+    let endings: Vec<[Value; 2]> = lines.endings.iter().map(|ends| ends.map(json_number)).collect();
     json!({
-        "notation": table.form.notation.as_str(), "quantum": json_number(table.form.quantum()), "stations": stations,
+        "notation": lines.notation.as_str(), "quantum": json_number(lines.quantum), "stations": stations,
         "waterlines": lines.waterlines.iter().map(|z| number(*z)).collect::<Vec<_>>(), "endings": endings,
     })
 }

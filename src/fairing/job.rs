@@ -259,8 +259,10 @@ impl Job {
             _ => Prepared::new(&mut surface, &settings)?,
         };
         let resolution = quantum.max(0.1 * prepared.sigma);
-        let (watched, faired) =
-            beside(|| Watched::new(table, &before, resolution), || fair_prepared(&mut surface, &settings, &prepared));
+        let (watched, faired) = beside(
+            || Watched::new(table, &heights, &before, resolution),
+            || fair_prepared(&mut surface, &settings, &prepared),
+        );
         let mut faired = faired?;
         let mut after = surface.hull_of(&faired.net)?;
         let mut held = None;

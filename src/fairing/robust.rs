@@ -123,20 +123,20 @@ pub(super) fn gross_errors(smoother: &Smoother, smoothed: &Smoothed) -> Result<V
         }
     }
     let mut out: Vec<bool> = factors.iter().map(|factor| *factor < REJECTED).collect();
+    let (mut smoothed, mut values, mut freedom) = tested(smoother, lambda, &out)?;
     for _ in 0..ROUNDS[1] {
-        let (_, values, freedom) = tested(smoother, lambda, &out)?;
         let limit = point_of_t(0.5 * LEVEL / count, freedom);
         let next: Vec<bool> = values.iter().map(|t| t.abs() > limit).collect();
         if next == out {
             break;
         }
         out = next;
+        (smoothed, values, freedom) = tested(smoother, lambda, &out)?;
     }
     let list: Vec<usize> = (0..out.len()).filter(|&k| out[k]).collect();
     if list.len() as f64 > MOST * count {
         return Ok(Vec::new());
     }
-    let (smoothed, _, _) = tested(smoother, lambda, &out)?;
     Ok(list.into_iter().map(|k| (k, smoothed.residuals[k])).collect())
 }
 

@@ -385,9 +385,11 @@ fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
         places.push(Place { origin, x, z, at, locked });
     };
     for (station, column) in table.stations.iter().enumerate() {
+        if column.outlines.is_empty() {
+            continue;
+        }
         let x = column.station.x;
-        let line = if column.outlines.is_empty() { Vec::new() } else { StationLine::sampled(hull, x) };
-        let line = StationLine { hull, x, line };
+        let line = StationLine::new(hull, x);
         for (outline, points) in column.outlines.iter().enumerate() {
             for (point, p) in points.iter().enumerate() {
                 if let Some(at) = line.nearest([p.y, p.z]) {
@@ -423,23 +425,23 @@ struct StationLine<'a> {
     line: Vec<(f64, [f64; 2])>,
 }
 
-impl StationLine<'_> {
+impl<'a> StationLine<'a> {
     /// Points to a span of the knots.
     const POINTS: usize = 8;
     /// Farthest a point of a section may lie from the surface, in breadths: what the fit left out does.
     const FAR: f64 = 1e-3;
 
-    fn sampled(hull: &Hull, x: f64) -> Vec<(f64, [f64; 2])> {
+    fn new(hull: &'a Hull, x: f64) -> Self {
         let breaks = hull.surface().v().breakpoints();
         let inside = breaks.windows(2).flat_map(|w| {
             (0..Self::POINTS).map(|k| w[0] + (w[1] - w[0]) * k as f64 / Self::POINTS as f64).collect::<Vec<_>>()
         });
         let all = inside.chain(breaks.last().copied());
-        all.filter_map(|v| {
+        let point = |v: f64| {
             let [_, y, z] = hull.surface().eval(hull.length_parameter(x, v)?, v);
             Some((v, [y, z]))
-        })
-        .collect()
+        };
+        Self { hull, x, line: all.filter_map(point).collect() }
     }
 
     /// Parameters of the point of the station next to (y, z); none where it is far.

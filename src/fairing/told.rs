@@ -77,12 +77,11 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    pub(super) fn new(table: &OffsetTable, before: &Hull, tolerance: f64) -> Self {
+    /// `waterlines` are the heights of those that are looked at \[m\].
+    pub(super) fn new(table: &OffsetTable, waterlines: &[f64], before: &Hull, tolerance: f64) -> Self {
         let mut planes = Planes::with_defaults(before);
         planes.stations = table.stations.iter().map(|station| station.station.x).collect();
-        if !table.waterlines.is_empty() {
-            planes.waterlines.clone_from(&table.waterlines);
-        }
+        planes.waterlines = waterlines.to_vec();
         let before = inflections(before, &planes, tolerance);
         Self { planes, tolerance, before }
     }

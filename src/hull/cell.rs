@@ -1,5 +1,7 @@
 //! What stands in a table of offsets besides numbers: cells with their marks, points of sections and lines.
 
+use super::particulars::PrincipalParticulars;
+
 /// What a cell says about the hull.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Entry {
@@ -116,4 +118,16 @@ pub struct StatedParticulars {
     pub draught: Option<f64>,
     /// D.
     pub depth: Option<f64>,
+}
+
+impl From<&PrincipalParticulars> for StatedParticulars {
+    /// All of them stated.
+    fn from(p: &PrincipalParticulars) -> Self {
+        Self {
+            length_between_perpendiculars: Some(p.length_between_perpendiculars),
+            breadth: Some(p.breadth),
+            draught: Some(p.draught),
+            depth: Some(p.depth),
+        }
+    }
 }

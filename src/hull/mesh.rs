@@ -16,7 +16,7 @@
 
 use super::form::Hull;
 use super::functional::Functional;
-use crate::spline::{cross, dot, minus};
+use crate::spline::{cross, dot, length, minus};
 use std::collections::HashMap;
 
 /// Half-breadths below this part of the greatest are on the centreplane.
@@ -87,10 +87,6 @@ pub struct MeshReport {
     pub volume: f64,
     /// Area of all triangles \[m^2\].
     pub area: f64,
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// Parameters of the lines of the grid in u and in v.

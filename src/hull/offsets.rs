@@ -94,15 +94,9 @@ impl OffsetTable {
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
     pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {
-        let p = hull.particulars();
         Self {
             name: hull.name().to_owned(),
-            stated: StatedParticulars {
-                length_between_perpendiculars: Some(p.length_between_perpendiculars),
-                breadth: Some(p.breadth),
-                draught: Some(p.draught),
-                depth: Some(p.depth),
-            },
+            stated: hull.particulars().into(),
             waterlines: waterlines.to_vec(),
             buttocks: buttocks.to_vec(),
             stations: stations.iter().map(|station| lift(hull, station, waterlines, buttocks)).collect(),

@@ -1,6 +1,6 @@
 //! The sections of a hull as lines of points, for programs that take nothing else.
 
-use super::cell::{Marks, OutlinePoint, StatedParticulars};
+use super::cell::{Marks, OutlinePoint};
 use super::form::Hull;
 use super::offsets::{OffsetStation, OffsetTable, StationOffsets, default_stations};
 use super::section::{Cut, Face};
@@ -49,17 +49,7 @@ impl OffsetTable {
             })
             .filter(|station| station.outlines.iter().flatten().any(|point| point.y > SAME * p.breadth))
             .collect();
-        Self {
-            name: hull.name().to_owned(),
-            stated: StatedParticulars {
-                length_between_perpendiculars: Some(p.length_between_perpendiculars),
-                breadth: Some(p.breadth),
-                draught: Some(p.draught),
-                depth: Some(p.depth),
-            },
-            stations,
-            ..Self::default()
-        }
+        Self { name: hull.name().to_owned(), stated: p.into(), stations, ..Self::default() }
     }
 }
 

@@ -16,7 +16,7 @@
 
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
-use crate::spline::{KnotVector, cross, dot, minus};
+use crate::spline::{KnotVector, cross, dot, length, minus};
 use std::collections::HashMap;
 
 /// Half-breadths below this part of the greatest are on the centreplane.
@@ -96,10 +96,6 @@ pub struct PanelReport {
     pub volume: f64,
     /// Area of both sides \[m^2\].
     pub area: f64,
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// What the corners of a quadrilateral leave the plane through their middles by \[m\].

@@ -7,7 +7,7 @@
 mod surfaces;
 
 use super::mesh::{MeshReport, measure};
-use crate::spline::{cross, dot, minus};
+use crate::spline::{cross, length, minus};
 use std::collections::HashMap;
 
 /// Corners of half a body nearer to the centreplane than this part of its largest extent are on it.
@@ -296,7 +296,7 @@ pub(super) fn doubled(corners: [[f64; 3]; 3]) -> [f64; 3] {
 #[must_use]
 pub fn triangle_area(corners: [[f64; 3]; 3]) -> f64 {
     let normal = doubled(corners);
-    0.5 * dot(normal, normal).sqrt()
+    0.5 * length(normal)
 }
 
 #[cfg(test)]

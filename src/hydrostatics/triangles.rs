@@ -21,7 +21,7 @@ use super::table::{CurvesOfForm, row};
 use super::volume::Body;
 use super::waterplane::Waterplane;
 use crate::hull::{PrincipalParticulars, TriangleMesh};
-use crate::spline::{cross, dot, minus};
+use crate::spline::{cross, length, minus};
 
 /// Sections among which the largest is looked for.
 const STATIONS: usize = 200;
@@ -53,7 +53,7 @@ impl Skin {
         let sum = [0, 1, 2].map(|k| a[k] + b[k] + c[k]);
         let product = |k: usize| (sum[k] * sum[1] + a[k] * a[1] + b[k] * b[1] + c[k] * c[1]) / 24.0;
         let volume = normal[1] * sum[1] / 6.0;
-        let area = 0.5 * dot(normal, normal).sqrt();
+        let area = 0.5 * length(normal);
         let side = 0.25 * normal[1] * kind.side;
         Self {
             volume,
@@ -374,7 +374,7 @@ fn remark(draught: f64, bounds: &[[f64; 3]; 2]) -> Option<String> {
 fn add_skin(corners: [[f64; 3]; 3], aft: bool, draughts: &[f64], skins: &mut [[Skin; 2]]) {
     let [a, b, c] = corners;
     let normal = cross(minus(b, a), minus(c, a));
-    let size = dot(normal, normal).sqrt();
+    let size = length(normal);
     let kind = Kind {
         aft,
         transom: aft && normal[0] < -TRANSOM * size,

@@ -1,6 +1,7 @@
 //! Lines of text that several figures carry.
 
 use super::FigureInputs;
+use super::canvas::{Anchor, Canvas, TextStyle};
 use crate::hydrostatics::CoefficientLength;
 
 /// `text` without the sign that lowers what follows.
@@ -20,6 +21,13 @@ pub(super) fn conventions(inputs: &FigureInputs) -> String {
         "L_PP {:.2} m   B {:.2} m   T {:.2} m   D {:.2} m   ρ {:.3} t/m³   coefficients on {length}, moulded",
         p.length_between_perpendiculars, p.breadth, p.draught, p.depth, c.density
     )
+}
+
+/// The title of a chart `width` \[mm\] wide with the name of the ship, and a line of words under it.
+pub(super) fn head(canvas: &mut Canvas, width: f64, title: &str, ship: &str, words: &str) {
+    let ship: String = plain(ship).chars().take(40).collect();
+    canvas.text([0.5 * width, 8.0], &format!("{title} – {ship}"), &TextStyle::new(4.2, Anchor::Middle));
+    canvas.text([0.5 * width, 14.5], words, &TextStyle::new(2.8, Anchor::Middle));
 }
 
 /// Name and version of the program.

@@ -44,10 +44,8 @@ pub fn convergence_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError>
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    let name: String = caption::plain(&record.name).chars().take(40).collect();
-    canvas.text([0.5 * SHEET[0], 8.0], &format!("CONVERGENCE – {name}"), &TextStyle::new(4.2, Anchor::Middle));
     let words = "the last program: what limits are missed by, the gradient of the Lagrangian, the products of slacks and multipliers";
-    canvas.text([0.5 * SHEET[0], 14.5], words, &TextStyle::new(2.8, Anchor::Middle));
+    caption::head(&mut canvas, SHEET[0], "CONVERGENCE", &record.name, words);
     chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, None)?;
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(Some(Svg { text: canvas.finish("convergence") }))

@@ -60,9 +60,6 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    let name: String = caption::plain(&record.name).chars().take(40).collect();
-    let title = format!("MOVES AND ASSUMED NOISE – {name}");
-    canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.2, Anchor::Middle));
     let mean = moves.iter().sum::<f64>() / moves.len() as f64;
     let words = format!(
         "{} offsets, {:.3} mm RMS, mean {mean:+.3} mm; assumed noise {sigma:.3} mm{}",
@@ -70,7 +67,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         1e3 * rms,
         if shown { "" } else { ", too narrow or too high to be drawn" }
     );
-    canvas.text([0.5 * SHEET[0], 14.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    caption::head(&mut canvas, SHEET[0], "MOVES AND ASSUMED NOISE", &record.name, &words);
     let bars =
         Series { name: "moves", points: steps, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.3 };
     let mut series = vec![bars];

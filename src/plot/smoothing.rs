@@ -44,16 +44,13 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    let name: String = caption::plain(&record.name).chars().take(40).collect();
-    let title = format!("SEARCH FOR THE SMOOTHING WEIGHT – {name}");
-    canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.2, Anchor::Middle));
     let words = format!(
         "weight taken {:.2e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
         record.lambda,
         record.edf,
         1e3 * record.sigma
     );
-    canvas.text([0.5 * SHEET[0], 14.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    caption::head(&mut canvas, SHEET[0], "SEARCH FOR THE SMOOTHING WEIGHT", &record.name, &words);
     let mut placer = LabelPlacer::default();
     let points = trials.iter().map(|(_, point)| *point).collect();
     let series = [Series { name: "", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.5 }];

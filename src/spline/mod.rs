@@ -42,7 +42,7 @@ pub use net::{add_product, basis_row, binomial, energy, mixed_energy};
 pub use parametrize::Parametrization;
 pub use periodic::PeriodicCollocation;
 pub use surface::BsplineSurface;
-pub(crate) use vector::{cross, dot, minus};
+pub(crate) use vector::{cross, dot, length, minus};
 
 #[cfg(test)]
 mod tests;

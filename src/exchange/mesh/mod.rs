@@ -17,7 +17,7 @@ pub(super) use stl::{is_stl, read_stl};
 pub use stl::{write_stl, write_stl_ascii};
 
 use crate::hull::{HullMesh, Region};
-use crate::spline::{cross, dot, minus};
+use crate::spline::{cross, length, minus};
 
 /// Meshes of more triangles are not read.
 const MOST_TRIANGLES: usize = 4_000_000;
@@ -38,7 +38,7 @@ fn title(name: &str) -> String {
 /// The normal of unit length of a triangle; zero where it has no area.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let n = cross(minus(b, a), minus(c, a));
-    let length = dot(n, n).sqrt();
+    let length = length(n);
     if length > 0.0 { n.map(|c| c / length) } else { [0.0; 3] }
 }
 

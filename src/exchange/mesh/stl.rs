@@ -13,9 +13,14 @@ use crate::hull::{HullMesh, TriangleMesh};
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
+/// The number of triangles that a binary file states.
+fn stated_count(bytes: &[u8]) -> Option<usize> {
+    Some(bytes.get(HEADER - 4..HEADER)?.iter().rev().fold(0_usize, |n, &byte| n << 8 | usize::from(byte)))
+}
+
 /// The number of triangles of a binary file; none when the length is not that of one.
 fn binary_count(bytes: &[u8]) -> Option<usize> {
-    let count = bytes.get(HEADER - 4..HEADER)?.iter().rev().fold(0_usize, |n, &byte| n << 8 | usize::from(byte));
+    let count = stated_count(bytes)?;
     (count > 0 && bytes.len() == HEADER + RECORD * count).then_some(count)
 }
 
@@ -65,8 +70,7 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
     if !text.trim_start().starts_with("solid") {
-        let count =
-            bytes.get(HEADER - 4..HEADER).map_or(0, |word| word.iter().rev().fold(0, |n, &b| n << 8 | usize::from(b)));
+        let count = stated_count(bytes).unwrap_or(0);
         let wanted = HEADER + RECORD * count;
         faults.add(None, "", format!("{} bytes; a binary file of {count} triangles has {wanted}", bytes.len()));
         return Err(faults.list);

@@ -17,7 +17,7 @@
 
 use super::profile::{Local, Profile};
 use crate::hull::Branch;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, cross, dot, minus};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, cross, dot, length, minus};
 
 type Point = [f64; 3];
 
@@ -121,7 +121,7 @@ impl<'a> Locator<'a> {
                 break;
             }
         }
-        Some((at, dot(gap, gap).sqrt()))
+        Some((at, length(gap)))
     }
 
     /// Motion along the section, kappa and d(kappa)/ds of the section through (u, v) by the plane with unit normal `n`.
@@ -176,7 +176,7 @@ impl<'a> Locator<'a> {
 
 /// kappa and d(kappa)/ds of a motion with these derivatives in the plane with unit normal `n`; none where it stands still.
 fn bending(n: Point, [first, second, third]: [Point; 3], least: f64) -> Option<(f64, f64)> {
-    let speed = dot(first, first).sqrt();
+    let speed = length(first);
     if speed.is_nan() || speed <= least {
         return None;
     }
@@ -200,7 +200,7 @@ pub(super) struct Breadth {
 impl Breadth {
     /// The first parameter of `pieces` at which the curve has breadth, and the length up to it; none without such a place.
     fn begins(self, pieces: &[[f64; 2]], point: &impl Fn(f64) -> Point) -> Option<(f64, f64)> {
-        let mut length = 0.0;
+        let mut along = 0.0;
         let mut before: Option<(f64, Point)> = None;
         for &[from, to] in pieces {
             for k in 0..=LOOKS {
@@ -213,11 +213,11 @@ impl Breadth {
                         let middle = 0.5 * (low + high);
                         if point(middle)[1].abs() >= self.least { high = middle } else { low = middle }
                     }
-                    return Some((high, length));
+                    return Some((high, along));
                 }
                 if let Some((_, last)) = before {
                     let step = minus(here, last);
-                    length += dot(step, step).sqrt();
+                    along += length(step);
                 }
                 before = Some((t, here));
             }
@@ -279,7 +279,7 @@ impl Trace {
         // The axis forward, or outboard where the plane is across the ship.
         let along: Point = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let out = minus(along, n.map(|c| c * dot(n, along)));
-        let length = dot(out, out).sqrt();
+        let length = length(out);
         let first = out.map(|c| c / length);
         let axes = [first, cross(n, first)];
         let origin = branch.curve.points()[0];
