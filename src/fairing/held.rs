@@ -49,11 +49,11 @@ pub(super) fn constraints(
     faired: &Faired,
     [before, after]: [&Hull; 2],
 ) -> Vec<Held> {
-    let list = settings.constraints.iter().enumerate();
-    list.map(|(k, &constraint)| {
+    let prices = faired.prices_of_constraints(&surface.model, settings.constraints.len(), &settings.solver);
+    let list = settings.constraints.iter().zip(prices).enumerate();
+    list.map(|(k, (&constraint, price))| {
         let row = |name: RowName| name == RowName::Constraint(k);
         let multiplier = faired.rows(row).map(|at| faired.solved.solution.multipliers[at]).sum();
-        let price = faired.price_of(&surface.model, row, &settings.solver);
         Held { constraint, before: constraint.value(before), after: constraint.value(after), multiplier, price }
     })
     .collect()

@@ -17,7 +17,7 @@ use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
 use super::told::{Watched, changes, written};
-use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable, default_waterlines};
+use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable};
 use crate::qp::{Settings, Status};
 
 /// Least tolerance over the breadth: below it a difference is rounding.
@@ -201,7 +201,7 @@ pub struct Outcome {
 }
 
 /// Two things at once, whose results do not depend on each other.
-fn beside<A: Send, B>(first: impl FnOnce() -> A + Send, second: impl FnOnce() -> B) -> (A, B) {
+pub(super) fn beside<A: Send, B>(first: impl FnOnce() -> A + Send, second: impl FnOnce() -> B) -> (A, B) {
     std::thread::scope(|scope| {
         let first = scope.spawn(first);
         let second = second();
@@ -215,7 +215,7 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let Started { found, before, mut notes, noise, quantum, proposals, mut surface, search, excluded } =
+        let Started { found, before, mut notes, noise, quantum, proposals, mut surface, search, excluded, watched } =
             Started::new(self, table)?;
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
@@ -230,8 +230,7 @@ impl Job {
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
         let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
-        let heights = if table.waterlines.is_empty() { default_waterlines(&before) } else { table.waterlines.clone() };
-        let waterlines = heights.iter().map(|&z| Line::Waterline(z));
+        let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         // What a rule says of the inflections of a line stands over the guard of them.
         let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
         let guarded = |line: &Line| !ruled.contains(line);
@@ -259,21 +258,19 @@ impl Job {
             _ => Prepared::new(&mut surface, &settings)?,
         };
         let resolution = quantum.max(0.1 * prepared.sigma);
-        let (watched, faired) = beside(
-            || Watched::new(table, &heights, &before, resolution),
-            || fair_prepared(&mut surface, &settings, &prepared),
-        );
-        let mut faired = faired?;
+        let mut faired = fair_prepared(&mut surface, &settings, &prepared)?;
         let mut after = surface.hull_of(&faired.net)?;
         let mut held = None;
         let mut lines = if surface.own {
             // Nothing is repeated on a net of its own: the prices are final.
-            let (lines, prices) =
-                beside(|| watched.turns(&after), || held::constraints(&surface, &settings, &faired, [&before, &after]));
+            let (lines, prices) = beside(
+                || watched.turns(&after, resolution),
+                || held::constraints(&surface, &settings, &faired, [&before, &after]),
+            );
             held = Some(prices);
             lines
         } else {
-            watched.turns(&after)
+            watched.turns(&after, resolution)
         };
         for _ in 0..REPEATS {
             let worse = lines.iter().filter(|turns| turns.after > turns.before).filter_map(|turns| match turns.cut {
@@ -289,7 +286,7 @@ impl Job {
             settings.kept.extend(worse);
             faired = fair_prepared(&mut surface, &settings, &prepared)?;
             after = surface.hull_of(&faired.net)?;
-            lines = watched.turns(&after);
+            lines = watched.turns(&after, resolution);
         }
         let changes = changes(table, &surface, &after, &excluded);
         for turns in &mut lines {

@@ -39,6 +39,8 @@ pub struct Smoother {
     /// The model without known values.
     pub reduced: Reduced,
     normal: SymmetricBand,
+    /// A'WA of the readings alone, without the pull to the start.
+    told: SymmetricBand,
     energy: SymmetricBand,
     right: Vec<f64>,
     pull: Vec<f64>,
@@ -135,6 +137,7 @@ impl Smoother {
                 }
             }
         }
+        let told = normal.clone();
         if let Some(start) = &reduced.start {
             let weight = PRIOR * normal.trace() / n.max(1) as f64;
             for (i, value) in start.iter().enumerate() {
@@ -159,7 +162,7 @@ impl Smoother {
         }
         let pull = reduced.pull.iter().map(|e| unit * e).collect();
         let count = weights.iter().filter(|&&weight| weight > 0.0).count();
-        Self { reduced, normal, energy, right, pull, weights, unit, count }
+        Self { reduced, normal, told, energy, right, pull, weights, unit, count }
     }
 
     /// The same problem with other weights of the readings.
@@ -213,18 +216,31 @@ impl Smoother {
             edf += weight * leverage;
             rss += weight * residual * residual;
         }
-        let curved = self.reduced.energy.apply(&free);
-        let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
-        Ok(Smoothed { lambda, free, residuals, leverages, edf, rss, energy: energy + self.reduced.constant, factor })
+        let energy = self.energy_of(&free);
+        Ok(Smoothed { lambda, free, residuals, leverages, edf, rss, energy, factor })
     }
 
+    /// c'E c, unscaled, of free control values.
+    fn energy_of(&self, free: &[f64]) -> f64 {
+        let curved = self.reduced.energy.apply(free);
+        let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
+        energy + self.reduced.constant
+    }
+
+    /// What the search wants to know of a weight; edf is the trace of A'WA N^-1, without the leverages of single readings.
     fn trial(&self, lambda: f64) -> Option<Trial> {
-        let smoothed = self.at(lambda).ok()?;
+        let (matrix, mut free) = self.normal(lambda);
+        let factor = matrix.factor().ok()?;
+        factor.solve(&mut free);
+        let edf = self.told.trace_of_product(&factor.inverse_band());
+        let data = &self.reduced.data;
+        let told = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+        let rss = told.map(|(k, weight)| weight * (data.dot(k, &free) - self.reduced.values[k]).powi(2)).sum::<f64>();
         let m = self.count as f64;
-        let freedom = m - GAMMA * smoothed.edf;
+        let freedom = m - GAMMA * edf;
         // Beyond the pole the criterion means nothing: too many degrees of freedom.
-        let gcv = if freedom > 0.0 { m * smoothed.rss / (freedom * freedom) } else { f64::INFINITY };
-        Some(Trial { lambda, gcv, rms: (smoothed.rss / m.max(1.0)).sqrt(), energy: smoothed.energy, edf: smoothed.edf })
+        let gcv = if freedom > 0.0 { m * rss / (freedom * freedom) } else { f64::INFINITY };
+        Some(Trial { lambda, gcv, rms: (rss / m.max(1.0)).sqrt(), energy: self.energy_of(&free), edf })
     }
 
     /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten,

@@ -2,13 +2,14 @@
 
 use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, MISFIT};
-use super::job::{Job, JobError, LEAST_TOLERANCE};
+use super::job::{Job, JobError, LEAST_TOLERANCE, beside};
 use super::lines::proposed_lines;
 use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
+use super::told::Watched;
 use crate::hull::{Entry, FitMethod, Hull, OffsetTable};
 
 /// A cell: (station, waterline).
@@ -31,6 +32,8 @@ pub(super) struct Started {
     pub(super) search: Option<Search>,
     /// Cells that are left out.
     pub(super) excluded: Vec<Cell>,
+    /// The lines that are counted, on the surface before.
+    pub(super) watched: Watched,
 }
 
 /// The table as it is faired.
@@ -60,6 +63,7 @@ struct Modelled {
     start: Hull,
     surface: FairSurface,
     search: Option<Search>,
+    watched: Watched,
 }
 
 impl Started {
@@ -103,14 +107,14 @@ impl Started {
         }
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
-        let Modelled { before, mut notes, proposals, surface, search, .. } = modelled;
+        let Modelled { before, mut notes, proposals, surface, search, watched, .. } = modelled;
         if doubtful > 0 {
             notes.push(format!(
                 "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"
             ));
         }
         let excluded = cleaned.excluded;
-        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, excluded })
+        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, excluded, watched })
     }
 }
 
@@ -119,14 +123,29 @@ impl Modelled {
         let Cleaned { clean, charted, .. } = table;
         let fitted = Hull::fit(charted, &FitMethod::Graded)?;
         let before = fitted.hull;
+        let (watched, modelled) =
+            beside(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
+        let (proposals, start, surface, search) = modelled?;
+        Ok(Self { before, notes: fitted.notes, proposals, start, surface, search, watched })
+    }
+
+    /// What may be declared, the surface with what is, and the net over it with its weight where that is its own.
+    fn surface(
+        job: &Job,
+        table: &Cleaned,
+        found: &Suspects,
+        noise: f64,
+        before: &Hull,
+    ) -> Result<(Vec<Proposal>, Hull, FairSurface, Option<Search>), JobError> {
+        let Cleaned { clean, charted, .. } = table;
         let list = proposed_lines(charted, found);
         if let Accepted::These(numbers) = &job.accepted
             && let Some(&number) = numbers.iter().find(|number| !(1..=list.len()).contains(number))
         {
             return Err(JobError::NoLine { number, count: list.len() });
         }
-        let proposals = proposals(clean, &before, &list, job.energy, noise, &job.accepted)?;
-        let declared = declared(&proposals, &before, charted);
+        let proposals = proposals(clean, before, &list, job.energy, noise, &job.accepted)?;
+        let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
         let refitted =
             if lined.lines.len() > charted.lines.len() { Hull::fit(&lined, &FitMethod::Graded).ok() } else { None };
@@ -143,7 +162,7 @@ impl Modelled {
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
         let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;
-        Ok(Self { before, notes: fitted.notes, proposals, start, surface, search })
+        Ok((proposals, start, surface, search))
     }
 
     /// Whether a net of its own follows the table: what remains is the noise of the table.

@@ -1,9 +1,9 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
-use super::inspect::{Planes, inflections};
+use super::inspect::{Planes, Traced};
 use super::job::{Change, Turns};
 use super::surface::{FairSurface, Origin};
-use crate::hull::{Cut, Entry, Hull, OffsetTable};
+use crate::hull::{Entry, Hull, OffsetTable, default_waterlines};
 
 /// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
 pub(super) fn changes(
@@ -69,29 +69,32 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
     table
 }
 
-/// The lines of the table, buttocks and diagonals, with the inflections of the surface before.
+/// The lines of the table, buttocks and diagonals of the surface before.
 pub(super) struct Watched {
     planes: Planes,
-    tolerance: f64,
-    before: Vec<(Cut, usize)>,
+    before: Traced,
 }
 
 impl Watched {
-    /// `waterlines` are the heights of those that are looked at \[m\].
-    pub(super) fn new(table: &OffsetTable, waterlines: &[f64], before: &Hull, tolerance: f64) -> Self {
-        let mut planes = Planes::with_defaults(before);
-        planes.stations = table.stations.iter().map(|station| station.station.x).collect();
-        planes.waterlines = waterlines.to_vec();
-        let before = inflections(before, &planes, tolerance);
-        Self { planes, tolerance, before }
+    /// Heights of the waterlines that are looked at \[m\]: those of the table, of a table of sections those of a drawing.
+    pub(super) fn waterlines(table: &OffsetTable, before: &Hull) -> Vec<f64> {
+        if table.waterlines.is_empty() { default_waterlines(before) } else { table.waterlines.clone() }
     }
 
-    /// Inflections before and after.
-    pub(super) fn turns(&self, after: &Hull) -> Vec<Turns> {
-        let new = inflections(after, &self.planes, self.tolerance);
-        let cuts = self.before.iter().filter_map(|(cut, before)| {
-            let after = new.iter().find(|(other, _)| other == cut)?.1;
-            Some(Turns { cut: *cut, before: *before, after, minimum: None })
+    pub(super) fn new(table: &OffsetTable, before: &Hull) -> Self {
+        let mut planes = Planes::with_defaults(before);
+        planes.stations = table.stations.iter().map(|station| station.station.x).collect();
+        planes.waterlines = Self::waterlines(table, before);
+        let before = Traced::new(before, &planes);
+        Self { planes, before }
+    }
+
+    /// Inflections before and after; `tolerance` is the departure that can just be seen \[m\].
+    pub(super) fn turns(&self, after: &Hull, tolerance: f64) -> Vec<Turns> {
+        let new = Traced::new(after, &self.planes).inflections(tolerance);
+        let cuts = self.before.inflections(tolerance).into_iter().filter_map(|(cut, before)| {
+            let after = new.iter().find(|(other, _)| *other == cut)?.1;
+            Some(Turns { cut, before, after, minimum: None })
         });
         cuts.collect()
     }

@@ -77,6 +77,13 @@ impl SymmetricBand {
         self.rows.iter().skip(self.width).step_by(self.width + 1).sum()
     }
 
+    /// Sum of M_ij N_ij over all entries, which is the trace of M N; both of one shape.
+    #[must_use]
+    pub fn trace_of_product(&self, other: &Self) -> f64 {
+        let rows = self.rows.chunks_exact(self.width + 1).zip(other.rows.chunks_exact(self.width + 1));
+        rows.map(|(a, b)| 2.0 * dot(&a[..self.width], &b[..self.width]) + a[self.width] * b[self.width]).sum()
+    }
+
     /// M x.
     #[must_use]
     pub fn apply(&self, x: &[f64]) -> Vec<f64> {
@@ -96,12 +103,32 @@ impl SymmetricBand {
 
     /// a'M a for a row a of rising columns, all within the band of each other.
     #[must_use]
-    pub fn quadratic_form(&self, row: impl Iterator<Item = (usize, f64)> + Clone) -> f64 {
+    pub fn quadratic_form(&self, row: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let (columns, values): (Vec<usize>, Vec<f64>) = row.unzip();
+        // A row of a tensor product is as many columns again and again.
+        let run = (1..columns.len()).find(|&k| columns[k] != columns[k - 1] + 1).unwrap_or(1);
+        match run {
+            4 => self.form_of_runs::<4>(&columns, &values),
+            6 => self.form_of_runs::<6>(&columns, &values),
+            _ => self.form_of_runs::<1>(&columns, &values),
+        }
+    }
+
+    /// The same for rows of which R columns each are neighbours, as long as they are.
+    fn form_of_runs<const R: usize>(&self, columns: &[usize], values: &[f64]) -> f64 {
+        let runs = columns.chunks_exact(R).take_while(|run| run[R - 1] == run[0] + R - 1).count() * R;
         let (w, mut sum) = (self.width, 0.0);
-        for (count, (i, value)) in row.clone().enumerate() {
+        for (k, (&i, value)) in columns.iter().zip(values).enumerate() {
             let own = &self.rows[i * (w + 1)..(i + 1) * (w + 1)];
-            let before: f64 = row.clone().take(count).map(|(j, other)| other * own[w + j - i]).sum();
-            sum += value * (2.0 * before + value * own[w]);
+            let whole = k.min(runs) / R * R;
+            let mut lanes = [0.0; R];
+            for (run, others) in columns[..whole].chunks_exact(R).zip(values[..whole].chunks_exact(R)) {
+                let from = w + run[0] - i;
+                let entries = &own[from..from + R];
+                (0..R).for_each(|t| lanes[t] += entries[t] * others[t]);
+            }
+            let rest: f64 = columns[whole..k].iter().zip(&values[whole..k]).map(|(j, a)| own[w + j - i] * a).sum();
+            sum += value * (2.0 * (lanes.iter().sum::<f64>() + rest) + value * own[w]);
         }
         sum
     }
@@ -365,6 +392,15 @@ mod tests {
             (0..40).map(|i| [(3, 1.0), (5, -2.0), (8, 0.5)].iter().find(|e| e.0 == i).map_or(0.0, |e| e.1)).collect();
         let product: f64 = matrix.apply(&spread).iter().zip(&spread).map(|(m, a)| m * a).sum();
         assert!((form - product).abs() < 1e-14);
+        let trace: f64 = (0..40).map(|j| (0..40).map(|i| matrix.get(i, j) * matrix.get(j, i)).sum::<f64>()).sum();
+        assert!((matrix.trace_of_product(&matrix) / trace - 1.0).abs() < 1e-14);
+        // Runs as of a tensor product, the last one cut short.
+        let columns = [2, 3, 4, 5, 8, 9, 10, 11, 13, 14];
+        let long = example(40, 12);
+        let mut spread = vec![0.0; 40];
+        columns.iter().for_each(|&k| spread[k] = (k as f64).cos());
+        let product: f64 = long.apply(&spread).iter().zip(&spread).map(|(m, a)| m * a).sum();
+        assert!((long.quadratic_form(columns.iter().map(|&k| (k, spread[k]))) - product).abs() < 1e-14);
     }
 
     #[test]

@@ -187,31 +187,41 @@ impl Inspection {
     /// Inspects a hull; `tolerance` is the departure that can just be seen \[m\].
     #[must_use]
     pub fn new(hull: &Hull, planes: &Planes, tolerance: f64) -> Self {
-        let (curves, empty, narrow) = curves(hull, planes, tolerance, SECTION);
+        let (curves, empty, narrow) = curves(hull, planes, tolerance);
         let net = net_signs(hull.surface(), ON_CHORD * tolerance);
         Self { tolerance, curves, empty, narrow, net, surface: SurfaceMeasures::of(hull) }
     }
 }
 
-/// Inflections of each plane that has curves, in the order of [`Planes`]: the curves of an inspection alone.
-#[must_use]
-pub fn inflections(hull: &Hull, planes: &Planes, tolerance: f64) -> Vec<(Cut, usize)> {
-    let mut list: Vec<(Cut, usize)> = Vec::new();
-    for curve in curves(hull, planes, tolerance, COUNTED).0 {
-        match list.last_mut() {
-            Some((cut, sum)) if *cut == curve.cut => *sum += curve.inflections.len(),
-            _ => list.push((curve.cut, curve.inflections.len())),
-        }
+/// The curves of an inspection before it is said what can be seen of them.
+#[derive(Debug)]
+pub struct Traced(Vec<(Cut, Vec<Profile>)>);
+
+impl Traced {
+    /// Traces the curves of each plane that has some, in the order of [`Planes`].
+    #[must_use]
+    pub fn new(hull: &Hull, planes: &Planes) -> Self {
+        let locator = Locator::new(hull.surface());
+        let profiles =
+            |cut: Cut| traces(hull, &locator, cut, COUNTED).0.into_iter().map(|trace| trace.1.profile).collect();
+        let list = planes.cuts().into_iter().map(|cut| (cut, profiles(cut)));
+        Self(list.filter(|(_, profiles): &(Cut, Vec<Profile>)| !profiles.is_empty()).collect())
     }
-    list
+
+    /// Inflections of each plane; `tolerance` is the departure that can just be seen \[m\].
+    #[must_use]
+    pub fn inflections(&self, tolerance: f64) -> Vec<(Cut, usize)> {
+        let count = |profiles: &[Profile]| profiles.iter().map(|profile| profile.inflection_count(tolerance)).sum();
+        self.0.iter().map(|(cut, profiles)| (*cut, count(profiles))).collect()
+    }
 }
 
 /// Curves; planes that have none; planes of which one was not counted.
-fn curves(hull: &Hull, planes: &Planes, tolerance: f64, close: f64) -> (Vec<CurveReport>, Vec<Cut>, Vec<Cut>) {
+fn curves(hull: &Hull, planes: &Planes, tolerance: f64) -> (Vec<CurveReport>, Vec<Cut>, Vec<Cut>) {
     let locator = Locator::new(hull.surface());
     let (mut curves, mut empty, mut narrow) = (Vec::new(), Vec::new(), Vec::new());
     for cut in planes.cuts() {
-        let (found, thin) = inspect_plane(hull, &locator, cut, planes, [tolerance, close]);
+        let (found, thin) = inspect_plane(hull, &locator, cut, planes, tolerance);
         if thin {
             narrow.push(cut);
         } else if found.is_empty() {
@@ -222,33 +232,43 @@ fn curves(hull: &Hull, planes: &Planes, tolerance: f64, close: f64) -> (Vec<Curv
     (curves, empty, narrow)
 }
 
-/// The curves of a plane, and whether one was not counted for want of breadth.
-fn inspect_plane(
-    hull: &Hull,
-    locator: &Locator,
-    cut: Cut,
-    planes: &Planes,
-    [tolerance, close]: [f64; 2],
-) -> (Vec<CurveReport>, bool) {
+/// The curves of a plane on the side with their numbers from 1, and whether one was not counted for want of breadth. They keep to
+/// surface and plane to within `close` lengths between perpendiculars.
+fn traces(hull: &Hull, locator: &Locator, cut: Cut, close: f64) -> (Vec<(usize, Trace)>, bool) {
     let Some((normal, _)) = cut.plane() else { return (Vec::new(), false) };
     let close = close * hull.particulars().length_between_perpendiculars;
     let section = hull.section(cut, close);
-    let across = matches!(cut, Cut::Station { .. });
     // What lies on the side; the flats of the body are flat.
     let branches = section.branches.iter().filter(|branch| branch.face == Face::Side);
     let moulded = hull.particulars().breadth;
     // A buttock has one half-breadth, whichever was asked for.
     let breadth = (!matches!(cut, Cut::Buttock { .. }))
         .then_some(Breadth { least: NO_BREADTH * moulded, longest: LONGEST_END * moulded });
-    let mut reports = Vec::new();
-    let mut thin = false;
-    for (index, branch) in branches.enumerate() {
+    let (mut found, mut thin) = (Vec::new(), false);
+    for (number, branch) in (1..).zip(branches) {
         // The traced curve may stand off the surface by its tolerance; a hundred of them is another place.
         let Some(trace) = Trace::new(locator, branch, normal, 100.0 * close, breadth, hull.follows_net(cut)) else {
             let narrow = |b: Breadth| branch.curve.points().iter().all(|point| point[1].abs() < b.least);
             thin |= breadth.is_some_and(narrow);
             continue;
         };
+        found.push((number, trace));
+    }
+    (found, thin)
+}
+
+/// What is found on the curves of a plane, and whether one was not counted.
+fn inspect_plane(
+    hull: &Hull,
+    locator: &Locator,
+    cut: Cut,
+    planes: &Planes,
+    tolerance: f64,
+) -> (Vec<CurveReport>, bool) {
+    let across = matches!(cut, Cut::Station { .. });
+    let (traces, thin) = traces(hull, locator, cut, SECTION);
+    let mut reports = Vec::new();
+    for (branch, trace) in traces {
         let (axis, offset) = trace.coordinate(if across { 2 } else { 0 });
         let ordinates = if across { &planes.waterlines } else { &planes.stations };
         let marks: Vec<f64> = ordinates.iter().map(|mark| mark - offset).collect();
@@ -258,7 +278,7 @@ fn inspect_plane(
         let space = |places: &[Place]| places.iter().map(|place| trace.space(place.point)).collect();
         reports.push(CurveReport {
             cut,
-            branch: index + 1,
+            branch,
             length: found.length,
             turning: found.turning,
             inflections: space(&found.inflections),

@@ -278,6 +278,12 @@ impl Profile {
         }
     }
 
+    /// Number of inflections; `tolerance` is the departure that can just be seen \[m\].
+    #[must_use]
+    pub fn inflection_count(&self, tolerance: f64) -> usize {
+        self.runs().0.iter().map(|run| inflections_of(run, tolerance).len()).sum()
+    }
+
     /// The parts between knuckles, and the knuckles. A closed curve without knuckles starts at its largest curvature.
     fn runs(&self) -> (Vec<Vec<Node>>, Vec<Place>) {
         let mut runs: Vec<Vec<Node>> = vec![Vec::new()];
