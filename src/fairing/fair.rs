@@ -77,6 +77,10 @@ pub struct FairSettings {
     pub lines: Vec<Line>,
     /// Lines that keep the signs of the start in any case.
     pub kept: Vec<Line>,
+    /// Lines that are not asked for their least inflections, with the price at which they were let go.
+    pub released: Vec<(Line, f64)>,
+    /// The least departure of a lobe from its chord that counts \[m\].
+    pub seen: f64,
     /// Whether the energy is that of true curvature, by refreshing the metric.
     pub true_curvature: bool,
     /// The solver.
@@ -318,6 +322,8 @@ pub fn fair_prepared(
             wishes: &wishes,
             lines: &guarded_lines(&prepared.lines, &settings.rules),
             kept: &settings.kept,
+            released: &settings.released,
+            seen: settings.seen,
             solver: &settings.solver,
         };
         let mut found = question.run(&solved)?;
@@ -484,6 +490,12 @@ impl Faired {
     #[must_use]
     pub fn kept(&self) -> &[Line] {
         self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
+    }
+
+    /// Lines that were let go, with their price.
+    #[must_use]
+    pub fn released(&self) -> &[(Line, f64)] {
+        self.guarded.as_ref().map_or(&[], |guarded| &guarded.released)
     }
 
     /// Whether metacentre or wetted surface did not come to their targets.

@@ -6,6 +6,8 @@
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies.
 //!
+//! A job that is done again for lines that bend more often (`job.rs`) does not ask those again that it let go before.
+//!
 //! Each round is one convex program; what is accepted last is optimal for the signs it has.
 
 use super::bends::{Line, kept as keep_signs};
@@ -79,6 +81,10 @@ pub(super) struct Question<'a> {
     pub(super) wishes: &'a Wishes,
     pub(super) lines: &'a [TableLine],
     pub(super) kept: &'a [Line],
+    /// Lines that were let go before, with their price.
+    pub(super) released: &'a [(Line, f64)],
+    /// The least departure that is counted \[m\].
+    pub(super) seen: f64,
     pub(super) solver: &'a Settings,
 }
 
@@ -90,12 +96,12 @@ impl Question<'_> {
         let mut asked: Vec<Asked> = Vec::new();
         for (k, line) in lines.iter().enumerate() {
             if self.kept.contains(&line.line) {
-                asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
-            } else if line.bends_too_often(&free.net) {
+                asked.push(Asked { line: k, limits: keep_signs(&line.bends, start, self.seen), start: true });
+            } else if self.released.iter().all(|(gone, _)| *gone != line.line) && line.bends_too_often(&free.net) {
                 asked.push(Asked { line: k, limits: line.wished(start), start: false });
             }
         }
-        let mut guarded = Guarded::told(lines);
+        let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::told(lines) };
         for round in 0..ROUNDS {
             let last = round + 1 == ROUNDS;
             if last {
@@ -112,7 +118,7 @@ impl Question<'_> {
                     let known = asked.iter().any(|asked| asked.line == k && asked.start);
                     if !known && line.count(&net) > line.count(start) {
                         asked.retain(|asked| asked.line != k);
-                        asked.push(Asked { line: k, limits: keep_signs(&line.bends, start), start: true });
+                        asked.push(Asked { line: k, limits: keep_signs(&line.bends, start, self.seen), start: true });
                         added = true;
                     }
                 }
@@ -157,7 +163,8 @@ impl Question<'_> {
         let bends = asked.iter().flat_map(|asked| asked.limits.iter().cloned()).collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
-        let solver = Settings { iterations: self.solver.iterations.min(ITERATIONS), ..self.solver.clone() };
+        let iterations = self.solver.iterations.min(ITERATIONS);
+        let solver = Settings { iterations, proof: false, ..self.solver.clone() };
         let solved = program.solve(self.model, self.smoother, self.lambda, &solver)?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;

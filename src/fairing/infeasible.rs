@@ -33,6 +33,13 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
+    /// The least factor on the tolerances when these contradict each other, the limits of half-breadths or the ends of the hull, whatever
+    /// constraint is dropped.
+    #[must_use]
+    pub fn of_tolerances_alone(&self) -> Option<f64> {
+        self.widening.filter(|_| self.rules.is_empty() && self.reaches.iter().all(|reach| reach.row.is_none()))
+    }
+
     /// The single constraint that has to give least, in units of its row.
     #[must_use]
     pub fn cheapest(&self) -> Option<&Reach> {

@@ -7,7 +7,7 @@ use super::bends::Line;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::held::{self, Held, HeldRule};
-use super::infeasible::Reach;
+use super::infeasible::{Diagnosis, Reach};
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::program::RowName;
@@ -29,8 +29,12 @@ const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
+/// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that has an answer.
+const MOST_WIDENING: f64 = 3.0;
+const WIDER: f64 = 1.1;
+
 /// Most times that lines which bend more often than before are added and the job is done again.
-const REPEATS: usize = 2;
+const REPEATS: usize = 4;
 
 /// What is held of the hull.
 #[derive(Debug, Clone, PartialEq)]
@@ -248,9 +252,11 @@ impl Job {
             true_curvature: self.true_curvature,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
+            released: Vec::new(),
+            seen: quantum,
             solver: self.solver.clone(),
         };
-        let prepared = match search {
+        let mut prepared = match search {
             Some(search) if self.weight.is_none() => {
                 let found = (search.smoothed.lambda, search.trials);
                 Prepared::searched(&mut surface, &settings, search.smoother, found, None)?
@@ -258,7 +264,20 @@ impl Job {
             _ => Prepared::new(&mut surface, &settings)?,
         };
         let resolution = quantum.max(0.1 * prepared.sigma);
+        settings.seen = resolution;
         let mut faired = fair_prepared(&mut surface, &settings, &prepared)?;
+        // Of several hundred offsets some are further off than three noise levels. Where nobody named the tolerances, they give way.
+        let least = faired.diagnosis.as_ref().and_then(Diagnosis::of_tolerances_alone);
+        if let Some(least) = least.filter(|least| self.names_no_tolerance() && *least <= MOST_WIDENING) {
+            surface.widen(least * WIDER);
+            prepared.lines = prepared.lines.iter().map(|line| TableLine::new(&surface, line.line)).collect();
+            faired = fair_prepared(&mut surface, &settings, &prepared)?;
+            notes.push(format!(
+                "tolerances are {:.2} times three noise levels: with less, the offsets contradict each other, the ends of the hull or its \
+                 greatest half-breadth",
+                least * WIDER
+            ));
+        }
         let mut after = surface.hull_of(&faired.net)?;
         let mut held = None;
         let mut lines = if surface.own {
@@ -284,6 +303,7 @@ impl Job {
             }
             settings.kept = faired.kept().to_vec();
             settings.kept.extend(worse);
+            settings.released = faired.released().to_vec();
             faired = fair_prepared(&mut surface, &settings, &prepared)?;
             after = surface.hull_of(&faired.net)?;
             lines = watched.turns(&after, resolution);
@@ -341,6 +361,12 @@ impl Job {
             faired,
             notes,
         })
+    }
+
+    /// Whether all tolerances are those that the noise gives.
+    fn names_no_tolerance(&self) -> bool {
+        let Tolerance { table, stations, waterlines, cells } = &self.tolerance;
+        table.is_none() && stations.is_empty() && waterlines.is_empty() && cells.is_empty() && self.locked.is_empty()
     }
 
     /// Tolerances that the job names, one a reading.

@@ -288,6 +288,11 @@ pub fn with_half_breadths(hull: &Hull, y: &[f64]) -> Result<Hull, HullError> {
 }
 
 impl FairSurface {
+    /// Multiplies the tolerances of all readings.
+    pub(super) fn widen(&mut self, factor: f64) {
+        self.model.readings.iter_mut().for_each(|reading| reading.tolerance = reading.tolerance.map(|t| t * factor));
+    }
+
     /// From a fit of the table to a model of it; `own` asks for a quintic net of its own, where the hull stands over a rectangle.
     ///
     /// # Errors

@@ -68,11 +68,13 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most iterations.
     pub iterations: usize,
+    /// Whether an iteration that stalls is followed by the search for a proof that there is no solution, which costs more than it did.
+    pub proof: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { engine: Engine::default(), tolerance: 1e-10, iterations: 200 }
+        Self { engine: Engine::default(), tolerance: 1e-10, iterations: 200, proof: true }
     }
 }
 

@@ -7,7 +7,7 @@
 //!   m < 0, = 0, > 0 and m = 12 z/T - 8: hollow waterlines below, full ones above;
 //! * parallel middle body: flat from 0.36 L to 0.64 L, ends 1 - q(t)/q(1) with q(t) = k t - sin(k t) or sinh(k t) - k t;
 //! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a vertical side;
-//! * bulk carrier: the preset of the generator; Series 60 and S-175: surfaces fitted to the published tables.
+//! * bulk carrier, container ship, frigate: presets of the generator; Series 60 and S-175: surfaces fitted to the published tables.
 //!
 //! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the distance along
 //! the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it is above a hundredth of the
@@ -256,21 +256,36 @@ pub fn published(folder: &str) -> Truth {
     surface(hull, clean)
 }
 
-pub fn bulk_carrier() -> Truth {
+/// A hull of the generator: L, B, T \[m\], C_B, C_M.
+fn generated(ship_type: ShipType, [length, breadth, draught, block, midship]: [f64; 5]) -> Truth {
     let wishes = Wishes {
-        ship_type: Some(ShipType::BulkCarrier),
-        length: 217.0,
-        breadth: Some(32.25),
-        draught: Some(12.2),
-        block_coefficient: Some(0.80),
-        midship_coefficient: Some(MidshipWish::Value(0.99)),
+        ship_type: Some(ship_type),
+        length,
+        breadth: Some(breadth),
+        draught: Some(draught),
+        block_coefficient: Some(block),
+        midship_coefficient: Some(MidshipWish::Value(midship)),
         ..Wishes::default()
     };
-    let hull = cosh::generate("bulk carrier", &wishes).unwrap().hull;
+    let hull = cosh::generate("truth", &wishes).unwrap().hull;
     let stations: Vec<OffsetStation> =
-        (0..21).map(|i| OffsetStation { name: format!("{i}"), x: 10.85 * f64::from(i) }).collect();
-    let clean = OffsetTable::from_hull(&hull, &stations, &steps(12.2, 13), &[]);
+        (0..21).map(|i| OffsetStation { name: format!("{i}"), x: 0.05 * length * f64::from(i) }).collect();
+    let clean = OffsetTable::from_hull(&hull, &stations, &steps(draught, 13), &[]);
     surface(hull, clean)
+}
+
+pub fn bulk_carrier() -> Truth {
+    generated(ShipType::BulkCarrier, [217.0, 32.25, 12.2, 0.80, 0.99])
+}
+
+/// Of the size of the S-175, with a transom.
+pub fn container_ship() -> Truth {
+    generated(ShipType::Container, [175.0, 25.4, 9.5, 0.57, 0.98])
+}
+
+/// Fine, with rise of floor and an immersed transom.
+pub fn frigate() -> Truth {
+    generated(ShipType::Frigate, [142.0, 19.06, 6.15, 0.50, 0.80])
 }
 
 impl Truth {
@@ -400,12 +415,14 @@ fn s175() -> Truth {
 /// Every case of the benchmark. The third error is 0.5 % of B/2.
 pub fn cases() -> Vec<Case> {
     type Kind = (&'static str, fn() -> Truth, f64);
-    let truths: [Kind; 7] = [
+    let truths: [Kind; 9] = [
         ("Wigley", wigley, 0.025),
         ("S-shaped", s_shaped, 0.04),
         ("middle body", middle_body, 0.04),
         ("bilge", bilge, 0.04),
         ("bulk carrier", bulk_carrier, 0.0806),
+        ("container ship", container_ship, 0.0635),
+        ("frigate", frigate, 0.0477),
         ("Series 60", series60, 0.0406),
         ("S-175", s175, 0.0635),
     ];

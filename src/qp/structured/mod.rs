@@ -155,6 +155,9 @@ impl Solver {
             solution.status = Status::Unbounded;
             return;
         }
+        if !self.settings.proof {
+            return;
+        }
         let auxiliary = |problem: &Problem| {
             let mut solver = Self::new(problem, &self.settings).ok()?;
             solver.auxiliary = true;
