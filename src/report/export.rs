@@ -310,7 +310,13 @@ pub fn export(
             return Err(Failure::Internal("the faces of the solid do not share their edges".to_owned()));
         }
         let faces: Vec<&str> = solid.faces.iter().map(|face| face.name.as_str()).collect();
-        page.push(format!("solid: {} edges, faces {}", solid.edges.len(), faces.join(", ")));
+        let own = solid.volume();
+        page.push(format!(
+            "solid: {} edges, faces {}; volume {own:.12e} m3, {:+.1e} of the hull's",
+            solid.edges.len(),
+            faces.join(", "),
+            own / volume - 1.0
+        ));
         if solid.deviation > 0.0 {
             page.push(format!(
                 "the deck or the centreplane cuts the surface: the faces are within {:.2e} m of the hull",

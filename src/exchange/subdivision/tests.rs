@@ -136,3 +136,28 @@ fn faults_name_their_line() {
     assert!(fault(&changed(place - 1, "999999")).1.contains("the number of points: 999999"));
     assert!(fault(&lines[..lines.len() - 10].join("\n")).1.contains("the file ends where"));
 }
+
+#[test]
+fn damaged_binary_files_never_stop_the_program() {
+    let bytes = binary(&write_ftm(&small()));
+    let mut state = 1_u64;
+    let mut below = |n: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    };
+    for _ in 0..2000 {
+        let mut damaged = bytes.clone();
+        for _ in 0..=below(4) {
+            let at = 13 + below(damaged.len() - 13);
+            match below(3) {
+                0 => damaged[at] = below(256) as u8,
+                1 => drop(damaged.splice(at..at, [0xff, 0xff, 0xff, 0x7f])),
+                _ => damaged.truncate(at.max(20)),
+            }
+        }
+        if let Ok(project) = read_fbm(&damaged) {
+            let [_, mesh] = project.net.meshes(5_000, 2);
+            assert!(mesh.vertices.iter().flatten().all(|c| c.is_finite()));
+        }
+    }
+}
