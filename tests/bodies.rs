@@ -355,13 +355,16 @@ fn files_are_converted_by_the_endings_of_their_names() {
     let body = fs::read_to_string(place("box.obj")).unwrap();
     let turned: String = body
         .lines()
-        .map(|line| match line.strip_prefix("v ").map(|p| p.split(' ').collect::<Vec<_>>()) {
-            Some(p) => format!("v {}000 {}000 {}{}\n", p[0], p[2], if p[1] == "0" { "" } else { "-" }, format!("{}000", p[1])),
+        .map(|line| match line.strip_prefix("v ") {
+            Some(point) => {
+                let p: Vec<f64> = point.split(' ').map(|word| 1000.0 * word.parse::<f64>().unwrap()).collect();
+                format!("v {} {} {}\n", p[0], p[2], -p[1])
+            }
             None => format!("{line}\n"),
         })
         .collect();
     let upright = volume(&[]);
-    fs::write(place("box.obj"), turned.replace("--", "")).unwrap();
+    fs::write(place("box.obj"), turned).unwrap();
     let (a, b) = (upright, volume(&["--input-unit", "mm", "--up", "y"]));
     let numbers = |row: &str| row.split(',').filter_map(|cell| cell.parse::<f64>().ok()).collect::<Vec<_>>();
     for (x, y) in numbers(&a).into_iter().zip(numbers(&b)) {
@@ -369,7 +372,11 @@ fn files_are_converted_by_the_endings_of_their_names() {
     }
     let wrong = program(&["hydro", &place("box.obj"), "--draughts", "1", "--up", "w"]);
     assert_eq!(wrong.status.code(), Some(3));
-    assert!(String::from_utf8_lossy(&wrong.stderr).contains("E311 command line"), "{}", String::from_utf8_lossy(&wrong.stderr));
+    assert!(
+        String::from_utf8_lossy(&wrong.stderr).contains("E311 command line"),
+        "{}",
+        String::from_utf8_lossy(&wrong.stderr)
+    );
     let negative = program(&["export", &hull, "-f", "gdf", "--draught", "-1"]);
     assert!(String::from_utf8_lossy(&negative.stderr).contains("must be more than 0"));
 }

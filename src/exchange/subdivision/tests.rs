@@ -134,7 +134,7 @@ fn faults_name_their_line() {
     assert!(fault(&changed(place, "0 0")).1.contains("2 numbers, expected 3"));
     assert!(fault(&changed(place + 1, "7")).1.contains("the kind of a point"));
     assert!(fault(&changed(place - 1, "999999")).1.contains("the number of points: 999999"));
-    assert!(fault(&lines[..lines.len() - 10].join("\n")).1.contains("the file ends where"));
+    assert!(fault(&lines[..lines.len() - 6].join("\n")).1.contains("the file ends where"));
 }
 
 #[test]

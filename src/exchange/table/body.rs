@@ -37,9 +37,8 @@ const ON_CENTREPLANE: f64 = 1e-6;
 /// What triangles leave surfaces by at most, over the longest extent of these.
 const DEVIATION: f64 = 1e-5;
 
-/// More triangles than this are made fewer by a deviation that is doubled, and how often at most.
+/// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
-const DOUBLINGS: usize = 6;
 
 /// Faces and steps at which the subdivision of a net ends.
 const FACES: usize = 60_000;
@@ -150,16 +149,7 @@ pub fn read_body<'a>(
             ));
             notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
             let size = extent(&surfaces);
-            // Surfaces of many small spans need no closer triangles than these.
-            let mut deviation = DEVIATION * size;
-            let mut coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
-            for _ in 0..DOUBLINGS {
-                if coarse.triangles.len() > ENOUGH {
-                    deviation *= 2.0;
-                    coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
-                }
-            }
-            let nested = [coarse, TriangleMesh::of_surfaces(&surfaces, deviation, 2)];
+            let (nested, deviation) = TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH);
             let triangles = nested[1].triangles.len();
             problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
             framed(nested.to_vec(), &settings, &Given { unit, axes: None, surfaces: true }, &mut problems)

@@ -57,7 +57,9 @@ fn corners(hull: &Hull, deck: &impl Fn(f64) -> f64, sites: &[f64]) -> Vec<f64> {
     let x = |u: f64| surface.eval(u, deck(u))[0];
     for pair in sites.windows(2) {
         let (here, there) = (x(pair[0]), x(pair[1]));
-        found.extend(inner.iter().filter(|&&at| here < at && at < there).map(|&at| halved(pair[0], pair[1], &|u| x(u) < at)));
+        found.extend(
+            inner.iter().filter(|&&at| here < at && at < there).map(|&at| halved(pair[0], pair[1], &|u| x(u) < at)),
+        );
         let open = [pair[0], pair[1]].map(|u| deck(u) < to);
         if open[0] != open[1] {
             found.push(halved(pair[0], pair[1], &|u| (deck(u) < to) == open[0]));
@@ -107,7 +109,8 @@ pub(super) fn below_deck(hull: &Hull) -> Result<Parts, SplineError> {
     if lowest >= to {
         return Ok(Parts { surfaces: vec![surface.clone()], deviation: 0.0 });
     }
-    let begin = surface.v().breakpoints().into_iter().filter(|&v| v <= lowest - LEAST * (to - from)).fold(from, f64::max);
+    let begin =
+        surface.v().breakpoints().into_iter().filter(|&v| v <= lowest - LEAST * (to - from)).fold(from, f64::max);
     let crossed = surface.v().breakpoints().into_iter().filter(|&v| begin < v && v < highest).count();
     let t = if crossed == 0 {
         KnotVector::uniform(surface.v().degree(), 1)?
