@@ -112,6 +112,12 @@ pub fn read_body<'a>(
         faulty(faults, &mut problems);
         Shape::Nothing
     });
+    // Curves alone are a table.
+    if let Shape::Surfaces(CadSurfaces { surfaces, .. }) = &shape
+        && surfaces.is_empty()
+    {
+        return None;
+    }
     let meshes = match shape {
         Shape::Triangles(mesh) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
@@ -140,7 +146,7 @@ pub fn read_body<'a>(
             framed(meshes.to_vec(), &settings, &given, &mut problems)
         }
         Shape::Nothing => Vec::new(),
-        Shape::Surfaces(CadSurfaces { surfaces, unit, notes }) => {
+        Shape::Surfaces(CadSurfaces { surfaces, unit, notes, .. }) => {
             let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
             let unit = unit.unwrap_or(1.0);
             problems.note(format!(
@@ -164,7 +170,7 @@ pub fn read_body<'a>(
     }))
 }
 
-fn faulty(faults: Vec<RecordFault>, problems: &mut Problems) {
+pub(super) fn faulty(faults: Vec<RecordFault>, problems: &mut Problems) {
     for RecordFault { line, found, message } in faults {
         let place = line.map_or(Place::FILE, Place::row);
         problems.error("E350", (place, found.as_str()), message, "");
@@ -189,13 +195,45 @@ fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
 }
 
 /// What a file says of its body.
-struct Given {
+pub(super) struct Given {
     /// Its unit \[m\].
-    unit: f64,
+    pub(super) unit: f64,
     /// The axes, where the format has them.
-    axes: Option<[(usize, f64); 3]>,
+    pub(super) axes: Option<[(usize, f64); 3]>,
     /// Triangles over surfaces, each for itself.
-    surfaces: bool,
+    pub(super) surfaces: bool,
+}
+
+/// How points of a file come into the ship's frame.
+pub(super) struct Placement {
+    axes: [(usize, f64); 3],
+    unit: f64,
+    slack: f64,
+    origin: [f64; 2],
+}
+
+impl Placement {
+    /// By the bounds of the points, the settings and what the file says; none, with a problem, when the axes cannot be told.
+    pub(super) fn of(
+        bounds: [[f64; 3]; 2],
+        settings: &Settings,
+        given: &Given,
+        problems: &mut Problems,
+    ) -> Option<Self> {
+        let BodyFrame { axes, up, scale, x_origin, z_origin, .. } = settings.frame;
+        let known = axes.or(if up.is_none() { given.axes } else { None });
+        let axes = known.or_else(|| found_axes(bounds, up, problems))?;
+        let unit = settings.units.map_or(given.unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
+        let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+        let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
+        Some(Self { axes, unit, slack: ON_CENTREPLANE * size, origin })
+    }
+
+    /// Points nearer to the centreplane than a millionth of the size are on it.
+    pub(super) fn place(&self, corner: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = self.axes.map(|(axis, sign)| sign * self.unit * corner[axis]);
+        [x + self.origin[0], if y.abs() <= self.slack { 0.0 } else { y }, z + self.origin[1]]
+    }
 }
 
 /// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are of one body and
@@ -207,17 +245,10 @@ fn framed(
     problems: &mut Problems,
 ) -> Vec<TriangleMesh> {
     let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
-    let BodyFrame { axes, up, scale, x_origin, z_origin, .. } = settings.frame;
-    let known = axes.or(if up.is_none() { given.axes } else { None });
-    let Some(axes) = known.or_else(|| found_axes(bounds, up, problems)) else { return meshes };
-    let unit = settings.units.map_or(given.unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
-    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+    let Some(placement) = Placement::of(bounds, settings, given, problems) else { return meshes };
+    let BodyFrame { x_origin, z_origin, .. } = settings.frame;
     let surfaces = given.surfaces;
-    let slack = ON_CENTREPLANE * size;
-    let place = |corner: [f64; 3]| {
-        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
-        [x + x_origin.unwrap_or(0.0), if y.abs() <= slack { 0.0 } else { y }, z + z_origin.unwrap_or(0.0)]
-    };
+    let place = |corner: [f64; 3]| placement.place(corner);
     for (k, mesh) in meshes.iter_mut().enumerate() {
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());

@@ -18,6 +18,7 @@ mod freeship;
 mod ghs;
 mod grid;
 mod header;
+mod lines;
 mod matrix;
 mod michlet;
 mod outline;
@@ -86,6 +87,9 @@ pub fn read_table_with<'a>(
     let beside: Vec<(&str, &str)> = beside.into_iter().collect();
     if let Some(body) = read_body(name, bytes, beside.iter().copied()) {
         return body.and_then(ReadBody::table);
+    }
+    if let Some(read) = lines::read(name, bytes, &beside) {
+        return read;
     }
     let mut problems = Problems::new(name);
     if let Some(format) = foreign::format(name, bytes) {
