@@ -163,9 +163,9 @@ impl Level {
             } else {
                 let centre = points.len();
                 points.push(mean(&self.points, face));
-                for k in 0..n {
+                for (k, &at) in face.iter().enumerate() {
                     edges.insert(key(middle(k), centre), false);
-                    faces.push(vec![face[k], middle(k), centre, middle((k + n - 1) % n)]);
+                    faces.push(vec![at, middle(k), centre, middle((k + n - 1) % n)]);
                     layers.push(layer);
                 }
             }

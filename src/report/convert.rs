@@ -83,8 +83,11 @@ fn of_sections(format: ExportFormat) -> Option<fn(&OffsetTable) -> String> {
     })
 }
 
+/// The contents of a file and messages for the user.
+type WithMessages = (Vec<u8>, Vec<String>);
+
 /// The file of a body of triangles in a format of meshes; none of other formats.
-fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option<(Vec<u8>, Vec<String>)>, Failure> {
+fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option<WithMessages>, Failure> {
     if !format.is_mesh() {
         return Ok(None);
     }

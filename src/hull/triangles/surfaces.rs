@@ -52,8 +52,8 @@ impl<'a> Bends<'a> {
         let breaks = [surface.u().breakpoints(), surface.v().breakpoints()];
         let spans = breaks.each_ref().map(|breaks| breaks.len() - 1);
         let parts = match spans[0].saturating_mul(spans[1]) {
-            ..=QUARTERS => 4,
-            ..=HALVES => 2,
+            count if count <= QUARTERS => 4,
+            count if count <= HALVES => 2,
             _ => 1,
         };
         let points = grid(surface, &fine(&breaks[0], parts), &fine(&breaks[1], parts));
