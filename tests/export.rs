@@ -54,7 +54,7 @@ fn files_are_not_overwritten_unasked() {
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&wrong.stderr).contains(
-        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, ftm, michlet, csv, xlsx, dxf-plan"
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan"
     ));
 }
 
@@ -129,7 +129,7 @@ fn sections_and_tables_are_read_back_as_the_hull() {
         let draught = [hull.particulars().draught];
         let volume =
             |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
-        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "csv", "xlsx"]
+        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "delftship", "csv", "xlsx"]
             .iter()
             .map(|name| ExportFormat::ALL.into_iter().find(|format| format.name() == *name).unwrap())
             .collect();

@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
-    /// gf, britfair, pias, pdstrip, freeship, ftm, michlet, csv, xlsx, dxf-plan
+    /// gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -66,7 +66,7 @@ gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, th
 the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
 gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
 stations as points within the deviation. ftm (FREE!ship, DELFTship): the control net of a subdivision surface through points of the \
-hull, with its knuckles as creases; michlet: half-breadths below --draught, from the bow aft, from the lowest point up. csv, xlsx: half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
+hull, with its knuckles as creases; michlet: half-breadths below --draught, from the bow aft, from the lowest point up. csv, xlsx, delftship (table of DELFTship): half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
 their own frames, have z = 0 on the base line.
 x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
 

@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::source::{Said, beside, of_table, read_bytes, read_source_with, read_table_file_with};
 use crate::exchange::{
-    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_freeship,
+    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship, write_freeship,
     write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii, write_table,
 };
 use crate::hull::{HullMesh, OffsetTable, Region, TableForm, TableLayout};
@@ -71,14 +71,15 @@ fn is_hull(path: &Path) -> bool {
     path.is_dir() || matches!(extension.as_str(), "json" | "toml" | "hgf" | "huf")
 }
 
-/// The writer of sections in a format; none of other formats.
-fn of_sections(format: ExportFormat) -> Option<fn(&OffsetTable) -> String> {
+/// The writer of tables in a format, where one takes tables that are nothing but `sections` or other tables; none of other formats.
+fn of_table_in(format: ExportFormat, sections: bool) -> Option<fn(&OffsetTable) -> String> {
     Some(match format {
         ExportFormat::Ghs => write_ghs,
         ExportFormat::Britfair => write_britfair,
         ExportFormat::Pias => write_pias,
         ExportFormat::Pdstrip => write_pdstrip,
         ExportFormat::Freeship => write_freeship,
+        ExportFormat::Delftship if !sections => write_delftship,
         _ => return None,
     })
 }
@@ -125,8 +126,11 @@ pub fn convert_file(
 ) -> Result<(OutputFile, Vec<String>), Failure> {
     let file = |contents: Vec<u8>| OutputFile { name: name.to_owned(), contents };
     if !is_hull(path) {
-        if let Some(write) = of_sections(format) {
-            let (table, notes) = read_table_file_with(path, said)?;
+        let takes = |sections| of_table_in(format, sections);
+        if takes(false).is_some()
+            && let (table, notes) = read_table_file_with(path, said)?
+            && let Some(write) = takes(only_sections(&table))
+        {
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }
         if let (ExportFormat::Ftm, true) = (format, said.keys.is_empty())

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_dxf, write_freeship, write_ftm,
+    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship, write_ftm,
     write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_nemoh, write_obj, write_pdstrip, write_pias,
     write_pnl, write_step, write_stl, write_stl_ascii,
 };
@@ -50,6 +50,8 @@ pub enum ExportFormat {
     Pdstrip,
     /// Sections as the text that FREE!ship and DELFTship import.
     Freeship,
+    /// Half-breadths over stations and waterlines as the table of DELFTship.
+    Delftship,
     /// The control net of a subdivision surface for FREE!ship and DELFTship.
     Ftm,
     /// Half-breadths below the draught for Michlet.
@@ -64,7 +66,7 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Step,
         Self::Iges,
         Self::Dxf,
@@ -80,6 +82,7 @@ impl ExportFormat {
         Self::Pias,
         Self::Pdstrip,
         Self::Freeship,
+        Self::Delftship,
         Self::Ftm,
         Self::Michlet,
         Self::Csv,
@@ -106,6 +109,7 @@ impl ExportFormat {
             Self::Pias => "pias",
             Self::Pdstrip => "pdstrip",
             Self::Freeship => "freeship",
+            Self::Delftship => "delftship",
             Self::Ftm => "ftm",
             Self::Michlet => "michlet",
             Self::Csv => "csv",
@@ -132,6 +136,7 @@ impl ExportFormat {
             Self::Pias => "-pias.txt",
             Self::Pdstrip => "-pdstrip.txt",
             Self::Freeship => "-freeship.txt",
+            Self::Delftship => "-delftship.txt",
             Self::Ftm => ".ftm",
             Self::Michlet => ".mlt",
             Self::Csv => ".csv",
@@ -350,6 +355,7 @@ pub fn export(
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
             (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
+            (ExportFormat::Delftship, ..) => write_delftship(&OffsetTable::with_defaults(hull)).into_bytes(),
             (ExportFormat::Ftm, ..) => {
                 let (text, line) = subdivision(hull, title, deviation);
                 page.push(line);
