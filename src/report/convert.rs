@@ -7,8 +7,9 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::source::{Said, beside, of_table, read_bytes, read_source_with, read_table_file_with};
 use crate::exchange::{
-    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship, write_freeship,
-    write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii, write_table,
+    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship,
+    write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii,
+    write_table,
 };
 use crate::hull::{HullMesh, OffsetTable, Region, TableForm, TableLayout};
 

@@ -6,9 +6,9 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship, write_ftm,
-    write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_nemoh, write_obj, write_pdstrip, write_pias,
-    write_pnl, write_step, write_stl, write_stl_ascii,
+    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship,
+    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_nemoh, write_obj, write_pdstrip,
+    write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
     Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, SubdivisionNet,
