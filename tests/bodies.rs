@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use loftsman::exchange::{CadUnit, Severity, read_body, read_table};
+use loftsman::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
 use loftsman::hull::{FitMethod, Hull};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
@@ -170,7 +170,7 @@ fn the_commands_take_meshes() {
 fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     let hull = config("box");
     let settings = ExportSettings { across: 1, ..ExportSettings::default() };
-    let formats = [&MESHES[..], &[ExportFormat::Step, ExportFormat::Iges]].concat();
+    let formats = [&MESHES[..], &[ExportFormat::Step, ExportFormat::Iges, ExportFormat::Ftm]].concat();
     let exported = export(&hull, "box", &formats, &settings).unwrap();
     let mut random = Random(7);
     for file in &exported.files {
@@ -197,7 +197,7 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     }
     for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
         let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
-        for name in ["a.stl", "a.obj", "a.igs", "a.step"] {
+        for name in ["a.stl", "a.obj", "a.igs", "a.step", "a.ftm", "a.fbm"] {
             sound(name, &bytes);
         }
     }
@@ -297,4 +297,86 @@ fn faults_of_cad_files_name_their_record() {
     let found = error("box.step", &step.replace("DATA;", "DATA;\n#5;\n"));
     assert!(found.contains("'#5'") && found.contains("not an instance"), "{found}");
     assert!(error("a.stp", "ISO-10303-21;\nDATA;\nENDSEC;\n").contains("no B_SPLINE_SURFACE_WITH_KNOTS"));
+}
+
+#[test]
+fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
+    for name in ["box", "seed002-frigate", "fishing-vessel"] {
+        let hull = config(name);
+        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
+        let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
+        let path = files(&hull, &format!("nets-{name}"), &[ExportFormat::Ftm]).remove(0);
+        let floating = read_floating(&path).unwrap();
+        assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
+        for (a, b) in floating.curves_of_form(&draughts, &Conventions::default()).rows.iter().zip(&exact) {
+            for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
+                assert!((x / y - 1.0).abs() < 4e-3, "{name} at {}: quantity {k} is {x} for {y}", a.draught);
+            }
+        }
+        let bytes = fs::read(&path).unwrap();
+        let project = read_subdivision("a.ftm", &bytes).unwrap().unwrap();
+        assert_eq!(write_ftm(&project).as_bytes(), bytes, "{name}");
+    }
+}
+
+#[test]
+fn files_are_converted_by_the_endings_of_their_names() {
+    let folder = folder("converted");
+    let hull = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/box.toml").display().to_string();
+    let place = |name: &str| folder.join(name).display().to_string();
+    let run = |arguments: &[&str]| {
+        let told = program(arguments);
+        assert_eq!(told.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&told.stderr));
+        told.stdout
+    };
+    run(&["convert", &hull, &place("box.ftm")]);
+    run(&["convert", &place("box.ftm"), &place("again.ftm"), "-q"]);
+    assert_eq!(fs::read(place("box.ftm")).unwrap(), fs::read(place("again.ftm")).unwrap());
+    run(&["convert", &hull, &place("box.gf")]);
+    run(&["convert", &place("box.gf"), &place("box.bri")]);
+    let text = run(&["convert", &place("box.bri"), "--format", "pias"]);
+    let back = read_table("a-pias.txt", &text).unwrap().table;
+    let first = read_table("box.gf", &fs::read(place("box.gf")).unwrap()).unwrap().table;
+    assert_eq!(back.stations.len(), first.stations.len());
+    run(&["convert", &hull, &place("box.stl")]);
+    run(&["convert", &place("box.stl"), &place("box.obj")]);
+    run(&["convert", &hull, &place("box.csv"), "-q"]);
+    run(&["convert", &place("box.csv"), &place("fitted.step"), "-q"]);
+    // What is there is not written over, and a hull has its own units.
+    assert_eq!(program(&["convert", &hull, &place("box.stl")]).status.code(), Some(6));
+    let refused = program(&["convert", &hull, &place("new.stl"), "--input-unit", "mm"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out what is said of it: units"));
+    // Units and axes of a body on the command line stand over the file.
+    let volume = |flags: &[&str]| {
+        let told = run(&[&["hydro", &place("box.obj"), "--draughts", "1", "--csv"], flags].concat());
+        String::from_utf8(told).unwrap().lines().last().unwrap().to_owned()
+    };
+    let body = fs::read_to_string(place("box.obj")).unwrap();
+    let turned: String = body
+        .lines()
+        .map(|line| match line.strip_prefix("v ") {
+            Some(point) => {
+                let p: Vec<f64> = point.split(' ').map(|word| 1000.0 * word.parse::<f64>().unwrap()).collect();
+                format!("v {} {} {}\n", p[0], p[2], -p[1])
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let upright = volume(&[]);
+    fs::write(place("box.obj"), turned).unwrap();
+    let (a, b) = (upright, volume(&["--input-unit", "mm", "--up", "y"]));
+    let numbers = |row: &str| row.split(',').filter_map(|cell| cell.parse::<f64>().ok()).collect::<Vec<_>>();
+    for (x, y) in numbers(&a).into_iter().zip(numbers(&b)) {
+        assert!((x - y).abs() <= 1e-9 * x.abs().max(1.0), "{a}\n{b}");
+    }
+    let wrong = program(&["hydro", &place("box.obj"), "--draughts", "1", "--up", "w"]);
+    assert_eq!(wrong.status.code(), Some(3));
+    assert!(
+        String::from_utf8_lossy(&wrong.stderr).contains("E311 command line"),
+        "{}",
+        String::from_utf8_lossy(&wrong.stderr)
+    );
+    let negative = program(&["export", &hull, "-f", "gdf", "--draught", "-1"]);
+    assert!(String::from_utf8_lossy(&negative.stderr).contains("must be more than 0"));
 }

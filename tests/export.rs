@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use loftsman::exchange::read_table;
-use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings};
+use loftsman::exchange::{DxfVersion, read_table, sha256};
+use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, Solid, whole_volume};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
 
@@ -54,7 +54,7 @@ fn files_are_not_overwritten_unasked() {
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&wrong.stderr).contains(
-        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan"
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan"
     ));
 }
 
@@ -70,8 +70,25 @@ fn files_are_those_of_the_golden_folder() {
         let wanted = fs::read(golden.join(&file.name)).unwrap_or_default();
         assert!(wanted == file.contents, "{} is not what tests/golden has", file.name);
     }
+    // DXF of AutoCAD 2000 by its hash: as large as that of R12, with the same lines.
+    let settings = ExportSettings { dxf: DxfVersion::R2000, ..settings };
+    let format = ExportFormat::ALL.into_iter().find(|format| format.name() == "dxf-plan").unwrap();
+    let plan = export(&hull, "box", &[format], &settings).unwrap().files.remove(0);
+    assert_eq!(sha256(&plan.contents), "08490d760f6ebf95df05ade864c5ed07ec604c9aa513731dcf307e34e49f84d8");
     let kept = fs::read_dir(golden).unwrap().filter(|entry| entry.as_ref().unwrap().path().is_file());
     assert_eq!(kept.count(), exported.files.len());
+}
+
+#[test]
+fn solids_have_the_volume_of_the_hull() {
+    for name in ["box", "bulk-carrier", "fishing-vessel", "frigate", "seed002-frigate", "tug", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let solid = Solid::new(&hull).unwrap();
+        assert!(solid.is_closed(), "{name}");
+        let error = solid.volume() / whole_volume(&hull) - 1.0;
+        assert!(error.abs() < 1e-10, "{name}: {error:e}");
+        assert!(solid.deviation < 1e-6, "{name}: {:e}", solid.deviation);
+    }
 }
 
 #[test]
@@ -112,7 +129,7 @@ fn sections_and_tables_are_read_back_as_the_hull() {
         let draught = [hull.particulars().draught];
         let volume =
             |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
-        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "csv", "xlsx"]
+        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "delftship", "csv", "xlsx"]
             .iter()
             .map(|name| ExportFormat::ALL.into_iter().find(|format| format.name() == *name).unwrap())
             .collect();

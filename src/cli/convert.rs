@@ -1,4 +1,4 @@
-//! `loftsman convert TABLE [OUT]`
+//! `loftsman convert FILE [OUT]`
 
 use std::path::PathBuf;
 
@@ -7,16 +7,22 @@ use clap::Args;
 use super::stream;
 use crate::exchange::TableWriting;
 use crate::hull::TableLayout;
-use crate::report::{Failure, convert_table};
+use crate::report::{ExportFormat, ExportSettings, Failure, convert_file, convert_table};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
 #[command(after_help = super::TABLES)]
 pub(super) struct Arguments {
-    /// Table of offsets, in any of the formats below
+    /// Table of offsets or body in any of the formats below; hull.json, a folder that holds one, or a design file
     table: PathBuf,
-    /// File to write instead of stdout; a workbook when it ends in .xlsx
+    /// File to write instead of stdout. Its ending says the format: .csv, .xlsx (a workbook); or one of those of `export`: .step, .igs,
+    /// .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, .bri, .ftm, .mlt
     output: Option<PathBuf>,
+    /// Format of the file, one of those of `export`, where its ending does not say it
+    #[arg(short, long, value_parser = super::export::format, value_name = "FORMAT")]
+    format: Option<ExportFormat>,
+    #[command(flatten)]
+    said: super::BodyFlags,
     /// How lengths are written: m, mm, feet-inches-eighths, cm, ft or in; as in the table where none is given
     #[arg(long, value_parser = super::offsets::notation)]
     notation: Option<Notation>,
@@ -31,6 +37,9 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
+/// Endings of hulls and designs.
+const HULLS: [&str; 4] = ["json", "toml", "hgf", "huf"];
+
 fn layout(word: &str) -> Result<TableLayout, String> {
     match word {
         "matrix" => Ok(TableLayout::Matrix),
@@ -40,8 +49,24 @@ fn layout(word: &str) -> Result<TableLayout, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let said = arguments.said.said();
+    let of_name = || arguments.output.as_deref().and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
+    let hull = arguments.table.is_dir()
+        || arguments.table.extension().is_some_and(|e| HULLS.iter().any(|known| e.eq_ignore_ascii_case(known)));
+    let table = hull.then(|| {
+        let workbook = arguments.output.as_ref().and_then(|path| path.extension()).is_some_and(|e| e == "xlsx");
+        if workbook { ExportFormat::Xlsx } else { ExportFormat::Csv }
+    });
+    if let Some(format) = arguments.format.or_else(of_name).or(table) {
+        let name = arguments.output.as_deref().unwrap_or(&arguments.table).to_string_lossy().into_owned();
+        let (file, messages) = convert_file(&arguments.table, &said, &name, format, &ExportSettings::default())?;
+        if !arguments.quiet {
+            messages.iter().for_each(|message| stream::message(message));
+        }
+        return stream::bytes_or_file(file.contents, arguments.output.as_deref(), arguments.force);
+    }
     let writing = TableWriting { notation: arguments.notation, layout: arguments.layout };
-    let converted = convert_table(&arguments.table, writing)?;
+    let converted = convert_table(&arguments.table, &said, writing)?;
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }

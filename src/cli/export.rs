@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
-use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source, write_all};
+use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source_with, write_all};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
-    /// gf, britfair, pias, pdstrip, freeship, csv, xlsx, dxf-plan
+    /// gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -23,11 +23,13 @@ pub(super) struct Arguments {
     /// Unit of STEP, IGES and DXF files: m or mm; meshes are in metres
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
+    #[command(flatten)]
+    said: super::BodyFlags,
     /// Version of DXF files: r12 or r2000
     #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
     dxf: DxfVersion,
     /// What meshes, polylines and sections leave the surface by at most; without it a thousandth of the breadth
-    #[arg(long, value_parser = positive, value_name = "LENGTH")]
+    #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
@@ -35,14 +37,14 @@ pub(super) struct Arguments {
     /// Height above the base line that is z = 0 in the files: a length, or `waterline` for the design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
-    /// Draught of panels above the base line [default: of the hull]
-    #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH")]
+    /// Draught of panels, and of the offsets for Michlet, above the base line [default: of the hull]
+    #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     draught: Option<f64>,
     /// Length of the sides of panels; without it a fiftieth of Lpp
-    #[arg(long, value_parser = positive, value_name = "LENGTH")]
+    #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     panel: Option<f64>,
     /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles
-    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.01)]
+    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.01, allow_hyphen_values = true)]
     flatness: f64,
     /// Overwrite files that are there already
     #[arg(long)]
@@ -63,7 +65,8 @@ and deck (named in stl-ascii, obj and glb). The page tells whether it is closed,
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
 the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
 gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
-stations as points within the deviation. csv, xlsx: half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
+stations as points within the deviation. ftm (FREE!ship, DELFTship): the control net of a subdivision surface through points of the \
+hull, with its knuckles as creases; michlet: half-breadths below --draught, from the bow aft, from the lowest point up. csv, xlsx, delftship (table of DELFTship): half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
 their own frames, have z = 0 on the base line.
 x forward from AP, y to port, z up; glb has y up: X = x, Y = z, Z = -y.";
 
@@ -73,7 +76,7 @@ enum Datum {
     Waterline,
 }
 
-fn format(text: &str) -> Result<ExportFormat, String> {
+pub(super) fn format(text: &str) -> Result<ExportFormat, String> {
     let found = ExportFormat::ALL.into_iter().find(|format| format.name() == text.trim());
     found.ok_or_else(|| {
         let names: Vec<&str> = ExportFormat::ALL.iter().map(|format| format.name()).collect();
@@ -107,7 +110,7 @@ fn datum(text: &str) -> Result<Datum, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source(&arguments.hull)?;
+    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
     let stem = arguments.hull.file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {

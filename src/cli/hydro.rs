@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
 use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection};
-use crate::report::{Failure, hydrostatics_page, read_floating};
+use crate::report::{Failure, hydrostatics_page, read_floating_with};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -19,6 +19,8 @@ pub(super) struct Arguments {
     /// Draughts above the base line [m], as 1:9:1
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     draughts: Lengths,
+    #[command(flatten)]
+    said: super::BodyFlags,
     /// Every quantity as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
@@ -102,7 +104,7 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_floating(&arguments.hull)?;
+    let source = read_floating_with(&arguments.hull, &arguments.said.said())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let table = source.curves_of_form(&arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {

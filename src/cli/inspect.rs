@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Lengths, lengths, positive, section, stream};
 use crate::fairing::inspect::{Inspection, Planes, Resolution};
 use crate::hull::Cut;
-use crate::report::{Failure, inspection_json, inspection_page, read_source};
+use crate::report::{Failure, inspection_json, inspection_page, read_source_with};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -15,6 +15,8 @@ use crate::units::{Dimension, parse};
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
+    #[command(flatten)]
+    said: super::BodyFlags,
     /// Stations, from AP [m]; each list that is not given has the lines of a table of offsets
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     stations: Option<Lengths>,
@@ -84,7 +86,7 @@ fn diagonal_angle(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source(&arguments.hull)?;
+    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let hull = source.hull;
     let usual = Planes::with_defaults(&hull);

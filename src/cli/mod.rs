@@ -23,18 +23,19 @@ mod validate;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 
-use crate::report::Failure;
+use crate::report::{Failure, Said};
+use crate::units::Notation;
 
 /// The tables of offsets that are read, for the help of every command that takes one.
 const TABLES: &str = "\
 Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlines, one offset a line, or sections as points), \
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
-DELFTship, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
+DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
 Bodies: meshes as STL (binary, ASCII) and OBJ, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
-files, without what trims them; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up), x_origin \
+files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
 /// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.
@@ -90,6 +91,28 @@ struct Lengths(Vec<f64>);
 
 fn lengths(text: &str) -> Result<Lengths, String> {
     crate::units::parse_list(text).map(Lengths).map_err(|error| error.to_string())
+}
+
+/// What is said of a table or a body over the TOML beside it.
+#[derive(Debug, Args)]
+struct BodyFlags {
+    /// Unit of a table, a mesh or a CAD file, over what it says itself: m, mm, cm, ft, in
+    #[arg(long, value_parser = offsets::notation, value_name = "UNIT")]
+    input_unit: Option<Notation>,
+    /// Axis of a mesh or a CAD file that points up: z, y, x or -z, -y, -x; the longer of the other two points forward
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, conflicts_with = "axes")]
+    up: Option<String>,
+    /// Axes of a mesh or a CAD file that point forward, to port and up, as "x -z y"
+    #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+    axes: Option<String>,
+}
+
+impl BodyFlags {
+    fn said(&self) -> Said {
+        let unit = self.input_unit.map(|unit| unit.as_str().to_owned());
+        let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone())];
+        Said { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect() }
+    }
 }
 
 fn length(text: &str) -> Result<f64, String> {

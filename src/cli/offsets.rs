@@ -6,13 +6,15 @@ use clap::Args;
 
 use super::{Lengths, lengths, stream};
 use crate::exchange::{heights_csv, offsets_csv};
-use crate::report::{Failure, offsets, read_source};
+use crate::report::{Failure, offsets, read_source_with};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
+    #[command(flatten)]
+    said: super::BodyFlags,
     /// Stations, from AP [m]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     stations: Lengths,
@@ -39,7 +41,7 @@ pub(super) fn notation(word: &str) -> Result<Notation, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source(&arguments.hull)?;
+    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let buttocks = arguments.buttocks.as_ref().map_or(&[][..], |list| &list.0);
     let table = offsets(&source.hull, &arguments.stations.0, &arguments.waterlines.0, buttocks)?;

@@ -7,12 +7,14 @@ use clap::Args;
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{section_csv, section_json};
 use crate::hull::Cut;
-use crate::report::{Failure, read_source, sections_of};
+use crate::report::{Failure, read_source_with, sections_of};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
+    #[command(flatten)]
+    said: super::BodyFlags,
     #[command(flatten)]
     plane: Plane,
     /// Largest distance between the points' chords and the curve [m]
@@ -72,7 +74,7 @@ impl Plane {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source(&arguments.hull)?;
+    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let cut = arguments.plane.cut().ok_or_else(|| Failure::Internal("no plane".to_owned()))?;
     let section = sections_of(&source.hull, cut);

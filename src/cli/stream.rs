@@ -8,8 +8,12 @@ use crate::report::{Failure, OutputFile, write_all};
 
 /// Writes data to stdout.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
+    raw(text.as_bytes())
+}
+
+fn raw(bytes: &[u8]) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::FileSystem { act: "write", path: "standard output".into(), error })
         }
@@ -26,6 +30,12 @@ pub(super) fn message(text: &str) {
 pub(super) fn data_or_file(text: String, file: Option<&Path>, force: bool) -> Result<(), Failure> {
     let Some(path) = file else { return data(&text) };
     into(path, force, |name| Ok(OutputFile::text(name, text)))
+}
+
+/// The same of bytes.
+pub(super) fn bytes_or_file(contents: Vec<u8>, file: Option<&Path>, force: bool) -> Result<(), Failure> {
+    let Some(path) = file else { return raw(&contents) };
+    into(path, force, |name| Ok(OutputFile { name: name.to_owned(), contents }))
 }
 
 /// The same of a table; a file whose name ends in `.xlsx` becomes a workbook.

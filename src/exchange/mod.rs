@@ -17,6 +17,7 @@ mod report_tables;
 mod residuals;
 mod scene;
 mod section;
+mod subdivision;
 mod summary;
 mod table;
 
@@ -34,10 +35,11 @@ pub use report_tables::{diagonals_csv, hydrostatics_workbook, section_areas_csv}
 pub use residuals::residuals_csv;
 pub use scene::scene_json;
 pub use section::{section_csv, section_json};
+pub use subdivision::{SubdivisionProject, read_subdivision, write_ftm};
 pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{
     LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS, MOST_UNPACKED, ReadBody, ReadTable,
     Rounding, Severity, TableProblem, TableWriting, WrittenTable, only_sections, read_body, read_fractions,
-    read_particulars, read_table, read_table_with, workbook, write_britfair, write_freeship, write_ghs, write_pdstrip,
-    write_pias, write_table,
+    read_particulars, read_table, read_table_with, workbook, write_britfair, write_delftship, write_freeship,
+    write_ghs, write_michlet, write_pdstrip, write_pias, write_table,
 };

@@ -19,6 +19,7 @@ mod panels;
 mod particulars;
 mod section;
 mod solid;
+mod subdivision;
 mod table_form;
 mod triangles;
 
@@ -42,5 +43,6 @@ pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings}
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
+pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};
 pub use table_form::{Kept, Order, Origin, Program, Rows, SideKind, SideLine, TableForm, TableLayout};
 pub use triangles::{MeshLine, TriangleMesh, triangle_area};

@@ -90,6 +90,9 @@ pub struct OffsetTable {
     pub form: TableForm,
 }
 
+/// Waterlines at which the ends of the immersed hull are looked for.
+const ENDS: usize = 101;
+
 impl OffsetTable {
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
@@ -109,6 +112,33 @@ impl OffsetTable {
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
         Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull))
+    }
+}
+
+impl OffsetTable {
+    /// Half-breadths of the hull below a draught at `count` stations, at equal distances from its aftmost to its foremost immersed point,
+    /// and at `count` waterlines, at equal distances from its lowest point to the draught; 0 where there is no hull. None when nothing
+    /// is below the draught.
+    #[must_use]
+    pub fn of_immersed(hull: &Hull, draught: f64, count: usize) -> Option<Self> {
+        let count = count.max(2);
+        let low = hull.bottom();
+        let share = |k: usize, n: usize| k as f64 / (n - 1) as f64;
+        let waterlines: Vec<f64> = (0..count).map(|k| low + (draught - low) * share(k, count)).collect();
+        // A bulb may reach beyond the waterline: the ends of all waterlines.
+        let ends = (0..ENDS).filter_map(|k| hull.endings(low + (draught - low) * share(k, ENDS)));
+        let [aft, fore] = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        if draught <= low || fore <= aft {
+            return None;
+        }
+        let at = |x: f64, z: f64| hull.half_breadth(x, z).map_or(0.0, |y| y.max(0.0));
+        let stations = (0..count).map(|k| {
+            let x = aft + (fore - aft) * share(k, count);
+            let half_breadths = waterlines.iter().map(|&z| Cell::from(Some(at(x, z)))).collect();
+            StationOffsets { half_breadths, ..StationOffsets::new(k.to_string(), x) }
+        });
+        let stations = stations.collect();
+        Some(Self { name: hull.name().to_owned(), waterlines, stations, ..Self::default() })
     }
 }
 

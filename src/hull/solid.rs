@@ -4,13 +4,16 @@
 //! shared by both sides, any other piece has its mirror image and a ruled face between the two (bottom, transom, flat bow, deck).
 //! Every face is run so that its normal S_u x S_v points out of the body, and its loop counter-clockwise seen from outside.
 //!
-//! Where the deck at side cuts the surface, the part below it has no exact B-spline: it is interpolated on a net of
-//! [`FINENESS`] times the spans, and what the new surface leaves the old one by is told. Where the surface goes through the
+//! Where the deck at side cuts the surface, each side is two faces that meet along a line of the net: the surface as it is below, and above
+//! it one that is interpolated up to the deck (`topsides`); what that leaves the surface by is told. Where the surface goes through the
 //! centreplane its net ends there, so that the sides do not go through each other; that is told as well.
+
+mod topsides;
 
 use super::form::Hull;
 use super::mesh::Region;
-use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+use crate::numeric::gauss_legendre;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError, cross, dot};
 
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
@@ -20,9 +23,6 @@ const SAME: f64 = 1e-9;
 
 /// Intervals of a span in which a surface is looked at.
 const SAMPLES: usize = 6;
-
-/// Spans for one span where the surface is interpolated below its deck.
-const FINENESS: usize = 6;
 
 /// A curve between two vertices.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,47 +136,75 @@ impl Builder {
     }
 }
 
+/// Edges of a face in turn, and whether they are run forward.
+type Loop = Vec<(usize, bool)>;
+
+impl Builder {
+    /// The loops around a part of the starboard and of the port side, and the faces between the two along its edges. An edge without a
+    /// region is shared with another part of the same side.
+    fn around(
+        &mut self,
+        sides: [(Option<Region>, BsplineCurve<3>, bool); 4],
+        slack: f64,
+        closing: &mut Vec<SolidFace>,
+    ) -> Result<[Loop; 2], SplineError> {
+        let mut loops: [Loop; 2] = [Vec::new(), Vec::new()];
+        for (region, curve, forward) in sides {
+            let mut list = pieces(&curve, slack)?;
+            if !forward {
+                list.reverse();
+            }
+            for (left, flat) in list {
+                let right = BsplineCurve::new(left.knots().clone(), mirrored(left.points()))?;
+                let turned = |(edge, along): (usize, bool)| (edge, along == forward);
+                let starboard_edge = self.edge(&right);
+                let port_edge = self.edge(&left);
+                loops[0].extend(starboard_edge.map(turned));
+                loops[1].extend(port_edge.map(turned));
+                let Some(region) = region.filter(|_| !flat) else { continue };
+                // The face between runs so that its normal points out: bottom and bow against the curve, transom and deck along it.
+                let along = matches!(region, Region::Transom | Region::Deck);
+                let (left, right) = if along { (left, right) } else { (left.reversed(), right.reversed()) };
+                let knots = left.knots().clone();
+                let net = right.points().iter().zip(left.points()).flat_map(|(&r, &l)| [r, l]).collect();
+                let surface = BsplineSurface::new(knots, KnotVector::uniform(1, 1)?, net)?;
+                let (first, last) = (left.points()[0], left.points()[left.points().len() - 1]);
+                let mut boundary = Vec::new();
+                let reverse = |(edge, along): (usize, bool)| (edge, !along);
+                boundary.extend(self.edge(&right));
+                boundary.extend(self.edge(&across(last)?));
+                boundary.extend(self.edge(&left).map(reverse));
+                boundary.extend(self.edge(&across(first)?).map(reverse));
+                closing.push(SolidFace { region, name: region.name().to_owned(), surface, boundary });
+            }
+        }
+        Ok(loops)
+    }
+}
+
+/// What a face adds to the volume of its solid \[m^3\].
+fn enclosed(surface: &BsplineSurface<3>) -> f64 {
+    // The integrand is of degree 3 p - 1.
+    let rule = |knots: &KnotVector| gauss_legendre((3 * knots.degree()).div_ceil(2));
+    let (in_u, in_v) = (rule(surface.u()), rule(surface.v()));
+    let (us, vs) = (surface.u().breakpoints(), surface.v().breakpoints());
+    let cell = |u: &[f64], v: &[f64]| {
+        let mut sum = 0.0;
+        for (s, p) in in_u.on(u[0], u[1]) {
+            for (t, q) in in_v.on(v[0], v[1]) {
+                let d = surface.derivatives::<2>(s, t);
+                sum += p * q * dot(d[0][0], cross(d[1][0], d[0][1]));
+            }
+        }
+        sum
+    };
+    us.windows(2).map(|u| vs.windows(2).map(|v| cell(u, v)).sum::<f64>()).sum::<f64>() / 3.0
+}
+
 /// One end of a line between the two sides, straight across.
 fn across(point: [f64; 3]) -> Result<BsplineCurve<3>, SplineError> {
     let [x, y, z] = point;
     BsplineCurve::new(KnotVector::uniform(1, 1)?, vec![[x, 0.0 - y, z], [x, y, z]])
-}
-
-/// The surface below the deck at side, and what it leaves the surface by \[m\].
-fn below_deck(hull: &Hull, parameter: impl Fn(f64) -> f64) -> Result<(BsplineSurface<3>, f64), SplineError> {
-    let surface = hull.surface();
-    let (from, to) = surface.v().domain();
-    let finer = |knots: &KnotVector| -> Result<KnotVector, SplineError> {
-        let breaks = knots.breakpoints();
-        let mut fine = Vec::new();
-        let mut folds = Vec::new();
-        for (k, span) in breaks.windows(2).enumerate() {
-            for part in 0..FINENESS {
-                fine.push(span[0] + (span[1] - span[0]) * part as f64 / FINENESS as f64);
-                folds.push(if part == 0 && k > 0 { knots.multiplicity(span[0]) } else { 1 });
-            }
-        }
-        fine.push(breaks[breaks.len() - 1]);
-        folds.push(1);
-        KnotVector::from_breakpoints(knots.degree(), &fine, &folds[1..folds.len() - 1])
-    };
-    let (u, v) = (finer(surface.u())?, finer(surface.v())?);
-    let point = |s: f64, t: f64| surface.eval(s, from + (t - from) * (parameter(s) - from) / (to - from));
-    let (us, vs) = (u.greville(), v.greville());
-    let points: Vec<[f64; 3]> =
-        us.iter().flat_map(|&s| vs.iter().map(move |&t| (s, t))).map(|(s, t)| point(s, t)).collect();
-    let below = BsplineSurface::interpolate([u, v], [&us, &vs], &points)?;
-    let middles = |sites: &[f64]| sites.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect::<Vec<_>>();
-    let mut deviation = 0.0_f64;
-    for &s in &middles(&us) {
-        for &t in &middles(&vs) {
-            let [x, y, z] = below.eval(s, t);
-            // Points slide along the surface: what counts is the half-breadth at the same place of the profile.
-            let there = hull.half_breadth(x, z).unwrap_or_else(|| point(s, t)[1]);
-            deviation = deviation.max((y - there).abs());
-        }
-    }
-    Ok((below, deviation))
 }
 
 /// Points of every span of a surface.
@@ -208,78 +236,58 @@ impl Solid {
     /// # Errors
     /// [`SplineError`] when the surface below the deck cannot be interpolated.
     pub fn new(hull: &Hull) -> Result<Self, SplineError> {
-        let (_, to) = hull.surface().v().domain();
-        let domain = hull.surface().u().domain();
-        let parameter = |u: f64| super::mesh::deck_parameter(hull, u);
-        let sites = hull.surface().u().greville();
-        let cut = sites.iter().any(|&u| parameter(u.clamp(domain.0, domain.1)) < to);
-        let (surface, deviation) = if cut { below_deck(hull, parameter)? } else { (hull.surface().clone(), 0.0) };
-        let breadth = surface.points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+        let topsides::Parts { surfaces, mut deviation } = topsides::below_deck(hull)?;
+        let breadth = hull.surface().points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
         let slack = CENTREPLANE * breadth;
-        let crossed = crosses(&surface, slack);
-        let on_centreplane = |y: f64| y.abs() <= slack || (crossed && y < 0.0);
-        let points: Vec<[f64; 3]> =
-            surface.points().iter().map(|&[x, y, z]| [x, if on_centreplane(y) { 0.0 } else { y }, z]).collect();
-        let port = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
-        let deviation = if crossed { deviation.max(moved(&surface, &port)) } else { deviation };
-        let starboard = BsplineSurface::new(surface.u().clone(), surface.v().clone(), mirrored(port.points()))?;
+        let mut ports = Vec::new();
+        for surface in surfaces {
+            let crossed = crosses(&surface, slack);
+            let on_centreplane = |y: f64| y.abs() <= slack || (crossed && y < 0.0);
+            let points: Vec<[f64; 3]> =
+                surface.points().iter().map(|&[x, y, z]| [x, if on_centreplane(y) { 0.0 } else { y }, z]).collect();
+            let port = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
+            deviation = if crossed { deviation.max(moved(&surface, &port)) } else { deviation };
+            ports.push(port);
+        }
         let long = hull.particulars().length_between_perpendiculars;
         let mut builder = Builder { vertices: Vec::new(), edges: Vec::new(), same: SAME * long };
-        let ((a, b), (c, d)) = (port.u().domain(), port.v().domain());
-        // The four edges as a loop around the starboard side: bottom forward, stem up, deck aft, stern down.
-        let sides = [
-            (Region::Bottom, port.curve_at_v(c), true),
-            (Region::Bow, port.curve_at_u(b), true),
-            (Region::Deck, port.curve_at_v(d), false),
-            (Region::Transom, port.curve_at_u(a), false),
-        ];
-        let mut loops: [Vec<(usize, bool)>; 2] = [Vec::new(), Vec::new()];
-        let mut closing = Vec::new();
-        for (region, curve, forward) in sides {
-            let mut list = pieces(&curve, slack)?;
-            if !forward {
-                list.reverse();
-            }
-            for (piece, flat) in list {
-                let left = piece.clone();
-                let right = BsplineCurve::new(piece.knots().clone(), mirrored(piece.points()))?;
-                let turned = |(edge, along): (usize, bool)| (edge, along == forward);
-                let starboard_edge = builder.edge(&right);
-                let port_edge = builder.edge(&left);
-                loops[0].extend(starboard_edge.map(turned));
-                loops[1].extend(port_edge.map(turned));
-                if flat {
-                    continue;
-                }
-                // The face between runs so that its normal points out: bottom and bow against the curve, transom and deck along it.
-                let along = matches!(region, Region::Transom | Region::Deck);
-                let (left, right) = if along { (left, right) } else { (left.reversed(), right.reversed()) };
-                let knots = left.knots().clone();
-                let net = right.points().iter().zip(left.points()).flat_map(|(&r, &l)| [r, l]).collect();
-                let surface = BsplineSurface::new(knots, KnotVector::uniform(1, 1)?, net)?;
-                let (first, last) = (left.points()[0], left.points()[left.points().len() - 1]);
-                let mut boundary = Vec::new();
-                let reverse = |(edge, along): (usize, bool)| (edge, !along);
-                boundary.extend(builder.edge(&right));
-                boundary.extend(builder.edge(&across(last)?));
-                boundary.extend(builder.edge(&left).map(reverse));
-                boundary.extend(builder.edge(&across(first)?).map(reverse));
-                closing.push(SolidFace { region, name: region.name().to_owned(), surface, boundary });
-            }
-        }
-        let [right, left] = loops;
-        let left = left.into_iter().rev().map(|(edge, along)| (edge, !along)).collect();
-        let mut faces = vec![
-            SolidFace {
+        let (mut faces, mut closing) = (Vec::new(), Vec::new());
+        let mut seam: Option<BsplineCurve<3>> = None;
+        for (k, port) in ports.iter().enumerate() {
+            let last = k + 1 == ports.len();
+            let (bottom, top) = (k == 0, last.then_some(Region::Deck));
+            let ((a, b), (c, d)) = (port.u().domain(), port.v().domain());
+            let below = seam.take().unwrap_or_else(|| port.curve_at_v(c));
+            let above = port.curve_at_v(d);
+            seam = Some(above.clone());
+            // The four edges as a loop around the starboard side: bottom forward, stem up, deck aft, stern down.
+            let sides = [
+                (bottom.then_some(Region::Bottom), below, true),
+                (Some(Region::Bow), port.curve_at_u(b), true),
+                (top, above, false),
+                (Some(Region::Transom), port.curve_at_u(a), false),
+            ];
+            let [right, left] = builder.around(sides, slack, &mut closing)?;
+            let left = left.into_iter().rev().map(|(edge, along)| (edge, !along)).collect();
+            let starboard = BsplineSurface::new(port.u().clone(), port.v().clone(), mirrored(port.points()))?;
+            let part = if k == 0 { "hull" } else { "topsides" };
+            let face = |side: &str, surface, boundary| SolidFace {
                 region: Region::Hull,
-                name: "hull port".to_owned(),
-                surface: port.transposed(),
-                boundary: left,
-            },
-            SolidFace { region: Region::Hull, name: "hull starboard".to_owned(), surface: starboard, boundary: right },
-        ];
+                name: format!("{part} {side}"),
+                surface,
+                boundary,
+            };
+            faces.push(face("port", port.transposed(), left));
+            faces.push(face("starboard", starboard, right));
+        }
         faces.extend(closing);
         Ok(Self { vertices: builder.vertices, edges: builder.edges, faces, deviation })
+    }
+
+    /// The volume that the faces enclose, (1/3) sum of int S . (S_u x S_v) du dv, exact to rounding \[m^3\].
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.faces.iter().map(|face| enclosed(&face.surface)).sum()
     }
 
     /// The solid with its origin raised by `datum` \[m\].

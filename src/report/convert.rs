@@ -2,10 +2,16 @@
 
 use std::path::Path;
 
+use super::export::{ExportFormat, ExportSettings, export};
 use super::failure::Failure;
-use super::source::read_table_file;
-use crate::exchange::{Severity, TableWriting, WrittenTable, only_sections, write_table};
-use crate::hull::{TableForm, TableLayout};
+use super::files::OutputFile;
+use super::source::{Said, beside, of_table, read_bytes, read_source_with, read_table_file_with};
+use crate::exchange::{
+    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship,
+    write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii,
+    write_table,
+};
+use crate::hull::{HullMesh, OffsetTable, Region, TableForm, TableLayout};
 
 /// A converted table, and what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +29,8 @@ pub struct Converted {
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table; [`Failure::Usage`] when the layout that is asked
 /// for cannot hold the table.
-pub fn convert_table(path: &Path, writing: TableWriting) -> Result<Converted, Failure> {
-    let (table, notes) = read_table_file(path)?;
+pub fn convert_table(path: &Path, said: &Said, writing: TableWriting) -> Result<Converted, Failure> {
+    let (table, notes) = read_table_file_with(path, said)?;
     let sections = only_sections(&table);
     if sections && writing.layout.is_some_and(|layout| layout != TableLayout::Tidy) {
         return Err(Failure::Usage(
@@ -58,4 +64,89 @@ pub fn convert_table(path: &Path, writing: TableWriting) -> Result<Converted, Fa
         messages.push("sections given as points are not written; a tidy table holds them (--layout tidy)".to_owned());
     }
     Ok(Converted { written, form: table.form, messages })
+}
+
+/// Whether a file is a hull or a design by its name.
+fn is_hull(path: &Path) -> bool {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    path.is_dir() || matches!(extension.as_str(), "json" | "toml" | "hgf" | "huf")
+}
+
+/// The writer of tables in a format, where one takes tables that are nothing but `sections` or other tables; none of other formats.
+fn of_table_in(format: ExportFormat, sections: bool) -> Option<fn(&OffsetTable) -> String> {
+    Some(match format {
+        ExportFormat::Ghs => write_ghs,
+        ExportFormat::Britfair => write_britfair,
+        ExportFormat::Pias => write_pias,
+        ExportFormat::Pdstrip => write_pdstrip,
+        ExportFormat::Freeship => write_freeship,
+        ExportFormat::Delftship if !sections => write_delftship,
+        _ => return None,
+    })
+}
+
+/// The contents of a file and messages for the user.
+type WithMessages = (Vec<u8>, Vec<String>);
+
+/// The file of a body of triangles in a format of meshes; none of other formats.
+fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option<WithMessages>, Failure> {
+    if !format.is_mesh() {
+        return Ok(None);
+    }
+    let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
+    let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+    let Some(body) = read_body(&path.display().to_string(), &bytes, list) else { return Ok(None) };
+    let body = body.map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))?;
+    let triangles = body.meshes.first().cloned().unwrap_or_default();
+    let mesh = HullMesh {
+        vertices: triangles.vertices,
+        triangles: triangles.triangles.into_iter().map(|corners| (Region::Hull, corners)).collect(),
+    };
+    let contents = match format {
+        ExportFormat::Stl => write_stl(&mesh, &body.name),
+        ExportFormat::StlAscii => write_stl_ascii(&mesh).into_bytes(),
+        ExportFormat::Obj => write_obj(&mesh, &body.name).into_bytes(),
+        _ => write_glb(&mesh, &body.name),
+    };
+    Ok(Some((contents, body.notes.iter().map(ToString::to_string).collect())))
+}
+
+/// Reads a table, a body, a hull or a design and writes it as `format` in one file; messages for the user beside it.
+///
+/// Sections of a table or a body become sections of another program as they are, triangles stay triangles, a control net stays a control
+/// net; everything else goes over a hull, which is laid through tables and bodies.
+///
+/// # Errors
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of what is read; those of [`export`].
+pub fn convert_file(
+    path: &Path,
+    said: &Said,
+    name: &str,
+    format: ExportFormat,
+    settings: &ExportSettings,
+) -> Result<(OutputFile, Vec<String>), Failure> {
+    let file = |contents: Vec<u8>| OutputFile { name: name.to_owned(), contents };
+    if !is_hull(path) {
+        let takes = |sections| of_table_in(format, sections);
+        if takes(false).is_some()
+            && let (table, notes) = read_table_file_with(path, said)?
+            && let Some(write) = takes(only_sections(&table))
+        {
+            return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
+        }
+        if let (ExportFormat::Ftm, true) = (format, said.keys.is_empty())
+            && let Some(read) = read_subdivision(&path.display().to_string(), &read_bytes(path)?)
+        {
+            let project = read.map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))?;
+            return Ok((file(write_ftm(&project).into_bytes()), Vec::new()));
+        }
+        if let Some((contents, notes)) = of_triangles(path, said, format)? {
+            return Ok((file(contents), notes));
+        }
+    }
+    let source = read_source_with(path, said)?;
+    let stem = Path::new(name).file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
+    let mut exported = export(&source.hull, &stem, &[format], settings)?;
+    let contents = exported.files.pop().map(|file| file.contents).unwrap_or_default();
+    Ok((file(contents), source.notes.into_iter().chain(exported.page.lines().map(str::to_owned)).collect()))
 }

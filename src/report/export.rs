@@ -6,12 +6,13 @@ use super::failure::Failure;
 use super::files::OutputFile;
 use super::lines_plan::{drawn_plan, lines_in_space};
 use crate::exchange::{
-    CadUnit, DxfVersion, offsets_csv, write_britfair, write_dxf, write_freeship, write_gdf, write_ghs, write_glb,
-    write_iges, write_nemoh, write_obj, write_pdstrip, write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
+    CadUnit, DxfVersion, SubdivisionProject, offsets_csv, write_britfair, write_delftship, write_dxf, write_freeship,
+    write_ftm, write_gdf, write_ghs, write_glb, write_iges, write_michlet, write_nemoh, write_obj, write_pdstrip,
+    write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, TableForm,
-    section_stations, whole_volume,
+    Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, SubdivisionNet,
+    TableForm, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::Notation;
@@ -49,6 +50,12 @@ pub enum ExportFormat {
     Pdstrip,
     /// Sections as the text that FREE!ship and DELFTship import.
     Freeship,
+    /// Half-breadths over stations and waterlines as the table of DELFTship.
+    Delftship,
+    /// The control net of a subdivision surface for FREE!ship and DELFTship.
+    Ftm,
+    /// Half-breadths below the draught for Michlet.
+    Michlet,
     /// Half-breadths over stations and waterlines as CSV.
     Csv,
     /// The same as a workbook.
@@ -59,7 +66,7 @@ pub enum ExportFormat {
 
 impl ExportFormat {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 21] = [
         Self::Step,
         Self::Iges,
         Self::Dxf,
@@ -75,6 +82,9 @@ impl ExportFormat {
         Self::Pias,
         Self::Pdstrip,
         Self::Freeship,
+        Self::Delftship,
+        Self::Ftm,
+        Self::Michlet,
         Self::Csv,
         Self::Xlsx,
         Self::DxfPlan,
@@ -99,6 +109,9 @@ impl ExportFormat {
             Self::Pias => "pias",
             Self::Pdstrip => "pdstrip",
             Self::Freeship => "freeship",
+            Self::Delftship => "delftship",
+            Self::Ftm => "ftm",
+            Self::Michlet => "michlet",
             Self::Csv => "csv",
             Self::Xlsx => "xlsx",
             Self::DxfPlan => "dxf-plan",
@@ -123,13 +136,26 @@ impl ExportFormat {
             Self::Pias => "-pias.txt",
             Self::Pdstrip => "-pdstrip.txt",
             Self::Freeship => "-freeship.txt",
+            Self::Delftship => "-delftship.txt",
+            Self::Ftm => ".ftm",
+            Self::Michlet => ".mlt",
             Self::Csv => ".csv",
             Self::Xlsx => ".xlsx",
             Self::DxfPlan => "-plan.dxf",
         }
     }
 
-    const fn is_mesh(self) -> bool {
+    /// The format that the ending of a name of a file says, where only one has it; tables (`.csv`, `.xlsx`) are not among them.
+    #[must_use]
+    pub fn from_ending(name: &str) -> Option<Self> {
+        let name = name.to_ascii_lowercase();
+        let others = [(".stp", Self::Step), (".iges", Self::Iges)];
+        let known = Self::ALL.into_iter().map(|format| (format.ending(), format));
+        let own = known.filter(|(ending, format)| ending.starts_with('.') && !matches!(format, Self::Csv | Self::Xlsx));
+        own.chain(others).find(|(ending, _)| name.ends_with(ending)).map(|(_, format)| format)
+    }
+
+    pub(super) const fn is_mesh(self) -> bool {
         matches!(self, Self::Stl | Self::StlAscii | Self::Obj | Self::Glb)
     }
 
@@ -190,6 +216,9 @@ pub struct Exported {
 /// Deviation of meshes, polylines and sections over the breadth.
 const DEVIATION: f64 = 1e-3;
 
+/// Stations, and waterlines, for Michlet.
+const MICHLET: usize = 41;
+
 /// Panels over the length between perpendiculars.
 const PANELS: f64 = 50.0;
 
@@ -232,6 +261,33 @@ fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String),
     Ok((mesh, line))
 }
 
+/// The control net of a hull and its line on the page.
+fn subdivision(hull: &Hull, title: &str, deviation: f64) -> (String, String) {
+    let (net, reached) = SubdivisionNet::of_hull(hull, deviation);
+    let line = format!(
+        "control net: {} points, {} faces; its surface is within {reached:.2e} m of the hull, z from the base line",
+        net.points.len(),
+        net.faces.len()
+    );
+    let stated = hull.particulars().into();
+    (write_ftm(&SubdivisionProject { name: title.to_owned(), stated, unit: 1.0, net }), line)
+}
+
+/// Half-breadths of the immersed hull for Michlet, and their line on the page.
+fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(String, String), Failure> {
+    let draught = settings.draught.unwrap_or(hull.particulars().draught);
+    let table = OffsetTable::of_immersed(hull, draught, MICHLET)
+        .ok_or_else(|| Failure::Usage(format!("nothing of the hull is below the draught of {draught} m")))?;
+    let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
+    let first = table.stations.first().map_or(0.0, |station| station.station.x);
+    let last = table.stations.last().map_or(0.0, |station| station.station.x);
+    let line = format!(
+        "offsets for Michlet: {0} stations from x = {last:.3} m aft to {first:.3} m, {0} waterlines up to {draught:.3} m",
+        MICHLET
+    );
+    Ok((write_michlet(&table, title, row.displacement_volume), line))
+}
+
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
@@ -259,7 +315,13 @@ pub fn export(
             return Err(Failure::Internal("the faces of the solid do not share their edges".to_owned()));
         }
         let faces: Vec<&str> = solid.faces.iter().map(|face| face.name.as_str()).collect();
-        page.push(format!("solid: {} edges, faces {}", solid.edges.len(), faces.join(", ")));
+        let own = solid.volume();
+        page.push(format!(
+            "solid: {} edges, faces {}; volume {own:.12e} m3, {:+.1e} of the hull's",
+            solid.edges.len(),
+            faces.join(", "),
+            own / volume - 1.0
+        ));
         if solid.deviation > 0.0 {
             page.push(format!(
                 "the deck or the centreplane cuts the surface: the faces are within {:.2e} m of the hull",
@@ -293,6 +355,17 @@ pub fn export(
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
             (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
+            (ExportFormat::Delftship, ..) => write_delftship(&OffsetTable::with_defaults(hull)).into_bytes(),
+            (ExportFormat::Ftm, ..) => {
+                let (text, line) = subdivision(hull, title, deviation);
+                page.push(line);
+                text.into_bytes()
+            }
+            (ExportFormat::Michlet, ..) => {
+                let (text, line) = michlet(hull, title, settings)?;
+                page.push(line);
+                text.into_bytes()
+            }
             (ExportFormat::DxfPlan, ..) => {
                 write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use super::source::{beside, of_table, read_bytes, read_source};
+use super::source::{Said, beside, of_table, read_bytes, read_source_with, source_of};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
@@ -57,19 +57,31 @@ fn of_meshes(
     CurvesOfForm::of_triangles(meshes.first().unwrap_or(&none), meshes.get(1), particulars, draughts, conventions)
 }
 
-/// A mesh (STL, OBJ) or the surfaces of a CAD file (STEP, IGES) as the body that it is, and whatever else is a hull as that.
+/// A mesh (STL, OBJ), the surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship) as the body that it is, and whatever else is a hull as that.
 ///
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
 pub fn read_floating(path: &Path) -> Result<Floating, Failure> {
-    if path.is_file() {
-        let (bytes, said) = (read_bytes(path)?, beside(path)?);
-        let said = said.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
-        if let Some(body) = read_body(&path.display().to_string(), &bytes, said) {
+    read_floating_with(path, &Said::default())
+}
+
+/// The same, with conventions of a body or a table over those of its file.
+///
+/// # Errors
+/// Those of [`read_floating`]; [`Failure::Usage`] when conventions are said of a hull.
+pub fn read_floating_with(path: &Path, said: &Said) -> Result<Floating, Failure> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let design = matches!(extension.as_str(), "toml" | "hgf" | "huf");
+    let source = if path.is_dir() || design {
+        read_source_with(path, said)?
+    } else {
+        let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
+        let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+        if let Some(body) = read_body(&path.display().to_string(), &bytes, list) {
             return body.map(of_body).map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()));
         }
-    }
-    let source = read_source(path)?;
+        source_of(path, bytes, said)?
+    };
     let particulars = *source.hull.particulars();
     let body = FloatingBody::Hull(Box::new(source.hull));
     Ok(Floating { body, particulars, conventions: source.conventions, notes: source.notes })

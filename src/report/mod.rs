@@ -27,7 +27,7 @@ mod source;
 mod validate;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
-pub use convert::{Converted, convert_table};
+pub use convert::{Converted, convert_file, convert_table};
 pub use export::{ExportFormat, ExportSettings, Exported, export};
 pub use failure::Failure;
 pub use fair::{FairJob, FairOutputs, fair_outputs, read_fair};
@@ -35,12 +35,15 @@ pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_j
 pub use fair_page::{fair_line, fair_page};
 pub use files::{OutputFile, write_all, write_run};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
-pub use floating::{Floating, read_floating};
+pub use floating::{Floating, read_floating, read_floating_with};
 pub use generate::{Outputs, generate_outputs};
 pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use result::{JobResult, read_result};
 pub use result_files::{ReportSettings, report_outputs};
 pub use self_test::{SelfCheck, self_test};
-pub use source::{Source, offsets, read_design, read_source, read_table_file, sections_of};
+pub use source::{
+    Said, Source, offsets, read_design, read_source, read_source_with, read_table_file, read_table_file_with,
+    sections_of,
+};
 pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};

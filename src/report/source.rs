@@ -110,36 +110,82 @@ pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
 pub fn read_source(path: &Path) -> Result<Source, Failure> {
+    read_source_with(path, &Said::default())
+}
+
+/// The same, with conventions of a table or body over those of its file.
+///
+/// # Errors
+/// Those of [`read_source`]; [`Failure::Usage`] when conventions are said of a file that has its own.
+pub fn read_source_with(path: &Path, said: &Said) -> Result<Source, Failure> {
     let file: PathBuf = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if matches!(extension.as_str(), "toml" | "hgf" | "huf") {
+        said.refuse(&file)?;
         let (design, _) = read_design(&file)?;
         let hull = build(&design)?.hull;
         return Ok(Source { hull, conventions: design.conventions, notes: Vec::new() });
     }
-    let bytes = read_bytes(&file)?;
+    source_of(&file, read_bytes(&file)?, said)
+}
+
+/// The hull of a file, not a design, with these contents.
+pub(super) fn source_of(file: &Path, bytes: Vec<u8>, said: &Said) -> Result<Source, Failure> {
+    let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
     if extension != "json" && first.is_some_and(|&b| b != b'{') {
-        return fitted(&file);
+        return fitted(file, &bytes, said);
     }
-    let text = utf8(&file, bytes)?;
+    said.refuse(file)?;
+    let text = utf8(file, bytes)?;
     match exchange::read_hull(&text) {
         Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions, notes: Vec::new() }),
         Err(HullFileError::Json { line, column, field, message }) => {
-            Err(Failure::Input(vec![diagnostic("E140", &file, Some(line), Some(column), format!("{field}{message}"))]))
+            Err(Failure::Input(vec![diagnostic("E140", file, Some(line), Some(column), format!("{field}{message}"))]))
         }
-        Err(error) => Err(Failure::Input(vec![diagnostic("E141", &file, None, None, error.to_string())])),
+        Err(error) => Err(Failure::Input(vec![diagnostic("E141", file, None, None, error.to_string())])),
     }
 }
 
-/// The name and the text of the TOML file of the same name beside a file, when there is one.
-pub(super) fn beside(path: &Path) -> Result<Option<(String, String)>, Failure> {
-    let beside = path.with_extension("toml");
-    if !beside.is_file() {
-        return Ok(None);
+/// Conventions of a table or a body that stand over those of the TOML beside it: a value for each key of its `[table]`.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Said {
+    /// Keys and values, as they would stand in the file.
+    pub keys: Vec<(&'static str, String)>,
+}
+
+impl Said {
+    /// The conventions as a file: its name in messages, and its text.
+    fn file(&self) -> Option<(String, String)> {
+        let lines: Vec<String> = self.keys.iter().map(|(key, value)| format!("{key} = {value:?}\n")).collect();
+        (!lines.is_empty()).then(|| ("command line".to_owned(), format!("[table]\n{}", lines.concat())))
     }
-    let text = utf8(&beside, read_bytes(&beside)?)?;
-    Ok(Some((beside.display().to_string(), text)))
+
+    /// A hull or a design says its units and axes itself.
+    fn refuse(&self, path: &Path) -> Result<(), Failure> {
+        if self.keys.is_empty() {
+            return Ok(());
+        }
+        let keys: Vec<&str> = self.keys.iter().map(|(key, _)| *key).collect();
+        let message = format!(
+            "{} is a hull in metres and our axes; leave out what is said of it: {}",
+            path.display(),
+            keys.join(", ")
+        );
+        Err(Failure::Usage(message))
+    }
+}
+
+/// The name and the text of the TOML file of the same name beside a file, when there is one, and of what is said over it.
+pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, Failure> {
+    let beside = path.with_extension("toml");
+    let mut list = Vec::new();
+    if beside.is_file() {
+        let text = utf8(&beside, read_bytes(&beside)?)?;
+        list.push((beside.display().to_string(), text));
+    }
+    list.extend(said.file());
+    Ok(list)
 }
 
 /// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the same
@@ -148,10 +194,21 @@ pub(super) fn beside(path: &Path) -> Result<Option<(String, String)>, Failure> {
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
 pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    let bytes = read_bytes(path)?;
-    let beside = beside(path)?;
-    let beside = beside.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
-    let read = exchange::read_table_with(&path.display().to_string(), &bytes, beside);
+    read_table_file_with(path, &Said::default())
+}
+
+/// The same, with conventions over those of its file.
+///
+/// # Errors
+/// Those of [`read_table_file`].
+pub fn read_table_file_with(path: &Path, said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    table_of(path, &read_bytes(path)?, said)
+}
+
+fn table_of(path: &Path, bytes: &[u8], said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    let beside = beside(path, said)?;
+    let beside = beside.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+    let read = exchange::read_table_with(&path.display().to_string(), bytes, beside);
     read.map(|ReadTable { table, notes }| (table, notes))
         .map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))
 }
@@ -174,8 +231,8 @@ pub(super) fn of_table(problem: TableProblem) -> Diagnostic {
 }
 
 /// The hull of a table of offsets.
-fn fitted(path: &Path) -> Result<Source, Failure> {
-    let (table, notes) = read_table_file(path)?;
+fn fitted(path: &Path, bytes: &[u8], said: &Said) -> Result<Source, Failure> {
+    let (table, notes) = table_of(path, bytes, said)?;
     let fitted = Hull::fit(&table, &FitMethod::default())
         .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
     // What was detected, as units and orders, decides the hull as much as what was assumed.

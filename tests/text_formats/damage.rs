@@ -39,6 +39,12 @@ fn damaged_files_are_refused_or_read_and_never_stop_the_program() {
         ]
         .map(|(name, text)| (name, text.to_owned())),
     );
+    let grid = OffsetTable {
+        waterlines: (0..5).map(f64::from).collect(),
+        stations: (0..5).map(|i| StationOffsets::new(i.to_string(), 10.0 * f64::from(i))).collect(),
+        ..OffsetTable::default()
+    };
+    samples.push(("in.mlt", write_michlet(&grid, "a", 1.0)));
     let words = [
         "-1",
         "0",

@@ -7,7 +7,8 @@ mod published;
 mod samples;
 
 use loftsman::exchange::{
-    ReadTable, TableProblem, read_table, write_britfair, write_freeship, write_ghs, write_pdstrip, write_pias,
+    ReadTable, TableProblem, read_table, write_britfair, write_delftship, write_freeship, write_ghs, write_michlet,
+    write_pdstrip, write_pias,
 };
 use loftsman::hull::{Marks, OffsetTable, OutlinePoint, StationOffsets};
 

@@ -162,3 +162,17 @@ fn one_sided_parts_and_others_are_left_out_with_notes() {
     let problems = list(&read_table("a.gf", half.as_bytes()).unwrap_err());
     assert!(problems.contains("on starboard only") && problems.contains("needs side 0"), "{problems}");
 }
+
+#[test]
+fn tables_of_delftship_are_read_back() {
+    let first = read("d.txt", DELFTSHIP).table;
+    let text = write_delftship(&first);
+    let again = read("d.txt", &text).table;
+    assert_eq!(write_delftship(&again), text);
+    assert_eq!((&again.waterlines, &again.endings), (&first.waterlines, &first.endings));
+    for (a, b) in again.stations.iter().zip(&first.stations) {
+        let values = |s: &StationOffsets| s.half_breadths.iter().map(loftsman::hull::Cell::value).collect::<Vec<_>>();
+        assert_eq!(values(a), values(b));
+        assert_eq!((a.keel_height, a.deck_height, a.flat_of_bottom), (b.keel_height, b.deck_height, b.flat_of_bottom));
+    }
+}

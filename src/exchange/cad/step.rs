@@ -99,7 +99,7 @@ pub fn write_step(solid: &Solid, name: &str, unit: CadUnit) -> String {
     let solid_angle = data.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
     let uncertainty = data.add(&format!(
         "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),#{length},'distance_accuracy_value','')",
-        real(1e-7 * unit.in_a_metre())
+        real(1e-9 * unit.in_a_metre())
     ));
     let space = data.add(&format!(
         "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{uncertainty}))\

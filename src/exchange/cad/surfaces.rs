@@ -1,7 +1,7 @@
 //! The surfaces of a CAD file, without what trims them.
 
 use super::super::fault::Faults;
-use crate::spline::{BsplineSurface, KnotVector};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// Most control points of a file.
 pub(super) const MOST_POINTS: usize = 2_000_000;
@@ -13,8 +13,19 @@ pub(in super::super) struct CadSurfaces {
     pub(in super::super) surfaces: Vec<BsplineSurface<4>>,
     /// Metres in the unit of the file, where it is stated.
     pub(in super::super) unit: Option<f64>,
+    /// Curves, of a file without surfaces.
+    pub(in super::super) curves: Vec<CadCurve>,
     /// What of the file is not used, in words.
     pub(in super::super) notes: Vec<String>,
+}
+
+/// A curve of a file as points, in the unit of the file.
+#[derive(Debug, Clone, Default)]
+pub(in super::super) struct CadCurve {
+    /// Line where it stands.
+    pub(in super::super) line: usize,
+    /// Points in turn, knots among them.
+    pub(in super::super) points: Vec<[f64; 3]>,
 }
 
 /// A surface of knots, weights and points, in the order u slowest; none, with a fault, when they do not fit together.
@@ -42,6 +53,38 @@ pub(super) fn surface(
         .and_then(|u| Ok((u, KnotVector::new(degrees[1], snapped(v))?)))
         .and_then(|(u, v)| BsplineSurface::new(u, v, points));
     made.map_err(|error| faults.add(line, name, error.to_string())).ok()
+}
+
+/// Parts of a span of the knots of a curve.
+const PARTS: usize = 8;
+
+/// The points of a curve of knots, weights and points, between two of its parameters; none, with a fault, when they do not fit together.
+pub(super) fn curve(
+    faults: &mut Faults,
+    line: usize,
+    name: &str,
+    degree: usize,
+    knots: Vec<f64>,
+    net: impl Iterator<Item = (f64, [f64; 3])>,
+    [from, to]: [f64; 2],
+) -> Option<CadCurve> {
+    let points: Vec<[f64; 4]> = net.map(|(w, [x, y, z])| [w * x, w * y, w * z, w]).collect();
+    if !points.iter().all(|point| point[3] > 0.0 && point[3].is_finite()) {
+        faults.add(Some(line), name, "a weight that is not larger than 0".to_owned());
+        return None;
+    }
+    let made = KnotVector::new(degree, snapped(knots)).and_then(|knots| BsplineCurve::new(knots, points));
+    let curve = made.map_err(|error| faults.add(Some(line), name, error.to_string())).ok()?;
+    let (a, b) = curve.knots().domain();
+    let [from, to] = if from < to { [from.clamp(a, b), to.clamp(a, b)] } else { [a, b] };
+    let breaks = curve.knots().breakpoints();
+    let inner = breaks.windows(2).flat_map(|w| (0..PARTS).map(move |k| w[0] + (w[1] - w[0]) * k as f64 / PARTS as f64));
+    let sites = std::iter::once(from).chain(inner.filter(|&t| from < t && t < to)).chain([to]);
+    let points = sites.map(|t| {
+        let [x, y, z, w] = curve.eval(t);
+        [x / w, y / w, z / w]
+    });
+    Some(CadCurve { line, points: points.collect() })
 }
 
 /// Knots that differ by rounding of their text are one.

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
 use super::super::fault::RecordFault;
 use super::super::mesh::{is_obj, is_stl, read_obj, read_stl};
+use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
 use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
@@ -17,7 +18,6 @@ use super::settings::{BodyFrame, Settings};
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
 use crate::spline::BsplineSurface;
-use crate::units::Notation;
 
 /// What points of sections that are left out are off by at most, over the breadth.
 const THINNED: f64 = 2e-5;
@@ -37,9 +37,12 @@ const ON_CENTREPLANE: f64 = 1e-6;
 /// What triangles leave surfaces by at most, over the longest extent of these.
 const DEVIATION: f64 = 1e-5;
 
-/// More triangles than this are made fewer by a deviation that is doubled, and how often at most.
+/// More triangles than this are made fewer by a deviation that is doubled.
 const ENOUGH: usize = 150_000;
-const DOUBLINGS: usize = 6;
+
+/// Faces and steps at which the subdivision of a net ends.
+const FACES: usize = 60_000;
+const STEPS: usize = 6;
 
 /// Ends of sections of surfaces that are as near to each other as this part of the length are joined.
 const SEAM: f64 = 2e-4;
@@ -63,6 +66,9 @@ pub struct ReadBody {
 enum Shape {
     Triangles(TriangleMesh),
     Surfaces(CadSurfaces),
+    Net(SubdivisionProject),
+    /// What cannot be read.
+    Nothing,
 }
 
 /// The kinds of files, with what reads them.
@@ -71,7 +77,11 @@ type Reader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
 fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
     let name = name.to_ascii_lowercase();
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
-    if is_step(bytes) || ends(&[".step", ".stp"]) {
+    if is_fbm(bytes) || ends(&[".fbm"]) {
+        Some(("FREE!ship", |bytes| read_fbm(bytes).map(Shape::Net)))
+    } else if is_ftm(bytes) || ends(&[".ftm"]) {
+        Some(("FREE!ship", |bytes| read_ftm(bytes).map(Shape::Net)))
+    } else if is_step(bytes) || ends(&[".step", ".stp"]) {
         Some(("STEP", |bytes| read_step(bytes).map(Shape::Surfaces)))
     } else if is_iges(bytes) || ends(&[".iges", ".igs"]) {
         Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
@@ -84,33 +94,59 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
     }
 }
 
-/// Reads a body: triangles (STL, OBJ) or the surfaces of a CAD file (STEP, IGES), by its content or its name, with the conventions of
-/// the TOML beside it, given by its name and its text; none when it is no such file.
-pub fn read_body(
+/// Reads a body: triangles (STL, OBJ), the surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its
+/// name, with the conventions of the TOML beside it, given by its name and its text, and of others, each over those before it; none
+/// when it is no such file.
+pub fn read_body<'a>(
     name: &str,
     bytes: &[u8],
-    beside: Option<(&str, &str)>,
+    beside: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Option<Result<ReadBody, Vec<TableProblem>>> {
     let (kind, read) = reader(name, bytes)?;
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
-    if let Some((beside, text)) = beside {
+    for (beside, text) in beside {
         beside::read(beside, text, &mut settings, &mut problems);
     }
     let shape = read(bytes).unwrap_or_else(|faults| {
-        for RecordFault { line, found, message } in faults {
-            let place = line.map_or(Place::FILE, Place::row);
-            problems.error("E350", (place, found.as_str()), message, "");
-        }
-        Shape::Triangles(TriangleMesh::default())
+        faulty(faults, &mut problems);
+        Shape::Nothing
     });
+    // Curves alone are a table.
+    if let Shape::Surfaces(CadSurfaces { surfaces, .. }) = &shape
+        && surfaces.is_empty()
+    {
+        return None;
+    }
     let meshes = match shape {
         Shape::Triangles(mesh) => {
             let (triangles, vertices) = (mesh.triangles.len(), mesh.vertices.len());
             problems.note(format!("a mesh ({kind}) of {triangles} triangles, {vertices} vertices"));
-            framed(vec![mesh], &settings, Notation::Metres.metres(1.0), &mut problems)
+            framed(vec![mesh], &settings, &Given { unit: 1.0, axes: None, surfaces: false }, &mut problems)
         }
-        Shape::Surfaces(CadSurfaces { surfaces, unit, notes }) => {
+        Shape::Net(SubdivisionProject { name, stated, unit, net }) => {
+            let [points, faces, edges] = [net.points.len(), net.faces.len(), net.edges.len()];
+            let creases = net.edges.iter().filter(|edge| edge.crease).count();
+            problems.note(format!(
+                "a control net ({kind}) of {points} points, {faces} faces, {edges} edges, {creases} of them creases; its unit is {unit} m"
+            ));
+            let dry: Vec<&str> =
+                net.layers.iter().filter(|layer| !layer.in_hydrostatics).map(|layer| layer.name.as_str()).collect();
+            if !dry.is_empty() {
+                problems.note(format!("layers that displace no water are left out: {}", dry.join(", ")));
+            }
+            let meshes = net.meshes(FACES, STEPS);
+            problems.note(format!("subdivided into {} triangles", meshes[1].triangles.len()));
+            settings.name = settings.name.or(Some(name).filter(|name| !name.is_empty()));
+            let StatedParticulars { length_between_perpendiculars, breadth, draught, .. } = &mut settings.stated;
+            *length_between_perpendiculars = length_between_perpendiculars.or(stated.length_between_perpendiculars);
+            *breadth = breadth.or(stated.breadth);
+            *draught = draught.or(stated.draught);
+            let given = Given { unit, axes: Some([(0, 1.0), (1, 1.0), (2, 1.0)]), surfaces: false };
+            framed(meshes.to_vec(), &settings, &given, &mut problems)
+        }
+        Shape::Nothing => Vec::new(),
+        Shape::Surfaces(CadSurfaces { surfaces, unit, notes, .. }) => {
             let points = surfaces.iter().map(|surface| surface.points().len()).sum::<usize>();
             let unit = unit.unwrap_or(1.0);
             problems.note(format!(
@@ -119,19 +155,10 @@ pub fn read_body(
             ));
             notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
             let size = extent(&surfaces);
-            // Surfaces of many small spans need no closer triangles than these.
-            let mut deviation = DEVIATION * size;
-            let mut coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
-            for _ in 0..DOUBLINGS {
-                if coarse.triangles.len() > ENOUGH {
-                    deviation *= 2.0;
-                    coarse = TriangleMesh::of_surfaces(&surfaces, deviation, 1);
-                }
-            }
-            let nested = [coarse, TriangleMesh::of_surfaces(&surfaces, deviation, 2)];
+            let (nested, deviation) = TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH);
             let triangles = nested[1].triangles.len();
             problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
-            framed(nested.to_vec(), &settings, unit, &mut problems)
+            framed(nested.to_vec(), &settings, &Given { unit, axes: None, surfaces: true }, &mut problems)
         }
     };
     Some(problems.finish().map(|notes| ReadBody {
@@ -141,6 +168,20 @@ pub fn read_body(
         notes,
         sections: settings.frame.sections.unwrap_or(SECTIONS),
     }))
+}
+
+pub(super) fn faulty(faults: Vec<RecordFault>, problems: &mut Problems) {
+    for RecordFault { line, found, message } in faults {
+        let place = line.map_or(Place::FILE, Place::row);
+        problems.error("E350", (place, found.as_str()), message, "");
+    }
+}
+
+/// The faults of the records of a body as problems of its file.
+pub(in super::super) fn body_faults(name: &str, faults: Vec<RecordFault>) -> Vec<TableProblem> {
+    let mut problems = Problems::new(name);
+    faulty(faults, &mut problems);
+    problems.finish().err().unwrap_or_default()
 }
 
 /// The longest extent of the control points.
@@ -153,20 +194,61 @@ fn extent(surfaces: &[BsplineSurface<4>]) -> f64 {
     (0..3).map(along).fold(0.0, f64::max)
 }
 
+/// What a file says of its body.
+pub(super) struct Given {
+    /// Its unit \[m\].
+    pub(super) unit: f64,
+    /// The axes, where the format has them.
+    pub(super) axes: Option<[(usize, f64); 3]>,
+    /// Triangles over surfaces, each for itself.
+    pub(super) surfaces: bool,
+}
+
+/// How points of a file come into the ship's frame.
+pub(super) struct Placement {
+    axes: [(usize, f64); 3],
+    unit: f64,
+    slack: f64,
+    origin: [f64; 2],
+}
+
+impl Placement {
+    /// By the bounds of the points, the settings and what the file says; none, with a problem, when the axes cannot be told.
+    pub(super) fn of(
+        bounds: [[f64; 3]; 2],
+        settings: &Settings,
+        given: &Given,
+        problems: &mut Problems,
+    ) -> Option<Self> {
+        let BodyFrame { axes, up, scale, x_origin, z_origin, .. } = settings.frame;
+        let known = axes.or(if up.is_none() { given.axes } else { None });
+        let axes = known.or_else(|| found_axes(bounds, up, problems))?;
+        let unit = settings.units.map_or(given.unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
+        let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
+        let origin = [x_origin, z_origin].map(|place| place.unwrap_or(0.0));
+        Some(Self { axes, unit, slack: ON_CENTREPLANE * size, origin })
+    }
+
+    /// Points nearer to the centreplane than a millionth of the size are on it.
+    pub(super) fn place(&self, corner: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = self.axes.map(|(axis, sign)| sign * self.unit * corner[axis]);
+        [x + self.origin[0], if y.abs() <= self.slack { 0.0 } else { y }, z + self.origin[1]]
+    }
+}
+
 /// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are of one body and
 /// are moved alike; a second one comes from surfaces.
-fn framed(mut meshes: Vec<TriangleMesh>, settings: &Settings, unit: f64, problems: &mut Problems) -> Vec<TriangleMesh> {
+fn framed(
+    mut meshes: Vec<TriangleMesh>,
+    settings: &Settings,
+    given: &Given,
+    problems: &mut Problems,
+) -> Vec<TriangleMesh> {
     let Some(bounds) = meshes[0].bounds().filter(|_| !problems.any_errors()) else { return meshes };
-    let BodyFrame { axes, scale, x_origin, z_origin, .. } = settings.frame;
-    let Some(axes) = axes.or_else(|| found_axes(bounds, problems)) else { return meshes };
-    let unit = settings.units.map_or(unit, |units| units.metres(1.0)) * scale.unwrap_or(1.0);
-    let size = (0..3).map(|k| bounds[1][k] - bounds[0][k]).fold(0.0, f64::max) * unit;
-    let surfaces = meshes.len() > 1;
-    let slack = ON_CENTREPLANE * size;
-    let place = |corner: [f64; 3]| {
-        let [x, y, z] = axes.map(|(axis, sign)| sign * unit * corner[axis]);
-        [x + x_origin.unwrap_or(0.0), if y.abs() <= slack { 0.0 } else { y }, z + z_origin.unwrap_or(0.0)]
-    };
+    let Some(placement) = Placement::of(bounds, settings, given, problems) else { return meshes };
+    let BodyFrame { x_origin, z_origin, .. } = settings.frame;
+    let surfaces = given.surfaces;
+    let place = |corner: [f64; 3]| placement.place(corner);
     for (k, mesh) in meshes.iter_mut().enumerate() {
         let corners: Vec<[[f64; 3]; 3]> = mesh.corners().map(|triangle| triangle.map(place)).collect();
         *mesh = TriangleMesh::from_corners(corners.into_iter());
@@ -181,7 +263,7 @@ fn framed(mut meshes: Vec<TriangleMesh>, settings: &Settings, unit: f64, problem
         }
         let (oriented, turned) = std::mem::take(mesh).oriented();
         *mesh = oriented;
-        if turned > 0 && !surfaces {
+        if turned > 0 && k == 0 && !surfaces {
             problems.note(format!("{turned} triangles are turned outward"));
         }
     }
@@ -229,8 +311,21 @@ fn without_top(mesh: &TriangleMesh) -> TriangleMesh {
 }
 
 /// The axes of a body by its extents; none, with a problem, when they cannot be told.
-fn found_axes([least, greatest]: [[f64; 3]; 2], problems: &mut Problems) -> Option<[(usize, f64); 3]> {
+fn found_axes(
+    [least, greatest]: [[f64; 3]; 2],
+    up: Option<(usize, f64)>,
+    problems: &mut Problems,
+) -> Option<[(usize, f64); 3]> {
     let extent = |k: usize| greatest[k] - least[k];
+    if let Some((up, sign)) = up {
+        let (a, b) = ((up + 1) % 3, (up + 2) % 3);
+        // Right-handed: port is up x forward.
+        return Some(if extent(a) >= extent(b) {
+            [(a, 1.0), (b, sign), (up, sign)]
+        } else {
+            [(b, 1.0), (a, -sign), (up, sign)]
+        });
+    }
     let long = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)).then(b.cmp(&a)))?;
     let size = extent(long);
     let across = |k: usize| {

@@ -5,7 +5,8 @@
 //! order of what follows is not, and is read as: x of the stations, z of the waterlines, half-breadths (a line a station, or
 //! a line a waterline where the lengths of the lines tell), then in the order of the flags: height and half-breadth of the
 //! deck at each station, height of the contour at each station, x of the aft and of the forward contour at each waterline,
-//! half-breadth of the flat of bottom at each station. A note says so. `-` and `*` are cells without hull. Read only.
+//! half-breadth of the flat of bottom at each station. A note says so. `-` and `*` are cells without hull. Written in the same order,
+//! a line a station, six decimals.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::problem::{Field, Place, Problems};
@@ -191,6 +192,58 @@ fn rising(fields: &[Field<&str>], what: &str, problems: &mut Problems) -> Vec<f6
         }
     }
     values
+}
+
+/// Writes a table of half-breadths with what else it holds of deck, contours and flat of bottom.
+///
+/// Sections given as points are not written: the format has none.
+#[must_use]
+pub fn write(table: &OffsetTable) -> String {
+    let (stations, waterlines) = (&table.stations, &table.waterlines);
+    let flags = [
+        stations.iter().any(|s| s.deck_height.is_some() || s.deck_half_breadth.is_some()),
+        stations.iter().any(|s| s.keel_height.is_some()),
+        table.endings.iter().any(|ends| ends[0].is_some()),
+        table.endings.iter().any(|ends| ends[1].is_some()),
+        stations.iter().any(|s| s.flat_of_bottom.is_some()),
+    ];
+    let number = |value: f64| format!("{:.6}", value + 0.0);
+    let or_dash = |value: Option<f64>| value.map_or("-".to_owned(), number);
+    let mut text = format!("{}\n{}\n", waterlines.len(), stations.len());
+    flags.iter().for_each(|&flag| text.push_str(if flag { "1\n" } else { "0\n" }));
+    let mut line = |words: Vec<String>| {
+        text.push_str(&words.join(" "));
+        text.push('\n');
+    };
+    // What is not stated is the extent of the table.
+    let ends = stations.first().zip(stations.last()).map(|(a, b)| b.station.x - a.station.x);
+    let widest = stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value).fold(0.0, f64::max);
+    let stated = table.stated;
+    line(vec![number(stated.length_between_perpendiculars.or(ends).unwrap_or(0.0))]);
+    line(vec![number(stated.breadth.unwrap_or(2.0 * widest))]);
+    line(vec![number(stated.draught.or(waterlines.last().copied()).unwrap_or(0.0))]);
+    line(stations.iter().map(|s| number(s.station.x)).collect());
+    line(waterlines.iter().map(|&z| number(z)).collect());
+    for station in stations {
+        let cell = |j: usize| or_dash(station.half_breadths.get(j).and_then(Cell::value));
+        line((0..waterlines.len()).map(cell).collect());
+    }
+    if flags[0] {
+        stations.iter().for_each(|s| line(vec![or_dash(s.deck_height), or_dash(s.deck_half_breadth)]));
+    }
+    if flags[1] {
+        line(stations.iter().map(|s| or_dash(s.keel_height)).collect());
+    }
+    for end in 0..2 {
+        if flags[2 + end] {
+            let place = |j: usize| or_dash(table.endings.get(j).and_then(|ends| ends[end]));
+            line((0..waterlines.len()).map(place).collect());
+        }
+    }
+    if flags[4] {
+        line(stations.iter().map(|s| or_dash(s.flat_of_bottom)).collect());
+    }
+    text
 }
 
 fn absent(field: Field<&str>) -> bool {

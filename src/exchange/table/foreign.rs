@@ -19,12 +19,8 @@ const FIRST_BYTES: [(&[u8], &str); 11] = [
 ];
 
 /// Endings of names of files that are no text, or none that we read.
-const ENDINGS: [(&str, &str); 4] = [
-    (".3dm", "a Rhinoceros file (3dm)"),
-    (".dxf", "a drawing (DXF)"),
-    (".dwg", "a drawing (DWG)"),
-    (".fbm", "a FREE!ship model (binary)"),
-];
+const ENDINGS: [(&str, &str); 3] =
+    [(".3dm", "a Rhinoceros file (3dm)"), (".dxf", "a drawing (DXF)"), (".dwg", "a drawing (DWG)")];
 
 /// The kind of a file that holds no table of offsets; none when it may hold one.
 pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {

@@ -2,13 +2,16 @@
 
 use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
 use super::problem::{Place, Problems};
-use super::{ReadTable, TableProblem, britfair, delftship, freeship, ghs, pdstrip, pias, points, ratio, seaway};
+use super::{
+    ReadTable, TableProblem, britfair, delftship, freeship, ghs, michlet, pdstrip, pias, points, ratio, seaway,
+};
 use crate::hull::{OffsetTable, Program};
 
 /// Whether a text is in a format, the table in it, and the program, where its format can be written.
 type Format = (fn(&str, &str) -> bool, fn(&str, &str) -> Result<ReadTable, Vec<TableProblem>>, Option<Program>);
 
-const FORMATS: [Format; 9] = [
+const FORMATS: [Format; 10] = [
+    (michlet::recognise, michlet::read, None),
     (ghs::recognise, ghs::read, Some(Program::Ghs)),
     (britfair::recognise, britfair::read, Some(Program::Britfair)),
     (seaway::recognise, seaway::read, None),

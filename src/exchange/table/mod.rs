@@ -18,7 +18,9 @@ mod freeship;
 mod ghs;
 mod grid;
 mod header;
+mod lines;
 mod matrix;
+mod michlet;
 mod outline;
 mod pairs;
 mod pdstrip;
@@ -35,11 +37,14 @@ mod write;
 mod xlsx;
 
 pub use beside::read_particulars;
+pub(super) use body::body_faults;
 pub use body::{ReadBody, read_body};
 pub use britfair::write as write_britfair;
+pub use delftship::write as write_delftship;
 pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
 pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS};
+pub use michlet::write as write_michlet;
 pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
@@ -70,13 +75,22 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
     read_table_with(name, bytes, None)
 }
 
-/// Reads a table of offsets with the conventions of the TOML file beside it, given by its name and its text.
+/// Reads a table of offsets with the conventions of the TOML file beside it, given by its name and its text, and of others, each
+/// over those before it.
 ///
 /// # Errors
-/// Every problem of both files at once, in the order of rows and columns.
-pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -> Result<ReadTable, Vec<TableProblem>> {
-    if let Some(body) = read_body(name, bytes, beside) {
+/// Every problem of all files at once, in the order of rows and columns.
+pub fn read_table_with<'a>(
+    name: &str,
+    bytes: &[u8],
+    beside: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<ReadTable, Vec<TableProblem>> {
+    let beside: Vec<(&str, &str)> = beside.into_iter().collect();
+    if let Some(body) = read_body(name, bytes, beside.iter().copied()) {
         return body.and_then(ReadBody::table);
+    }
+    if let Some(read) = lines::read(name, bytes, &beside) {
+        return read;
     }
     let mut problems = Problems::new(name);
     if let Some(format) = foreign::format(name, bytes) {
@@ -89,11 +103,11 @@ pub fn read_table_with(name: &str, bytes: &[u8], beside: Option<(&str, &str)>) -
         );
         return Err(problems.finish().err().unwrap_or_default());
     }
-    if let Some(read) = formats::read(name, bytes, beside) {
+    if let Some(read) = formats::read(name, bytes, beside.first().copied()) {
         return read;
     }
     let mut settings = Settings::default();
-    if let Some((name, text)) = beside {
+    for (name, text) in beside {
         beside::read(name, text, &mut settings, &mut problems);
     }
     let table = match problems.any_errors() {

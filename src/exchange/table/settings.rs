@@ -19,6 +19,7 @@
 //! separator = ";"             # , ; | tab
 //! decimal = ","               # , .
 //! axes = "x -z y"             # of a body of triangles or surfaces: our x, y, z in terms of the file's
+//! up = "y"                    # of a body: the file's axis that points up, instead of all three
 //! scale = 59.407              # of a body: metres (or units) for one of the file, a model's scale
 //! x_origin = 71.056           # of a body: where the origin of the file is, forward of AP, above the base line [m]
 //! z_origin = 6.15
@@ -86,6 +87,8 @@ pub(super) struct Settings {
 pub(super) struct BodyFrame {
     /// The file's axis, 0 to 2, and its sign, for x, y and z.
     pub(super) axes: Option<[(usize, f64); 3]>,
+    /// The axis that points up, with its sign.
+    pub(super) up: Option<(usize, f64)>,
     pub(super) scale: Option<f64>,
     /// Where the origin of the file is in x and in z \[m\].
     pub(super) x_origin: Option<f64>,
@@ -95,7 +98,7 @@ pub(super) struct BodyFrame {
 }
 
 /// Keys of `[table]`.
-pub(super) const KEYS: [&str; 23] = [
+pub(super) const KEYS: [&str; 24] = [
     "name",
     "units",
     "x_units",
@@ -115,6 +118,7 @@ pub(super) const KEYS: [&str; 23] = [
     "decimal",
     "comment",
     "axes",
+    "up",
     "scale",
     "x_origin",
     "z_origin",
@@ -218,7 +222,14 @@ impl Settings {
                 self.separator = Some(choice(key, value, &all)?);
             }
             "decimal" => self.decimal_comma = Some(choice(key, value, &[(",", true), (".", false)])?),
-            "axes" => self.frame.axes = Some(axes(key, value)?),
+            "axes" => (self.frame.axes, self.frame.up) = (Some(axes(key, value)?), None),
+            "up" => {
+                let all = [("x", 0), ("y", 1), ("z", 2)];
+                let signs = all.map(|(name, axis)| (name, (axis, 1.0)));
+                let below = [("-x", (0, -1.0)), ("-y", (1, -1.0)), ("-z", (2, -1.0))];
+                self.frame.up = Some(choice(key, value, &[signs, below].concat())?);
+                self.frame.axes = None;
+            }
             "scale" => self.frame.scale = Some(length(key, value)?),
             "x_origin" => self.frame.x_origin = Some(place(key, value)?),
             "z_origin" => self.frame.z_origin = Some(place(key, value)?),

@@ -84,14 +84,36 @@ fn normals_point_out() {
 }
 
 #[test]
-fn below_a_deck_that_cuts_the_surface_the_sides_are_interpolated() {
-    let solid = Solid::new(&hull(true, true, 0.4)).unwrap();
-    assert!(solid.is_closed());
-    assert!(solid.deviation > 0.0 && solid.deviation < 1e-3, "{:e}", solid.deviation);
-    let deck = solid.faces.iter().find(|face| face.region == Region::Deck).unwrap();
-    let (a, b) = deck.surface.u().domain();
-    let middle = deck.surface.eval(0.5 * (a + b), 0.5);
-    assert!((middle[2] - 3.6).abs() < 1e-3, "{middle:?}");
+fn below_a_deck_that_cuts_the_surface_the_sides_have_topsides() {
+    // The deck crosses the knot line at mid-depth with the larger sheer, and stays above it with the smaller.
+    for (sheer, allowed) in [(0.4, 1e-8), (1.3, 1e-4)] {
+        let hull = hull(true, true, sheer);
+        let solid = Solid::new(&hull).unwrap();
+        assert!(solid.is_closed());
+        assert!(solid.deviation > 0.0 && solid.deviation < allowed, "{:e}", solid.deviation);
+        let (v, e, f) = (solid.vertices.len(), solid.edges.len(), solid.faces.len());
+        assert_eq!(v + f, e + 2, "{v} {e} {f}");
+        let sides: Vec<&str> = solid.faces.iter().take(4).map(|face| face.name.as_str()).collect();
+        if sheer < 1.0 {
+            assert_eq!(sides, ["hull port", "hull starboard", "topsides port", "topsides starboard"]);
+        }
+        let exact = crate::hull::whole_volume(&hull);
+        assert!((solid.volume() / exact - 1.0).abs() < allowed, "{} for {exact}", solid.volume());
+        let deck = solid.faces.iter().find(|face| face.region == Region::Deck).unwrap();
+        let (a, b) = deck.surface.u().domain();
+        let middle = deck.surface.eval(0.5 * (a + b), 0.5);
+        assert!((middle[2] - (4.0 - sheer)).abs() < allowed, "{middle:?}");
+    }
+}
+
+#[test]
+fn a_solid_has_the_volume_of_its_hull() {
+    for (transom, bow) in [(true, true), (true, false), (false, false)] {
+        let hull = hull(transom, bow, 0.0);
+        let solid = Solid::new(&hull).unwrap();
+        let exact = crate::hull::whole_volume(&hull);
+        assert!((solid.volume() / exact - 1.0).abs() < 1e-13, "{} for {exact}", solid.volume());
+    }
 }
 
 #[test]

@@ -95,7 +95,14 @@ pub(super) fn entities(solid: &Solid, scale: f64) -> Vec<Entity> {
         let number = list.add(510, 1, whole([own, 1, 1, boundary]));
         if let Some(entity) = list.entities.last_mut() {
             entity.colour = colour(face.region);
-            entity.label = face.name.replace("hull ", "").chars().take(8).collect::<String>().to_uppercase();
+            entity.label = face
+                .name
+                .replace("hull ", "")
+                .replace("topsides ", "top ")
+                .chars()
+                .take(8)
+                .collect::<String>()
+                .to_uppercase();
         }
         shell.extend(whole([number, 1]));
     }

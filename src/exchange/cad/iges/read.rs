@@ -1,10 +1,11 @@
 //! Reading of IGES: every rational B-spline surface (entity 128) with the transformation (124) of its directory entry. Entities that
-//! trim surfaces or make bodies of them (142, 144, 143, 502 to 514) refer to surfaces that are read untrimmed; curves are passed over.
+//! trim surfaces or make bodies of them (142, 144, 143, 502 to 514) refer to surfaces that are read untrimmed; curves are passed over. Of a
+//! file without such surfaces the curves (126, and lines, 110) are read.
 
 use std::collections::BTreeMap;
 
 use super::super::super::fault::{Faults, RecordFault};
-use super::super::surfaces::{CadSurfaces, MOST_POINTS, surface};
+use super::super::surfaces::{CadCurve, CadSurfaces, MOST_POINTS, curve, surface};
 use crate::spline::BsplineSurface;
 
 /// Columns before the letter of a section.
@@ -19,6 +20,9 @@ const SILENT: [usize; 25] = [
     0, 100, 102, 104, 106, 110, 112, 116, 124, 126, 130, 141, 142, 143, 144, 186, 308, 314, 402, 404, 406, 408, 410,
     502, 504,
 ];
+
+/// Curves of a file at most.
+const MOST_CURVES: usize = 20_000;
 
 /// Whether these are the first lines of an IGES file: 80 columns, the 73rd of which is S.
 pub(in super::super::super) fn is_iges(bytes: &[u8]) -> bool {
@@ -141,6 +145,12 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
     };
     let mut others: BTreeMap<usize, usize> = BTreeMap::new();
     let mut points = 0;
+    let of_entry = |entry: &Entry| {
+        let list = parameters(&text(entry), delimiters);
+        let transformation = directory.get(&entry.transformation).filter(|_| entry.transformation > 0);
+        let place = transformation.map(|entry| numbers(&parameters(&text(entry), delimiters)));
+        (list, place)
+    };
     for (name, entry) in &directory {
         if entry.kind != 128 {
             if !SILENT.contains(&entry.kind) && entry.kind < 500 {
@@ -148,9 +158,7 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
             }
             continue;
         }
-        let list = parameters(&text(entry), delimiters);
-        let transformation = directory.get(&entry.transformation).filter(|_| entry.transformation > 0);
-        let place = transformation.map(|entry| numbers(&parameters(&text(entry), delimiters)));
+        let (list, place) = of_entry(entry);
         let title = format!("entity 128, D{name}");
         if let Some(found) = entity_128(&mut faults, entry.line, &title, &list, place.as_deref(), &mut points) {
             read.surfaces.push(found);
@@ -159,11 +167,30 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
             break;
         }
     }
+    if read.surfaces.is_empty() && faults.list.is_empty() {
+        let curves = directory.iter().filter(|(_, entry)| matches!(entry.kind, 110 | 126));
+        for (name, entry) in curves.take(MOST_CURVES) {
+            let (list, place) = of_entry(entry);
+            let title = format!("entity {}, D{name}", entry.kind);
+            let list = numbers(&list);
+            let found = match entry.kind {
+                126 => entity_126(&mut faults, entry.line, &title, &list, place.as_deref(), &mut points),
+                _ => entity_110(&mut faults, entry.line, &title, &list, place.as_deref()),
+            };
+            read.curves.extend(found);
+            if faults.is_full() {
+                break;
+            }
+        }
+    }
+    if read.surfaces.is_empty() && read.curves.is_empty() && faults.list.is_empty() {
+        let found: Vec<String> = others.iter().map(|(kind, count)| format!("{count} of {kind}")).collect();
+        let there =
+            if found.is_empty() { String::new() } else { format!("; the file has entities {}", found.join(", ")) };
+        faults.add(None, "", format!("no B-spline surfaces (entity 128) and no curves (126){there}"));
+    }
     for (kind, count) in others {
         read.notes.push(format!("{count} entities {kind} are not read"));
-    }
-    if read.surfaces.is_empty() && faults.list.is_empty() {
-        faults.add(None, "", "no B-spline surfaces (entity 128)".to_owned());
     }
     faults.or(|| read)
 }
@@ -190,6 +217,55 @@ fn entries(lines: &[(usize, &[u8])], faults: &mut Faults) -> BTreeMap<usize, Ent
 
 fn numbers(list: &[Parameter]) -> Vec<f64> {
     list.iter().map(|p| if let Parameter::Number(value) = p { *value } else { f64::NAN }).collect()
+}
+
+/// A point moved by the parameters of a transformation (124): three rows of a rotation and a translation.
+fn moved(place: Option<&[f64]>, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    match place {
+        Some([_, m @ ..]) if m.len() >= 12 => [0, 4, 8].map(|k| m[k] * x + m[k + 1] * y + m[k + 2] * z + m[k + 3]),
+        _ => [x, y, z],
+    }
+}
+
+/// A line of its parameters.
+fn entity_110(faults: &mut Faults, line: usize, name: &str, list: &[f64], place: Option<&[f64]>) -> Option<CadCurve> {
+    let Some([ax, ay, az, bx, by, bz]) = list.get(1..7) else {
+        faults.add(Some(line), name, format!("{} parameters, expected 7", list.len()));
+        return None;
+    };
+    let points = [[*ax, *ay, *az], [*bx, *by, *bz]].map(|point| moved(place, point));
+    if points.iter().flatten().all(|c| c.is_finite()) {
+        return Some(CadCurve { line, points: points.to_vec() });
+    }
+    faults.add(Some(line), name, "a coordinate that is no number".to_owned());
+    None
+}
+
+/// A rational B-spline curve of its parameters.
+fn entity_126(
+    faults: &mut Faults,
+    line: usize,
+    name: &str,
+    list: &[f64],
+    place: Option<&[f64]>,
+    points: &mut usize,
+) -> Option<CadCurve> {
+    let whole = |k: usize| list.get(k).copied().filter(|v| v.fract().abs() <= 0.0 && (0.0..=1e5).contains(v));
+    let (Some(upper), Some(degree)) = (whole(1), whole(2)) else {
+        faults.add(Some(line), name, "parameters 1 and 2, expected whole numbers up to 100000".to_owned());
+        return None;
+    };
+    let (count, degree) = (upper as usize + 1, degree as usize);
+    let (knots, weights) = (7, 7 + count + degree + 1);
+    let net = weights + count;
+    *points = points.saturating_add(count);
+    if list.len() < net + 3 * count || *points > MOST_POINTS {
+        faults.add(Some(line), name, format!("{} parameters, expected {}", list.len(), net + 3 * count));
+        return None;
+    }
+    let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
+    let end = |k: usize| list.get(net + 3 * count + k).copied().unwrap_or(0.0);
+    curve(faults, line, name, degree, list[knots..weights].to_vec(), (0..count).map(of), [end(0), end(1)])
 }
 
 /// A rational B-spline surface of its parameters; points run with u fastest.
@@ -226,12 +302,7 @@ fn entity_128(
         faults.add(Some(line), name, format!("{} parameters, expected {}", list.len(), net + 3 * count));
         return None;
     }
-    let moved = |[x, y, z]: [f64; 3]| match place {
-        // 124, then three rows of a rotation and a translation.
-        Some([_, m @ ..]) if m.len() >= 12 => [0, 4, 8].map(|k| m[k] * x + m[k + 1] * y + m[k + 2] * z + m[k + 3]),
-        _ => [x, y, z],
-    };
-    let of = |k: usize| (list[weights + k], moved([0, 1, 2].map(|axis| list[net + 3 * k + axis])));
+    let of = |k: usize| (list[weights + k], moved(place, [0, 1, 2].map(|axis| list[net + 3 * k + axis])));
     let order = (0..rows).flat_map(|i| (0..columns).map(move |j| j * rows + i));
     let knots = [list[u..v].to_vec(), list[v..weights].to_vec()];
     surface(faults, Some(line), name, [m1, m2], knots, order.map(of))

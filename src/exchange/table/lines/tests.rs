@@ -1,0 +1,93 @@
+use super::super::read_table;
+use super::*;
+
+/// An IGES file of curves of degree 1 through points (entity 126), in metres.
+fn iges(curves: &[Vec<[f64; 3]>]) -> String {
+    let mut text = String::new();
+    let mut line = |body: &str, letter: char, number: usize| text.push_str(&format!("{body:<72}{letter}{number:>7}\n"));
+    line("curves", 'S', 1);
+    line("1H,,1H;,4Htest,4Htest,4Htest,4Htest,32,38,6,308,15,4Htest,1.,6,1HM,1,0.,", 'G', 1);
+    line("15H19700101.000000,1E-6,100.,4Htest,4Htest,11,0,15H19700101.000000;", 'G', 2);
+    let (mut directory, mut parameters) = (Vec::new(), Vec::new());
+    for (k, points) in curves.iter().enumerate() {
+        let n = points.len();
+        let mut words = vec!["126".to_owned(), (n - 1).to_string(), "1".to_owned()];
+        words.extend(["0", "0", "1", "0", "0."].map(str::to_owned));
+        words.extend((0..n).map(|k| format!("{k}.")));
+        words.push(format!("{}.", n - 1));
+        words.extend(std::iter::repeat_n("1.".to_owned(), n));
+        words.extend(points.iter().flatten().map(|c| format!("{c:?}")));
+        words.extend(["0.".to_owned(), format!("{}.", n - 1), "0.".to_owned(), "0.".to_owned(), "0.".to_owned()]);
+        let first = parameters.len() + 1;
+        let own = 2 * k + 1;
+        for (i, chunk) in words.chunks(4).enumerate() {
+            let end = if 4 * (i + 1) >= words.len() { ";" } else { "," };
+            parameters.push(format!("{:<64}{own:>8}", chunk.join(",") + end));
+        }
+        let count = parameters.len() + 1 - first;
+        directory.push(format!("{:>8}{first:>8}{}", 126, format!("{:>8}", 0).repeat(7)));
+        directory.push(format!("{:>8}{:>8}{:>8}{count:>8}{:>8}", 126, 0, 0, 0));
+    }
+    directory.iter().enumerate().for_each(|(k, body)| line(body, 'D', k + 1));
+    parameters.iter().enumerate().for_each(|(k, body)| line(body, 'P', k + 1));
+    line(&format!("S{:>7}G{:>7}D{:>7}P{:>7}", 1, 2, directory.len(), parameters.len()), 'T', 1);
+    text
+}
+
+/// A point of a wedge: y = (1 - x/20)(1 + z).
+fn wedge(x: f64, z: f64) -> [f64; 3] {
+    [x, (1.0 - x / 20.0) * (1.0 + z), z]
+}
+
+#[test]
+fn curves_at_one_x_are_sections() {
+    let mut curves: Vec<Vec<[f64; 3]>> =
+        (0..5).map(|i| (0..4).rev().map(|j| wedge(4.0 * f64::from(i), f64::from(j))).collect()).collect();
+    // Port of one section, and a deck line.
+    curves.push(curves[0].iter().map(|&[x, y, z]| [x, -y, z]).collect());
+    curves.push((0..5).map(|i| wedge(4.0 * f64::from(i), 3.0 + 0.01 * f64::from(i))).collect());
+    let read = read_table("a.igs", iges(&curves).as_bytes()).unwrap();
+    let said = read.notes.iter().map(ToString::to_string).collect::<String>();
+    assert!(
+        said.contains("7 curves (IGES) without surfaces") && said.contains("1 curves that are no sections"),
+        "{said}"
+    );
+    assert_eq!(read.table.stations.len(), 5);
+    for (i, station) in read.table.stations.iter().enumerate() {
+        assert_eq!(station.outlines.len(), 1);
+        assert!((station.station.x - 4.0 * i as f64).abs() < 1e-12);
+        for p in &station.outlines[0] {
+            assert!((p.y - wedge(station.station.x, p.z)[1]).abs() < 1e-9);
+        }
+        assert!(station.outlines[0][0].z < 1e-12);
+    }
+}
+
+#[test]
+fn waterlines_alone_make_sections() {
+    let curves: Vec<Vec<[f64; 3]>> =
+        (0..4).map(|j| (0..6).map(|i| wedge(4.0 * f64::from(i), f64::from(j))).collect()).collect();
+    let read = read_table("a.igs", iges(&curves).as_bytes()).unwrap();
+    assert!(read.notes.iter().any(|note| note.code == "W334"));
+    assert_eq!(read.table.stations.len(), SECTIONS);
+    for station in &read.table.stations {
+        assert_eq!(station.outlines[0].len(), 4);
+        assert!(station.outlines[0].iter().all(|p| (p.y - wedge(station.station.x, p.z)[1]).abs() < 1e-9));
+    }
+}
+
+#[test]
+fn other_curves_are_refused_with_their_numbers() {
+    let deck: Vec<[f64; 3]> = (0..6).map(|i| wedge(4.0 * f64::from(i), 3.0 + 0.1 * f64::from(i * i))).collect();
+    let text = iges(&[deck]);
+    let problems = read_table("a.igs", text.as_bytes()).unwrap_err();
+    assert!(
+        problems.iter().any(|p| p.code == "E328" && p.message.contains("of 1 curves 0 are at one x")),
+        "{problems:?}"
+    );
+    // A weight of zero names its entity.
+    let faulty = text.replacen("1.,1.,1.,1.", "0.,1.,1.,1.", 1);
+    assert_ne!(faulty, text);
+    let problems = read_table("a.igs", faulty.as_bytes()).unwrap_err();
+    assert!(problems.iter().any(|p| p.code == "E350" && p.found.contains("entity 126, D1")), "{problems:?}");
+}
