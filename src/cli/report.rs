@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     /// Resolution of the pictures, dots per inch; 300 for print
     #[arg(long, value_parser = dpi, value_name = "DPI", default_value = "150")]
     dpi: f64,
-    /// Sheet of the lines plan in report.pdf: A3 or A1; the other figures stand on A3
+    /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
     #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
     sheet: Sheet,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not

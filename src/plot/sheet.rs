@@ -9,7 +9,7 @@ const MARGIN: f64 = 8.0;
 /// Height of the title block under a figure \[mm\].
 const STRIP: f64 = 16.0;
 /// What the frame leaves of A3 to a figure \[mm\].
-pub(super) const ROOM: [f64; 2] = [402.0, 263.0];
+pub(super) const ROOM: [f64; 2] = Sheet::A3.room();
 
 /// A sheet, landscape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,11 +36,18 @@ impl Sheet {
 
     /// Width and height \[mm\].
     #[must_use]
-    pub fn size(self) -> [f64; 2] {
+    pub const fn size(self) -> [f64; 2] {
         match self {
             Self::A3 => [420.0, 297.0],
             Self::A1 => [841.0, 594.0],
         }
+    }
+
+    /// What frame and title block leave to a figure \[mm\].
+    #[must_use]
+    pub const fn room(self) -> [f64; 2] {
+        let [width, height] = self.size();
+        [width - 2.0 * MARGIN - 2.0, height - 2.0 * MARGIN - STRIP - 2.0]
     }
 
     /// The frame of a drawing that fills it \[mm\].
@@ -50,11 +57,11 @@ impl Sheet {
     }
 }
 
-/// The frame of sheet `number` of `count` on A3: name of the ship, title of the figure, check bar.
-pub(super) fn framed(ship: &str, title: &str, number: usize, count: usize) -> Svg {
-    let [width, height] = Sheet::A3.size();
+/// The frame of drawing `number` of `count` on a sheet: name of the ship, title of the figure, check bar.
+pub(super) fn framed(sheet: Sheet, ship: &str, title: &str, number: usize, count: usize) -> Svg {
+    let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
-    let frame = Sheet::A3.frame();
+    let frame = sheet.frame();
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let top = frame.bottom - STRIP;
     let rule = Pen::new(0.25, "#000000");
@@ -73,7 +80,11 @@ pub(super) fn framed(ship: &str, title: &str, number: usize, count: usize) -> Sv
     fitted(&mut canvas, top + 5.0, &caption::plain(ship), 4.6);
     fitted(&mut canvas, top + 11.5, title, 3.4);
     let style = TextStyle::new(3.0, Anchor::Start);
-    canvas.text([columns[1] + 4.0, top + 5.0], &format!("sheet {number} of {count}   A3, true size"), &style);
+    canvas.text(
+        [columns[1] + 4.0, top + 5.0],
+        &format!("drawing {number} of {count}   {}, true size", sheet.as_str()),
+        &style,
+    );
     canvas.text([columns[1] + 4.0, top + 11.5], &caption::program(), &style);
     Svg { text: canvas.finish(title) }
 }

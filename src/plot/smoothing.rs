@@ -73,7 +73,10 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 1.3, "#c00000");
         canvas.line([at[0], at[1]], [at[0], frame.bottom], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
         let style = TextStyle::new(2.8, Anchor::Start).coloured("#c00000").halo();
-        canvas.text([at[0] + 2.2, at[1] - 2.2], "taken", &style);
+        let name = format!("taken: {:.1e}", record.lambda);
+        let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
+        let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
+        placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(Some(Svg { text: canvas.finish("lcurve") }))
