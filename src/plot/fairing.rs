@@ -66,6 +66,15 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
+/// The plane of a station; at an end of the hull it stands a hair inside, where the end is a plane that it would only touch.
+pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
+    let xs = || record.after.surface().points().iter().map(|p| p[0]);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let inside = 1e-6 * (high - low);
+    let near = |end: f64| (x - end).abs() < inside;
+    Cut::Station { x: if near(low) || near(high) { x.clamp(low + inside, high - inside) } else { x } }
+}
+
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
 pub(super) fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
     let points = record.changes.iter().map(|change| [change.x, change.before.max(change.after), change.z]);
@@ -115,7 +124,7 @@ pub(super) fn body_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, Plo
     }
     canvas.line(frame(-1.0, z[0]), frame(1.0, z[0]), &BASE);
     canvas.line(at(1.0)([0.0, 0.0, z[0]]), at(1.0)([0.0, 0.0, z[1]]), &BASE);
-    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| Cut::Station { x: station.x }).collect();
+    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| station_cut(record, station.x)).collect();
     let place = |cut: &Cut| match *cut {
         Cut::Station { x } => at(side(x)),
         _ => at(1.0),
@@ -150,7 +159,8 @@ pub(super) fn half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Can
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
     let plan = Plan { record, title: "HALF-BREADTH PLAN", scale, room: paper };
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
-    let floor = paper[1] - FOOT - 4.0;
+    // What is left of the height stands above and below.
+    let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
     let at = move |p: [f64; 3]| [left + millimetres * (p[0] - x[0]), floor - stretch * millimetres * p[1]];
     let mut canvas = Canvas::new(paper[0], paper[1]);
     for station in &record.lines.stations {

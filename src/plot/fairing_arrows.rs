@@ -2,14 +2,13 @@
 //! sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship, name_stations};
+use super::fairing::{curves, extent, midship, name_stations, station_cut};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::Sheet;
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
-use crate::hull::Cut;
 
 /// Room at the sides, above and below the sections \[mm\].
 const SIDE: f64 = 32.0;
@@ -81,7 +80,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
         drawn.clear();
         for (k, station) in record.lines.stations.iter().enumerate() {
-            for line in curves(hull, Cut::Station { x: station.x }, 0.01 / millimetres) {
+            for line in curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
                 canvas.polyline(&line, pen);
                 drawn.push((k, line));

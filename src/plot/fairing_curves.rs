@@ -6,7 +6,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
-use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves};
+use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::Sheet;
 use super::{PlotError, Svg, caption};
@@ -116,7 +116,7 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
             Along::Height => {
                 let station = &record.lines.stations[k];
                 let name: String = caption::plain(&station.name).chars().take(12).collect();
-                (format!("station {name}"), Cut::Station { x: station.x })
+                (format!("station {name}"), station_cut(record, station.x))
             }
         };
         Line { name, cut, offsets, moves }

@@ -4,7 +4,7 @@
 //! them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship};
+use super::fairing::{curves, extent, midship, station_cut};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::Sheet;
@@ -12,7 +12,6 @@ use super::suspects::{Expected, small_plot};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::{Doubt, FairRecord};
-use crate::hull::Cut;
 use crate::units::Notation;
 
 /// Room above and below the plan and at its sides \[mm\].
@@ -84,7 +83,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
     let mut placer = LabelPlacer::default();
     for (k, station) in record.lines.stations.iter().enumerate() {
         let own = record.doubts.iter().any(|doubt| doubt.station == k);
-        for line in curves(&record.after, Cut::Station { x: station.x }, 0.01 / millimetres) {
+        for line in curves(&record.after, station_cut(record, station.x), 0.01 / millimetres) {
             let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
             canvas.polyline(&line, if own { &OWN } else { &QUIET });
             placer.add_curve(&line);

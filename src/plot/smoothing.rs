@@ -45,7 +45,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let words = format!(
-        "weight taken {:.2e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
+        "weight taken {:.1e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
         record.lambda,
         record.edf,
         1e3 * record.sigma
@@ -65,8 +65,10 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 0.6, "#1f5fa8");
         let beside = taken.is_some_and(|taken| (taken[0] - at[0]).hypot(taken[1] - at[1]) < 8.0);
         if k % 2 == 0 && !beside {
-            let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] + 1.6, at[1] + 3.0], [at[0] - 12.0, at[1] + 3.0]];
-            placer.name_point(&mut canvas, &format!("{lambda:.0e}"), &style, &places, &frame);
+            let name = format!("{lambda:.0e}");
+            let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
+            let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] - width - 1.6, at[1] + 1.6], [at[0] + 1.6, at[1] + 3.0]];
+            placer.name_point(&mut canvas, &name, &style, &places, &frame);
         }
     }
     if let Some(at) = taken {
