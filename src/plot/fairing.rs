@@ -66,11 +66,15 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
-/// The plane of a station; at an end of the hull it stands a hair inside, where the end is a plane that it would only touch.
+/// Part of the length by which a station at an end of the hull stands inside when it is drawn: an upright end that is a plane at the
+/// waterlines alone leaves that plane by less.
+const INSIDE: f64 = 1e-4;
+
+/// The plane of a station, a hair inside at an end of the hull, which it would only touch.
 pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
     let xs = || record.after.surface().points().iter().map(|p| p[0]);
     let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
-    let inside = 1e-6 * (high - low);
+    let inside = INSIDE * (high - low);
     let near = |end: f64| (x - end).abs() < inside;
     Cut::Station { x: if near(low) || near(high) { x.clamp(low + inside, high - inside) } else { x } }
 }

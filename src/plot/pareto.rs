@@ -90,7 +90,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         (chosen, "the weight that was taken", "#0072b2", 4),
         (Some(fair), "the fair hull with its wishes", "#c00000", 24),
     ];
-    for (at, name, ink, corners) in named {
+    for (at, _, ink, corners) in named {
         let Some([x, y]) = at.map(|at| chart.place(at)) else { continue };
         let corner = |k: i32| {
             let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners)).sin_cos();
@@ -98,6 +98,9 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         };
         canvas.area(&(0..corners).map(corner).collect::<Vec<_>>(), ink);
         placer.take(Rectangle::new(x - 1.9, y - 1.9, x + 1.9, y + 1.9));
+    }
+    for (at, name, ink, _) in named {
+        let Some([x, y]) = at.map(|at| chart.place(at)) else { continue };
         let style = TextStyle::new(2.8, Anchor::Start).coloured(ink).halo();
         let width = Canvas::text_place([0.0, 0.0], name, &style).width();
         let places: Vec<[f64; 2]> = [-3.6, 3.6, -7.2, 7.2, -10.8, 10.8]

@@ -1,7 +1,7 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give the same bytes.
 
 use super::figure::Svg;
-use super::sheet::{ROOM, Sheet, framed};
+use super::sheet::{ROOM, Sheet, Titles, framed};
 use super::{PlotError, caption, png};
 use krilla::geom::{Size, Transform};
 use krilla::metadata::Metadata;
@@ -40,14 +40,15 @@ fn place(surface: &mut Surface<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), Plo
 pub struct Page<'a> {
     /// What the title block calls it.
     pub title: &'a str,
+    /// What to look for; two lines of the title block.
+    pub caption: &'a str,
     /// The drawing.
     pub svg: &'a Svg,
 }
 
 /// A figure that was read, with its size \[mm\] and its number.
 struct Read<'a> {
-    title: &'a str,
-    number: usize,
+    titles: Titles<'a>,
     tree: Tree,
     size: [f64; 2],
 }
@@ -58,14 +59,8 @@ impl Read<'_> {
     }
 
     /// The frame of `sheet` with its upper left corner at `corner` \[mm\], and the figure in the middle of it.
-    fn draw_framed(
-        &self,
-        surface: &mut Surface<'_>,
-        (sheet, corner): (Sheet, [f64; 2]),
-        ship: &str,
-        count: usize,
-    ) -> Result<(), PlotError> {
-        let frame = framed(sheet, ship, self.title, self.number, count);
+    fn draw_framed(&self, surface: &mut Surface<'_>, sheet: Sheet, corner: [f64; 2]) -> Result<(), PlotError> {
+        let frame = framed(sheet, &self.titles);
         place(surface, &png::tree(frame.as_str())?, corner)?;
         let [width, height] = self.size;
         // A figure covers what is under it: it stays off the frame.
@@ -98,19 +93,17 @@ fn page(
 ///
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
-pub fn write_pdf(ship: &str, figures: &[Page<'_>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
+pub fn write_pdf<'a>(ship: &'a str, figures: &[Page<'a>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
     let mut document = Document::new_with(SerializeSettings::default());
     let metadata = Metadata::new().title(ship.to_owned()).creator(caption::program()).language("en".to_owned());
     document.set_metadata(metadata);
-    let read = |(k, figure): (usize, &Page<'_>)| -> Result<(usize, Tree), PlotError> {
-        Ok((k, png::tree(figure.svg.as_str())?))
+    let read = |(k, figure): (usize, &Page<'a>)| -> Result<Read<'a>, PlotError> {
+        let tree = png::tree(figure.svg.as_str())?;
+        let number = [k + 1, figures.len()];
+        let titles = Titles { ship, title: figure.title, caption: figure.caption, number };
+        Ok(Read { titles, size: size(&tree), tree })
     };
-    let trees = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
-    let mut all: Vec<Read<'_>> = trees
-        .into_iter()
-        .map(|(k, tree)| Read { title: figures[k].title, number: k + 1, size: size(&tree), tree })
-        .collect();
-    let count = all.len();
+    let mut all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
     if sheet != Sheet::A3 {
         let (small, large): (Vec<_>, Vec<_>) = all.into_iter().partition(|figure| figure.fits(ROOM));
         for four in small.chunks(4) {
@@ -119,7 +112,7 @@ pub fn write_pdf(ship: &str, figures: &[Page<'_>], sheet: Sheet) -> Result<Vec<u
                 let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
                 for (k, figure) in four.iter().enumerate() {
                     let corner = [spare[0] + wide * (k % 2) as f64, spare[1] + high * (k / 2) as f64];
-                    figure.draw_framed(surface, (Sheet::A3, corner), ship, count)?;
+                    figure.draw_framed(surface, Sheet::A3, corner)?;
                 }
                 Ok(())
             })?;
@@ -129,11 +122,7 @@ pub fn write_pdf(ship: &str, figures: &[Page<'_>], sheet: Sheet) -> Result<Vec<u
     for figure in &all {
         let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
         page(&mut document, paper, |surface| {
-            if fits {
-                figure.draw_framed(surface, (sheet, [0.0, 0.0]), ship, count)
-            } else {
-                place(surface, &figure.tree, [0.0, 0.0])
-            }
+            if fits { figure.draw_framed(surface, sheet, [0.0, 0.0]) } else { place(surface, &figure.tree, [0.0, 0.0]) }
         })?;
     }
     document.finish().map_err(|found| error(format!("{found:?}")))

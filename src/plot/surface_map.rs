@@ -1,6 +1,6 @@
 //! Curvature of the side of a hull, developed: position along the ship by girth from the keel.
 //!
-//! The Gaussian map is white where the surface is developable, orange where it is convex both ways and blue where it is a saddle; the
+//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is developable, orange where it is convex both ways and blue where it is a saddle; the
 //! mean map orange where it is convex outward and blue where it is hollow; on both, black lines mark zero. Colours are steps of the
 //! square root of the curvature, full at a size that nineteen twentieths of the surface do not pass. Zebra stripes are the reflections of
 //! lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous, have kinks where only
@@ -30,6 +30,8 @@ const HEIGHT: f64 = 78.0;
 const PITCH: f64 = 104.0;
 /// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step of colour.
 const ZERO: f64 = 0.25 / (STEPS * STEPS) as f64;
+/// Distance of the signs of curvature on the sheet \[mm\].
+const SIGNS: f64 = 9.0;
 /// Dark stripes to a turn of the reflected ray.
 const STRIPES: f64 = 16.0;
 
@@ -154,6 +156,7 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
         draw_cells(&mut canvas, &chart, &side.map, kind, full);
         if kind != SurfaceMapKind::Zebra && full > 0.0 {
             let place = |at: [f64; 2]| chart.place(at);
+            draw_signs(&mut canvas, &chart, &side.map, which, ZERO * full);
             for line in zero_lines(&side.map, which, ZERO * full, &place) {
                 canvas.polyline(&line, &Pen::new(0.3, "#000000"));
             }
@@ -237,6 +240,39 @@ fn clipped(corners: [[f64; 2]; 4], signs: [f64; 4]) -> Vec<[f64; 2]> {
     part
 }
 
+/// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature is positive and
+/// - where it is negative, about [`SIGNS`] apart.
+fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, least: f64) {
+    let pen = Pen::new(0.14, "#303030");
+    let mut across = f64::NEG_INFINITY;
+    for i in 0..map.columns() {
+        let place = |j: usize| {
+            let point = map.point(i, j);
+            chart.place([point.at[0], point.girth])
+        };
+        let x = place(0)[0];
+        if x - across < SIGNS {
+            continue;
+        }
+        across = x;
+        let mut last = place(0)[1] - 0.3 * SIGNS;
+        for j in 0..map.rows {
+            let [x, y] = place(j);
+            let Some(value) = map.point(i, j).curvature.map(|c| c[which]).filter(|_| last - y >= SIGNS) else {
+                continue;
+            };
+            last = y;
+            if value.abs() < least || y - chart.frame.top < 2.0 {
+                continue;
+            }
+            canvas.line([x - 0.7, y], [x + 0.7, y], &pen);
+            if value > 0.0 {
+                canvas.line([x, y - 0.7], [x, y + 0.7], &pen);
+            }
+        }
+    }
+}
+
 fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
     let style = TextStyle::new(2.8, Anchor::Start);
     let mut x = 26.0;
@@ -263,8 +299,8 @@ fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
         x += 13.0;
     }
     let words = match kind {
-        SurfaceMapKind::Gaussian => "orange: convex both ways, white: developable, blue: saddle; black line: 0",
-        _ => "orange: convex outward, blue: hollow; black line: 0",
+        SurfaceMapKind::Gaussian => "orange, +: convex both ways; white: developable; blue, -: saddle; black line: 0",
+        _ => "orange, +: convex outward; blue, -: hollow; black line: 0",
     };
     canvas.text([x + 3.0, y], &format!("{}   {words}", kind.unit()), &style);
 }

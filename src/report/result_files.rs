@@ -41,7 +41,10 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let pages: Vec<Page<'_>> = figures
         .iter()
-        .map(|figure| Page { title: figure.title, svg: figure.large.as_ref().unwrap_or(&figure.svg) })
+        .map(|figure| {
+            let svg = figure.large.as_ref().unwrap_or(&figure.svg);
+            Page { title: figure.title, caption: figure.caption, svg }
+        })
         .collect();
     // The PDF takes as long as page and tables together.
     let (pdf, page, tables) = thread::scope(|scope| {
