@@ -14,7 +14,7 @@ use crate::fairing::record::FairRecord;
 const SIDE: f64 = 32.0;
 const HEAD: f64 = 40.0;
 const FOOT: f64 = 30.0;
-/// Length of the arrow of the largest move \[mm\], at most.
+/// Length of the arrow of the largest move on A3 \[mm\], at most.
 const LONGEST: f64 = 9.0;
 /// Arrows shorter than this are not drawn \[mm\].
 const LEAST: f64 = 0.25;
@@ -32,10 +32,11 @@ pub fn fairing_arrows(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotErro
     Ok(Svg { text: compose(record, sheet)?.finish("fairing-arrows") })
 }
 
-/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`].
-pub(super) fn exaggeration(largest: f64) -> f64 {
+/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`], which grows with the paper.
+pub(super) fn exaggeration(largest: f64, paper: [f64; 2]) -> f64 {
+    let longest = LONGEST * paper[0] / Sheet::A3.room()[0];
     let steps = (0..6).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(power)));
-    steps.take_while(|n| n * largest <= LONGEST).last().unwrap_or(1.0)
+    steps.take_while(|n| n * largest <= longest).last().unwrap_or(1.0)
 }
 
 /// Title of the sheet, `words` about its scales, and how far the offsets moved.
@@ -88,7 +89,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         }
     }
     let (_, largest, _) = record.moves();
-    let times = exaggeration(largest * millimetres);
+    let times = exaggeration(largest * millimetres, paper);
     for change in &record.changes {
         let from = at(change.x, change.before, change.z);
         if change.suspect {

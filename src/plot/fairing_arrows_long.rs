@@ -114,7 +114,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         from: [x[0], from],
         millimetres,
         stretch,
-        times: exaggeration(largest * across),
+        times: exaggeration(largest * across, paper),
     };
     let profile = view(2, HEAD + across * (z[1] - z[0]), z[0], highest);
     let plan = view(1, paper[1] - FOOT, 0.0, largest);

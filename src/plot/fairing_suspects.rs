@@ -199,7 +199,7 @@ fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], n: u32) {
     canvas.text([0.5 * paper[0], 9.0], &format!("SUSPECTS – {name}"), &TextStyle::new(4.5, Anchor::Middle));
     let left_out = record.changes.iter().filter(|change| change.suspect).count();
     let words = format!(
-        "{} of {} offsets are doubted, {left_out} were left out of the fairing    body plan 1:{n}, after fairing",
+        "doubted: {} of {} offsets    left out of the fairing: {left_out}    body plan 1:{n}, after fairing",
         record.doubts.len(),
         record.changes.len()
     );
