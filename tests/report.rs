@@ -46,7 +46,8 @@ fn generated(test: &str) -> PathBuf {
 
 /// The table of the Wigley hull with one wrong offset: 0.4 m too much.
 fn wrong_table() -> PathBuf {
-    let path = folder("fair-table").join("offsets.csv");
+    let path = folder("fair-table").join("wigley/offsets.csv");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
     let text = fs::read_to_string(carried("tests/data/wigley/offsets.csv")).unwrap();
     let wrong = |line: &str| {
         let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
