@@ -66,17 +66,26 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
-/// Part of the length by which a station at an end of the hull stands inside when it is drawn: an upright end that is a plane at the
-/// waterlines alone leaves that plane by less.
+/// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn there: an upright
+/// end that is a plane at the waterlines alone leaves that plane by less.
+const END: f64 = 0.01;
 const INSIDE: f64 = 1e-4;
 
-/// The plane of a station, a hair inside at an end of the hull, which it would only touch.
+/// The plane of a station; at an end of the hull, where it may go in and out of the side, a hair inside if that is in fewer pieces.
 pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
-    let xs = || record.after.surface().points().iter().map(|p| p[0]);
+    let hull = &record.after;
+    let xs = || hull.surface().points().iter().map(|p| p[0]);
     let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
-    let inside = INSIDE * (high - low);
-    let near = |end: f64| (x - end).abs() < inside;
-    Cut::Station { x: if near(low) || near(high) { x.clamp(low + inside, high - inside) } else { x } }
+    let length = high - low;
+    if x - low > END * length && high - x > END * length {
+        return Cut::Station { x };
+    }
+    let inward = Cut::Station { x: x + INSIDE * length * if x - low < high - x { 1.0 } else { -1.0 } };
+    let pieces = |cut: Cut| match curves(hull, cut, END * length).len() {
+        0 => usize::MAX,
+        count => count,
+    };
+    if pieces(inward) < pieces(Cut::Station { x }) { inward } else { Cut::Station { x } }
 }
 
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
