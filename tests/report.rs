@@ -44,12 +44,28 @@ fn generated(test: &str) -> PathBuf {
     path
 }
 
+/// The table of the Wigley hull with one wrong offset: 0.4 m too much.
+fn wrong_table() -> PathBuf {
+    let path = folder("fair-table").join("wigley/offsets.csv");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    let text = fs::read_to_string(carried("tests/data/wigley/offsets.csv")).unwrap();
+    let wrong = |line: &str| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        cells[6] = format!("{:.6}", cells[6].parse::<f64>().unwrap() + 0.4);
+        cells.join(",")
+    };
+    let lines: Vec<String> =
+        text.lines().map(|line| if line.starts_with("-20,") { wrong(line) } else { line.to_owned() }).collect();
+    fs::write(&path, lines.join("\n") + "\n").unwrap();
+    path
+}
+
 /// A faired table with its report, made once.
 fn faired() -> &'static (PathBuf, Vec<OutputFile>) {
     static FAIRED: OnceLock<(PathBuf, Vec<OutputFile>)> = OnceLock::new();
     FAIRED.get_or_init(|| {
         let path = folder("fair");
-        let job = read_fair(&carried("tests/data/wigley/offsets.csv"), &[]).unwrap();
+        let job = read_fair(&wrong_table(), &[]).unwrap();
         write_all(&path, &fair_outputs(&job, false).unwrap().files, true).unwrap();
         let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
         (path, files)
@@ -74,17 +90,22 @@ const HULL: [&str; 10] = [
     "sections",
     "zebra-map",
 ];
-const FAIRED: [&str; 11] = [
+const FAIRED: [&str; 16] = [
     "constraints",
     "convergence",
     "deviation",
     "fairing-arrows",
+    "fairing-arrows-long",
     "fairing-body-plan",
     "fairing-buttocks",
     "fairing-diagonals",
     "fairing-half-breadth-plan",
     "fairing-moves",
+    "fairing-stations",
+    "fairing-waterlines",
     "lcurve",
+    "pareto",
+    "suspects",
     "verdict",
 ];
 
@@ -204,6 +225,14 @@ fn what_fair_wrote_comes_back_as_it_was() {
     let (record, fairing) = result.fairing.unwrap();
     assert_eq!(record.after, result.hull);
     assert_eq!(record.changes.len(), 451);
+    // Stations from -50 to 50 m of midship stand between AP and FP.
+    assert_eq!((record.lines.stations[0].x, record.lines.stations[40].x), (0.0, 100.0));
+    let [doubt] = &record.doubts[..] else { panic!("{:?}", record.doubts) };
+    assert_eq!((doubt.id.as_str(), doubt.station, doubt.z), ("S1", 12, 3.125));
+    assert!((doubt.value - 3.55).abs() < 1e-9 && (doubt.proposed - 3.15).abs() < 1e-2, "{doubt:?}");
+    let energy = &fairing["energy"];
+    let written = [&energy["before"], &energy["after"]].map(|value| value.as_f64().unwrap());
+    assert!(record.energy.iter().zip(written).all(|(a, b)| (a - b).abs() <= 1e-12 * b), "{written:?}");
     let (rms, largest, _) = record.moves();
     let near = |a: f64, b: &Value| (a - b.as_f64().unwrap()).abs() < 1e-12;
     assert!(near(rms, &fairing["moves"]["rms"]) && near(largest, &fairing["moves"]["max"]));
@@ -260,6 +289,22 @@ fn the_pdf_has_a_page_a_figure_at_true_size() {
     for found in boxes {
         assert!(found.contains("1190.55") && found.contains("841.88"), "{found}");
     }
+}
+
+#[test]
+fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
+    let path = generated("sheets");
+    let result = read_result(&path).unwrap();
+    let files = report_outputs(&result, &ReportSettings { sheet: Sheet::A1, ..SETTINGS }).unwrap();
+    let pdf = &files.iter().find(|file| file.name == "report.pdf").unwrap().contents;
+    let plain = String::from_utf8_lossy(pdf);
+    let boxes: Vec<&str> = plain.split("/MediaBox").skip(1).map(|rest| rest[..40.min(rest.len())].trim()).collect();
+    // Lines plan and body plan alone, the other eight on two sheets; 841 mm x 594 mm in points.
+    assert_eq!(boxes.len(), 4);
+    assert!(boxes.iter().all(|found| found.contains("2383.9") && found.contains("1683.7")), "{boxes:?}");
+    // The pictures beside the document stay as they are.
+    let small = report_outputs(&result, &SETTINGS).unwrap();
+    assert_eq!(text(&files, "sections.svg"), text(&small, "sections.svg"));
 }
 
 /// Elements by kind and the words of a figure; numbers only where `numbers`.

@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     /// Resolution of the pictures, dots per inch; 300 for print
     #[arg(long, value_parser = dpi, value_name = "DPI", default_value = "150")]
     dpi: f64,
-    /// Sheet of the lines plan in report.pdf: A3 or A1; the other figures stand on A3
+    /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
     #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
     sheet: Sheet,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not
@@ -35,9 +35,9 @@ const AFTER: &str = "\
 Every figure is written as PNG and as SVG in millimetres; report.html holds all of them, tables that can be sorted and the hull in \
 space, and opens without a network; report.pdf holds them at true size, each sheet with a check bar of 100 mm.
 Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
-curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, moves as a map and as arrows, \
-stations, waterlines, buttocks and diagonals before and after with combs at one scale, moves against the assumed noise, deviation against \
-energy, convergence.
+curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, suspects, moves as a map and as arrows \
+in three views, the lines that moved most with the tolerances of their offsets, stations, waterlines, buttocks and diagonals before and \
+after with combs at one scale, moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 

@@ -11,7 +11,7 @@ use crate::fairing::program::RowName;
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::TableLines;
 use crate::fairing::surface::Origin;
-use crate::hull::{Cut, OffsetTable, SideKind};
+use crate::hull::{Cut, LineKind, OffsetTable, SideKind};
 use crate::qp::Status;
 
 /// What writing the fair table in its notation did.
@@ -183,10 +183,24 @@ fn lines(table: &OffsetTable, outcome: &Outcome) -> Value {
     let lines = TableLines::new(table, outcome);
     let stations: Vec<Value> = lines.stations.iter().map(|s| json!({ "name": s.name, "x": number(s.x) })).collect();
     let endings: Vec<[Value; 2]> = lines.endings.iter().map(|ends| ends.map(json_number)).collect();
+    let crossings: Vec<Value> = lines
+        .crossings
+        .iter()
+        .map(|c| json!({ "station": lines.stations[c.station].x, "z": number(c.z), "kind": kind_word(c.kind) }))
+        .collect();
     json!({
         "notation": lines.notation.as_str(), "quantum": json_number(lines.quantum), "stations": stations,
         "waterlines": lines.waterlines.iter().map(|z| number(*z)).collect::<Vec<_>>(), "endings": endings,
+        "crossings": crossings,
     })
+}
+
+/// The word for a kind of line.
+pub(super) fn kind_word(kind: LineKind) -> &'static str {
+    match kind {
+        LineKind::Knuckle => "knuckle",
+        LineKind::Tangent => "tangent",
+    }
 }
 
 /// The certificate. `suspects` are the suspects as `check` writes them; `table` is the table as it was read.

@@ -3,12 +3,12 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::fairing::status_word;
+use super::fairing::{kind_word, status_word};
 use crate::fairing::job::Change;
-use crate::fairing::record::TableLines;
+use crate::fairing::record::{Crossing, Doubt, TableLines};
 use crate::fairing::smoothing::Trial;
 use crate::fairing::surface::Origin;
-use crate::hull::OffsetStation;
+use crate::hull::{LineKind, OffsetStation};
 use crate::qp::{Progress, Status};
 use crate::units::Notation;
 
@@ -61,6 +61,10 @@ pub struct FairingFile {
     pub status: Status,
     /// Lines of the table.
     pub lines: TableLines,
+    /// Offsets that their neighbours contradict.
+    pub doubts: Vec<Doubt>,
+    /// Energy before and after.
+    pub energy: [f64; 2],
     /// Noise of an offset \[m\].
     pub sigma: f64,
     /// Effective degrees of freedom.
@@ -82,8 +86,31 @@ struct Record {
     table: LinesRecord,
     noise: Noise,
     smoothing: Smoothing,
+    energy: Energy,
     #[serde(default)]
     convergence: Vec<Iterate>,
+    #[serde(default)]
+    suspects: Vec<SuspectRecord>,
+}
+
+#[derive(Deserialize)]
+struct Energy {
+    before: f64,
+    after: f64,
+}
+
+#[derive(Deserialize)]
+struct SuspectRecord {
+    id: String,
+    station: f64,
+    station_name: String,
+    waterline: f64,
+    written: String,
+    value: f64,
+    score: f64,
+    hypothesis: String,
+    proposed: f64,
+    proposed_written: String,
 }
 
 #[derive(Deserialize)]
@@ -100,6 +127,15 @@ struct LinesRecord {
     stations: Vec<StationRecord>,
     waterlines: Vec<f64>,
     endings: Vec<[Option<f64>; 2]>,
+    #[serde(default)]
+    crossings: Vec<CrossingRecord>,
+}
+
+#[derive(Deserialize)]
+struct CrossingRecord {
+    station: f64,
+    z: f64,
+    kind: String,
 }
 
 #[derive(Deserialize)]
@@ -150,16 +186,44 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
     let table = record.table;
     let notation = Notation::from_word(&table.notation)
         .ok_or_else(|| word("table.notation", &table.notation, "m, mm, feet-inches-eighths, cm, ft, in".to_owned()))?;
+    let stations: Vec<OffsetStation> =
+        table.stations.into_iter().map(|s| OffsetStation { name: s.name, x: s.x }).collect();
+    let station_at = |x: f64| stations.iter().position(|station| (station.x - x).abs() <= 1e-9);
+    let kinds = [LineKind::Knuckle, LineKind::Tangent];
+    let crossing = |c: CrossingRecord| {
+        let kind = kinds.into_iter().find(|kind| kind_word(*kind) == c.kind)?;
+        Some(Crossing { station: station_at(c.station)?, z: c.z, kind })
+    };
+    let crossings = table.crossings.into_iter().filter_map(crossing).collect();
+    let doubt = |suspect: SuspectRecord| {
+        let named = |station: &OffsetStation| {
+            (station.x - suspect.station).abs() <= 1e-9 && station.name == suspect.station_name
+        };
+        Some(Doubt {
+            station: stations.iter().position(named)?,
+            id: suspect.id,
+            z: suspect.waterline,
+            value: suspect.value,
+            proposed: suspect.proposed,
+            written: [suspect.written, suspect.proposed_written],
+            hypothesis: suspect.hypothesis,
+            score: Some(suspect.score),
+        })
+    };
+    let doubts = record.suspects.into_iter().filter_map(doubt).collect();
     let smoothing = record.smoothing;
     Ok(FairingFile {
         name: record.name,
         status,
+        doubts,
+        energy: [record.energy.before, record.energy.after],
         lines: TableLines {
-            stations: table.stations.into_iter().map(|s| OffsetStation { name: s.name, x: s.x }).collect(),
+            stations,
             waterlines: table.waterlines,
             endings: table.endings,
             quantum: table.quantum,
             notation,
+            crossings,
         },
         sigma: record.noise.sigma,
         edf: smoothing.edf,
@@ -272,6 +336,7 @@ mod tests {
             endings: vec![[None; 2]; 2],
             quantum: Some(1e-3),
             notation: Notation::Metres,
+            crossings: Vec::new(),
         }
     }
 

@@ -2,8 +2,10 @@
 //! the table, every offset with its move, the noise and the search for the smoothing weight.
 
 use super::job::{Change, Outcome};
+use super::lines::{self as proposed, LineCourse};
 use super::smoothing::Trial;
-use crate::hull::{Hull, OffsetStation, OffsetTable};
+use super::suspects::Suspect;
+use crate::hull::{Hull, LineKind, OffsetStation, OffsetTable};
 use crate::qp::{Progress, Status};
 use crate::units::Notation;
 
@@ -20,6 +22,40 @@ pub struct TableLines {
     pub quantum: Option<f64>,
     /// Notation of the offsets.
     pub notation: Notation,
+    /// Where stations cross knuckles and tangent lines, station by station.
+    pub crossings: Vec<Crossing>,
+}
+
+/// Where a station crosses a line along which the surface is less smooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Index of the station.
+    pub station: usize,
+    /// Height \[m\].
+    pub z: f64,
+    /// What the line is.
+    pub kind: LineKind,
+}
+
+/// An offset that its neighbours contradict, or the net through all others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// `S1` is the most severe of those that the neighbours contradict; `N1` the first of those that the net contradicts.
+    pub id: String,
+    /// Index of the station.
+    pub station: usize,
+    /// Height of the waterline \[m\].
+    pub z: f64,
+    /// The half-breadth as the table has it \[m\].
+    pub value: f64,
+    /// What is proposed in its place \[m\].
+    pub proposed: f64,
+    /// Both as they are written; empty where the net contradicts.
+    pub written: [String; 2],
+    /// The slip that it may be, in words.
+    pub hypothesis: String,
+    /// How far it lies off, in local noise; none where the net contradicts.
+    pub score: Option<f64>,
 }
 
 /// A faired table.
@@ -37,6 +73,10 @@ pub struct FairRecord {
     pub lines: TableLines,
     /// Every offset that was read.
     pub changes: Vec<Change>,
+    /// Offsets that are doubted, those that were left out first heard by their neighbours, then by the net.
+    pub doubts: Vec<Doubt>,
+    /// Energy of the start net and of the fair net, in the unit of [`Trial::energy`].
+    pub energy: [f64; 2],
     /// Noise level of an offset \[m\].
     pub sigma: f64,
     /// Smoothing weight.
@@ -61,7 +101,89 @@ impl TableLines {
             endings: table.endings.clone(),
             quantum: table.form.quantum(),
             notation: table.form.notation,
+            crossings: crossings(table, outcome),
         }
+    }
+}
+
+fn kind_of(kind: proposed::LineKind) -> LineKind {
+    match kind {
+        proposed::LineKind::Knuckle => LineKind::Knuckle,
+        proposed::LineKind::Tangent => LineKind::Tangent,
+    }
+}
+
+/// Marked cells, and where the lines of the table and those that were accepted meet its stations.
+fn crossings(table: &OffsetTable, outcome: &Outcome) -> Vec<Crossing> {
+    let accepted = || outcome.proposals.iter().filter(|proposal| proposal.accepted).map(|proposal| &proposal.line);
+    let mut list: Vec<Crossing> = Vec::new();
+    for (k, station) in table.stations.iter().enumerate() {
+        let mut add = |z: f64, kind: LineKind| {
+            let crossing = Crossing { station: k, z, kind };
+            if !list.iter().any(|other| other.station == k && other.kind == kind && (other.z - z).abs() < 1e-6) {
+                list.push(crossing);
+            }
+        };
+        for (z, cell) in table.waterlines.iter().zip(&station.half_breadths) {
+            for (marked, kind) in [(cell.marks.knuckle, LineKind::Knuckle), (cell.marks.tangent, LineKind::Tangent)] {
+                if marked {
+                    add(*z, kind);
+                }
+            }
+        }
+        let x = station.station.x;
+        for line in accepted().filter(|line| line.course == LineCourse::Waterline) {
+            if line.reach[0] <= x && x <= line.reach[1] {
+                add(line.at, kind_of(line.kind));
+            }
+        }
+        for line in &table.lines {
+            for pair in line.points.windows(2) {
+                let [a, b] = [pair[0], pair[1]];
+                if a[0] <= x && x <= b[0] && b[0] > a[0] {
+                    add(a[2] + (x - a[0]) / (b[0] - a[0]) * (b[2] - a[2]), line.kind);
+                }
+            }
+        }
+    }
+    list
+}
+
+impl Doubt {
+    fn of(suspect: &Suspect, waterlines: &[f64]) -> Self {
+        Self {
+            id: suspect.id.clone(),
+            station: suspect.station,
+            z: waterlines.get(suspect.waterline).copied().unwrap_or_default(),
+            value: suspect.value,
+            proposed: suspect.proposed,
+            written: [suspect.written.clone(), suspect.proposed_text.clone()],
+            hypothesis: suspect.hypothesis().as_str().to_owned(),
+            score: Some(suspect.verdict.score),
+        }
+    }
+
+    /// `heard` by their neighbours, and those that were left out besides: the net contradicts them.
+    #[must_use]
+    pub fn all(heard: Vec<Self>, changes: &[Change]) -> Vec<Self> {
+        let known =
+            |change: &Change| heard.iter().any(|d| d.station == change.station && (d.z - change.z).abs() < 1e-9);
+        let left: Vec<Self> = changes
+            .iter()
+            .filter(|change| change.suspect && !known(change))
+            .enumerate()
+            .map(|(k, change)| Self {
+                id: format!("N{}", k + 1),
+                station: change.station,
+                z: change.z,
+                value: change.before,
+                proposed: change.after,
+                written: [String::new(), String::new()],
+                hypothesis: "against the net of all others".to_owned(),
+                score: None,
+            })
+            .collect();
+        heard.into_iter().chain(left).collect()
     }
 }
 
@@ -77,6 +199,11 @@ impl FairRecord {
             after: outcome.after.clone(),
             lines: TableLines::new(table, outcome),
             changes: outcome.changes.clone(),
+            doubts: Doubt::all(
+                outcome.suspects.iter().map(|suspect| Doubt::of(suspect, &table.waterlines)).collect(),
+                &outcome.changes,
+            ),
+            energy: outcome.energy,
             sigma: faired.sigma,
             lambda: faired.lambda,
             edf: faired.edf,

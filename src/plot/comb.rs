@@ -7,12 +7,12 @@ use crate::fairing::inspect::Comb;
 
 /// Length of the tooth whose curvature is printed \[mm\].
 const STATED: f64 = 10.0;
-/// The longest tooth \[mm\]; longer ones are cut there.
-const LONGEST: f64 = 22.0;
-/// Part of the teeth that are shorter than [`USUAL`].
+/// Part of the teeth that are shorter than the usual one.
 const QUANTILE: f64 = 0.75;
-/// Length of the tooth at that part \[mm\], at most.
-const USUAL: f64 = 8.0;
+/// Length of the longest tooth of a drawing \[mm\]; longer ones are cut there.
+const LONGEST: f64 = 22.0;
+/// Length of the tooth at [`QUANTILE`], as a part of the longest.
+const USUAL: f64 = 4.0 / 11.0;
 /// Radius of the ring around an inflection \[mm\].
 const RING: f64 = 1.1;
 
@@ -21,6 +21,8 @@ const RING: f64 = 1.1;
 pub(super) struct CombScale {
     /// Curvature of a tooth of [`STATED`] millimetres \[1/m\].
     curvature: f64,
+    /// The longest tooth \[mm\]; longer ones are cut there.
+    longest: f64,
 }
 
 /// How the comb of a curve is drawn.
@@ -34,21 +36,26 @@ pub(super) struct CombPens {
 impl CombScale {
     /// The scale at which most teeth of `combs` are short enough for the drawing.
     pub(super) fn fitting(combs: &[Comb]) -> Self {
-        let lengths = combs.iter().flat_map(|comb| &comb.teeth).map(|tooth| norm(tooth.tooth));
+        Self::within(combs, LONGEST)
+    }
+
+    /// The scale for teeth of `longest` at most \[mm\].
+    pub(super) fn within<'a>(combs: impl IntoIterator<Item = &'a Comb>, longest: f64) -> Self {
+        let lengths = combs.into_iter().flat_map(|comb| &comb.teeth).map(|tooth| norm(tooth.tooth));
         let mut lengths: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
         lengths.sort_by(f64::total_cmp);
         let usual = lengths.get((QUANTILE * lengths.len() as f64) as usize).copied().unwrap_or(0.0);
-        Self { curvature: sheet_scale(usual, USUAL) * STATED }
+        Self { curvature: sheet_scale(usual, USUAL * longest) * STATED, longest }
     }
 
-    /// For the sheet: `combs: 10 mm = 0.02 1/m, cut at 22 mm`.
+    /// For the sheet: `10 mm = 0.02 1/m, teeth cut at 22 mm`.
     pub(super) fn words(&self) -> String {
         let digits = (0..12).find(|&d| {
             let scaled = self.curvature * 10f64.powi(d);
             (scaled - scaled.round()).abs() < 1e-6 * scaled
         });
         let curvature = format!("{:.*}", digits.unwrap_or(6) as usize, self.curvature);
-        format!("combs before and after: {STATED:.0} mm = {curvature} 1/m, teeth cut at {LONGEST:.0} mm")
+        format!("{STATED:.0} mm = {curvature} 1/m, teeth cut at {:.0} mm", self.longest)
     }
 
     /// Draws a comb; `at` takes points of the ship to the sheet.
@@ -66,7 +73,7 @@ impl CombScale {
             // The drawing may be stretched: it tells the side, the ship the length.
             let far = at(std::array::from_fn(|d| tooth.at[d] + tooth.tooth[d]));
             let outward = (far[0] - feet[k][0]) * normal[0] + (far[1] - feet[k][1]) * normal[1];
-            let size = (norm(tooth.tooth) / self.curvature * STATED).min(LONGEST).copysign(outward);
+            let size = (norm(tooth.tooth) / self.curvature * STATED).min(self.longest).copysign(outward);
             let tip = [feet[k][0] + size * normal[0], feet[k][1] + size * normal[1]];
             canvas.line(feet[k], tip, &pens.teeth);
             tips.push(tip);

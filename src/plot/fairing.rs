@@ -8,7 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale};
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
-use super::sheet::ROOM;
+use super::sheet::Sheet;
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{Comb, combs};
@@ -16,8 +16,6 @@ use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Face, Hull};
 use crate::qp::Status;
 
-/// What the frame leaves of A3 \[mm\].
-pub(super) const SHEET: [f64; 2] = ROOM;
 /// Room at the sides, above and below the drawing \[mm\].
 const SIDE: f64 = 38.0;
 const HEAD: f64 = 50.0;
@@ -29,11 +27,11 @@ const TEETH: usize = 121;
 /// Most lines of a plan that bear combs; beyond it every second, third, ... does, and the last.
 const MOST_COMBS: usize = 12;
 
-const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
-const AFTER: Pen = Pen::new(0.22, "#000000");
-const BEFORE_COMB: CombPens =
+pub(super) const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
+pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
+pub(super) const BEFORE_COMB: CombPens =
     CombPens { teeth: Pen::new(0.1, "#dedede"), tips: Pen::new(0.2, "#b4b4b4"), ring: Pen::new(0.3, "#9a9a9a") };
-const AFTER_COMB: CombPens =
+pub(super) const AFTER_COMB: CombPens =
     CombPens { teeth: Pen::new(0.1, "#a9c0e2"), tips: Pen::new(0.2, "#1f5fa8"), ring: Pen::new(0.4, "#c00000") };
 
 /// A plan: which lines, where points of the ship stand.
@@ -41,22 +39,24 @@ pub(super) struct Plan<'a> {
     pub(super) record: &'a FairRecord,
     pub(super) title: &'static str,
     pub(super) scale: String,
+    /// Width and height of the drawing \[mm\].
+    pub(super) room: [f64; 2],
 }
 
 /// Body plan before and after, aft sections on the left.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without stations.
-pub fn fairing_body_plan(record: &FairRecord) -> Result<Svg, PlotError> {
-    Ok(Svg { text: body_plan(record)?.finish("fairing-body-plan") })
+pub fn fairing_body_plan(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg { text: body_plan(record, sheet)?.finish("fairing-body-plan") })
 }
 
 /// Half-breadth plan before and after, bow on the right.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without waterlines.
-pub fn fairing_half_breadth_plan(record: &FairRecord) -> Result<Svg, PlotError> {
-    Ok(Svg { text: half_breadth_plan(record)?.finish("fairing-half-breadth-plan") })
+pub fn fairing_half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg { text: half_breadth_plan(record, sheet)?.finish("fairing-half-breadth-plan") })
 }
 
 /// The curves of a plane on the side of a hull.
@@ -64,6 +64,28 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     let section = hull.section(cut, 1e-6);
     let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
     side.map(|branch| branch.polyline(deviation)).collect()
+}
+
+/// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn there: an upright
+/// end that is a plane at the waterlines alone leaves that plane by less.
+const END: f64 = 0.01;
+const INSIDE: f64 = 1e-4;
+
+/// The plane of a station; at an end of the hull, where it may go in and out of the side, a hair inside if that is in fewer pieces.
+pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
+    let hull = &record.after;
+    let xs = || hull.surface().points().iter().map(|p| p[0]);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let length = high - low;
+    if x - low > END * length && high - x > END * length {
+        return Cut::Station { x };
+    }
+    let inward = Cut::Station { x: x + INSIDE * length * if x - low < high - x { 1.0 } else { -1.0 } };
+    let pieces = |cut: Cut| match curves(hull, cut, END * length).len() {
+        0 => usize::MAX,
+        count => count,
+    };
+    if pieces(inward) < pieces(Cut::Station { x }) { inward } else { Cut::Station { x } }
 }
 
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
@@ -93,48 +115,38 @@ pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
 }
 
-pub(super) fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+pub(super) fn body_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+    let paper = sheet.room();
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
-    let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT];
+    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan { record, title: "BODY PLAN", scale: format!("1:{n}") };
-    let floor = SHEET[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
+    let plan = Plan { record, title: "BODY PLAN", scale: format!("1:{n}"), room: paper };
+    let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
     let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
     let at = move |half: f64| {
-        move |p: [f64; 3]| [0.5 * SHEET[0] + half * millimetres * p[1], floor - millimetres * (p[2] - z[0])]
+        move |p: [f64; 3]| [0.5 * paper[0] + half * millimetres * p[1], floor - millimetres * (p[2] - z[0])]
     };
-    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let mut canvas = Canvas::new(paper[0], paper[1]);
     let frame = |half: f64, height: f64| at(half)([0.0, breadth, height]);
     for &height in &record.lines.waterlines {
         canvas.line(frame(-1.0, height), frame(1.0, height), &GRID);
     }
     canvas.line(frame(-1.0, z[0]), frame(1.0, z[0]), &BASE);
     canvas.line(at(1.0)([0.0, 0.0, z[0]]), at(1.0)([0.0, 0.0, z[1]]), &BASE);
-    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| Cut::Station { x: station.x }).collect();
+    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| station_cut(record, station.x)).collect();
     let place = |cut: &Cut| match *cut {
         Cut::Station { x } => at(side(x)),
         _ => at(1.0),
     };
     let drawn = draw(&mut canvas, &plan, &cuts, CHORD / millimetres, &place);
     let mut placer = drawn.placer();
-    title(&mut canvas, &plan, &drawn.scale);
-    let style = TextStyle::new(2.6, Anchor::Middle).halo();
-    let window = Rectangle::new(8.0, 24.0, SHEET[0] - 8.0, SHEET[1] - 14.0);
-    for (k, station) in record.lines.stations.iter().enumerate() {
-        let ends = drawn.curves.iter().filter(|(cut, _)| *cut == k).flat_map(|(_, line)| line);
-        let Some(&end) = ends.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
-        let mut shifts: Vec<[f64; 2]> =
-            (0..16).flat_map(|row| (-6..=6).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
-        shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
-        let places: Vec<[f64; 2]> =
-            shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
-        let name: String = caption::plain(&station.name).chars().take(9).collect();
-        placer.name_off_curves(&mut canvas, &name, &style, &places, &window, (end, &THREAD));
-    }
+    title(&mut canvas, &plan, &drawn);
+    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window);
     let style = TextStyle::new(2.4, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
@@ -142,26 +154,28 @@ pub(super) fn body_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
         placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
     }
     let words = TextStyle::new(3.0, Anchor::Middle);
-    canvas.text([0.5 * SHEET[0] - 60.0, SHEET[1] - 20.0], "AFT", &words);
-    canvas.text([0.5 * SHEET[0] + 60.0, SHEET[1] - 20.0], "FORWARD", &words);
+    canvas.text([0.5 * paper[0] - 60.0, paper[1] - 20.0], "AFT", &words);
+    canvas.text([0.5 * paper[0] + 60.0, paper[1] - 20.0], "FORWARD", &words);
     Ok(canvas)
 }
 
-pub(super) fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError> {
+pub(super) fn half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+    let paper = sheet.room();
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
-    let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT - 20.0];
+    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT - 20.0];
     let n = drawing_scale(x[1] - x[0], room[0]);
     let millimetres = 1000.0 / f64::from(n);
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, title: "HALF-BREADTH PLAN", scale };
-    let left = 0.5 * (SHEET[0] - millimetres * (x[1] - x[0]));
-    let floor = SHEET[1] - FOOT - 4.0;
+    let plan = Plan { record, title: "HALF-BREADTH PLAN", scale, room: paper };
+    let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
+    // What is left of the height stands above and below.
+    let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
     let at = move |p: [f64; 3]| [left + millimetres * (p[0] - x[0]), floor - stretch * millimetres * p[1]];
-    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let mut canvas = Canvas::new(paper[0], paper[1]);
     for station in &record.lines.stations {
         let x = station.x;
         canvas.line(at([x, 0.0, 0.0]), at([x, breadth, 0.0]), &GRID);
@@ -169,9 +183,9 @@ pub(super) fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError
     canvas.line(at([x[0], 0.0, 0.0]), at([x[1], 0.0, 0.0]), &BASE);
     let cuts: Vec<Cut> = record.lines.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
     let drawn = draw(&mut canvas, &plan, &cuts, CHORD / (stretch * millimetres), &|_| at);
-    title(&mut canvas, &plan, &drawn.scale);
+    title(&mut canvas, &plan, &drawn);
     let mut placer = drawn.placer();
-    let window = Rectangle::new(8.0, 24.0, SHEET[0] - 8.0, SHEET[1] - 14.0);
+    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
     let style = TextStyle::new(2.4, Anchor::Middle);
     for station in &record.lines.stations {
@@ -189,9 +203,31 @@ pub(super) fn half_breadth_plan(record: &FairRecord) -> Result<Canvas, PlotError
         placer.name_curve(&mut canvas, curve, &format!("z {z:.3}"), &style, preferred, &window);
     }
     let words = TextStyle::new(3.0, Anchor::Start);
-    canvas.text([14.0, SHEET[1] - 20.0], "AFT", &words);
-    canvas.text([SHEET[0] - 14.0, SHEET[1] - 20.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
+    canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
     Ok(canvas)
+}
+
+/// The names of the stations over the upper ends of their sections, with a thread where they stand aside.
+pub(super) fn name_stations(
+    canvas: &mut Canvas,
+    record: &FairRecord,
+    curves: &[(usize, Vec<[f64; 2]>)],
+    placer: &mut LabelPlacer,
+    window: &Rectangle,
+) {
+    let style = TextStyle::new(2.6, Anchor::Middle).halo();
+    let mut shifts: Vec<[f64; 2]> =
+        (0..16).flat_map(|row| (-6..=6).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
+    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
+    for (k, station) in record.lines.stations.iter().enumerate() {
+        let ends = curves.iter().filter(|(cut, _)| *cut == k).flat_map(|(_, line)| line);
+        let Some(&end) = ends.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
+        let places: Vec<[f64; 2]> =
+            shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
+        let name: String = caption::plain(&station.name).chars().take(9).collect();
+        placer.name_off_curves(canvas, &name, &style, &places, window, (end, &THREAD));
+    }
 }
 
 /// What was drawn.
@@ -201,6 +237,8 @@ pub(super) struct Drawn {
     /// Inflections.
     rings: Vec<[f64; 2]>,
     pub(super) scale: CombScale,
+    /// Every so many lines bear a comb.
+    stride: usize,
 }
 
 impl Drawn {
@@ -248,24 +286,30 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     after.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &AFTER_COMB));
     let places = |comb: &Comb| comb.inflections.iter().map(|&place| at(&comb.cut)(place)).collect::<Vec<_>>();
     let rings = before.iter().chain(&after).flat_map(places).collect();
-    Drawn { curves: drawn, rings, scale }
+    Drawn { curves: drawn, rings, scale, stride }
 }
 
 /// Title, scales and key.
-pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
+pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
-    canvas.text([0.5 * SHEET[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
+    canvas.text([0.5 * plan.room[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, largest, _) = plan.record.moves();
+    let which = match drawn.stride {
+        1 => "combs on every line",
+        2 => "combs on every second line",
+        3 => "combs on every third line",
+        _ => "combs on some of the lines",
+    };
     let second = format!(
-        "scale {}    {}    moves {:.2} mm RMS, {:.2} mm at most",
+        "scale {}    {which}, before and after at one scale: {}    moves {:.2} mm RMS, {:.2} mm at most",
         plan.scale,
-        scale.words(),
+        drawn.scale.words(),
         1000.0 * rms,
         1000.0 * largest
     );
-    canvas.text([0.5 * SHEET[0], 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
-    let y = SHEET[1] - 7.0;
+    canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
+    let y = plan.room[1] - 7.0;
     let style = TextStyle::new(2.8, Anchor::Start);
     let mut x = 14.0;
     for (pens, pen, word) in [(BEFORE_COMB, BEFORE, "before"), (AFTER_COMB, AFTER, "after")] {
@@ -282,5 +326,5 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, scale: &CombScale) {
     if plan.record.status != Status::Optimal {
         canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
     }
-    canvas.text([SHEET[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
 }

@@ -1,141 +1,167 @@
 //! Body plan before (grey) and after (black) with an arrow for every offset that moved, so many times longer than the move as the
 //! sheet says.
 
-use super::canvas::{Anchor, Canvas, Pen, TextStyle};
-use super::fairing::{curves, extent, midship};
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::fairing::{curves, extent, midship, name_stations, station_cut};
+use super::label::LabelPlacer;
 use super::scale::drawing_scale;
-use super::sheet::ROOM;
+use super::sheet::Sheet;
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
-use crate::hull::Cut;
 
 /// Room at the sides, above and below the sections \[mm\].
 const SIDE: f64 = 32.0;
-const HEAD: f64 = 34.0;
+const HEAD: f64 = 40.0;
 const FOOT: f64 = 30.0;
-/// Length of the arrow of the largest move \[mm\], at most.
+/// Length of the arrow of the largest move on A3 \[mm\], at most.
 const LONGEST: f64 = 9.0;
 /// Arrows shorter than this are not drawn \[mm\].
 const LEAST: f64 = 0.25;
-const BEFORE: Pen = Pen::new(0.45, "#b0b0b0");
-const AFTER: Pen = Pen::new(0.18, "#000000");
+pub(super) const BEFORE: Pen = Pen::new(0.45, "#b0b0b0");
+pub(super) const AFTER: Pen = Pen::new(0.18, "#000000");
 const OUTWARD: Pen = Pen::new(0.3, "#b35806");
 const INWARD: Pen = Pen::new(0.3, "#2166ac");
+const SUSPECT: Pen = Pen::new(0.5, "#7000a0");
 
 /// Draws the plan.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_arrows(record: &FairRecord) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(record)?.finish("fairing-arrows") })
+pub fn fairing_arrows(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg { text: compose(record, sheet)?.finish("fairing-arrows") })
 }
 
-/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`].
-fn exaggeration(largest: f64) -> f64 {
+/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`], which grows with the paper.
+pub(super) fn exaggeration(largest: f64, paper: [f64; 2]) -> f64 {
+    let longest = LONGEST * paper[0] / Sheet::A3.room()[0];
     let steps = (0..6).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(power)));
-    steps.take_while(|n| n * largest <= LONGEST).last().unwrap_or(1.0)
+    steps.take_while(|n| n * largest <= longest).last().unwrap_or(1.0)
 }
 
-pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
+/// Title of the sheet, `words` about its scales, and how far the offsets moved.
+pub(super) fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], words: &str) {
+    let name: String = caption::plain(&record.name).chars().take(60).collect();
+    let middle = TextStyle::new(4.5, Anchor::Middle);
+    canvas.text([0.5 * paper[0], 9.0], &format!("WHERE THE OFFSETS MOVED – {name}"), &middle);
+    let (rms, largest, _) = record.moves();
+    let words = format!("{words}    moves {:.2} mm RMS, {:.2} mm at most", 1000.0 * rms, 1000.0 * largest);
+    canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.0, Anchor::Middle));
+}
+
+pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+    let paper = sheet.room();
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
-    let room = [ROOM[0] - 2.0 * SIDE, ROOM[1] - HEAD - FOOT];
+    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let floor = ROOM[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
+    let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
     let side = |x: f64| if x < midship { -1.0 } else { 1.0 };
     let at = |x: f64, y: f64, height: f64| {
-        [0.5 * ROOM[0] + side(x) * millimetres * y, floor - millimetres * (height - z[0])]
+        [0.5 * paper[0] + side(x) * millimetres * y, floor - millimetres * (height - z[0])]
     };
-    let mut canvas = Canvas::new(ROOM[0], ROOM[1]);
+    let mut canvas = Canvas::new(paper[0], paper[1]);
     let names = TextStyle::new(2.4, Anchor::End);
     for &height in &record.lines.waterlines {
-        let [aft, fore] = [-1.0, 1.0].map(|s| [0.5 * ROOM[0] + s * millimetres * breadth, at(x[0], 0.0, height)[1]]);
+        let [aft, fore] = [-1.0, 1.0].map(|s| [0.5 * paper[0] + s * millimetres * breadth, at(x[0], 0.0, height)[1]]);
         canvas.line(aft, fore, &GRID);
     }
     let step = record.lines.waterlines.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min) * millimetres;
     let stride = (3.2 / step.max(0.1)).ceil().max(1.0) as usize;
     for &height in record.lines.waterlines.iter().step_by(stride) {
         let y = at(x[0], 0.0, height)[1];
-        canvas.text([0.5 * ROOM[0] - millimetres * breadth - 12.0, y], &format!("{height:.3}"), &names);
+        canvas.text([0.5 * paper[0] - millimetres * breadth - 12.0, y], &format!("{height:.3}"), &names);
     }
     canvas.line(at(x[0], 0.0, z[0]), at(x[0], 0.0, z[1]), &BASE);
     canvas.line(at(x[0], breadth, z[0]), at(x[1], breadth, z[0]), &BASE);
+    let mut drawn = Vec::new();
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
-        for station in &record.lines.stations {
-            for line in curves(hull, Cut::Station { x: station.x }, 0.01 / millimetres) {
+        drawn.clear();
+        for (k, station) in record.lines.stations.iter().enumerate() {
+            for line in curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
                 canvas.polyline(&line, pen);
+                drawn.push((k, line));
             }
         }
     }
-    let (rms, largest, _) = record.moves();
-    let times = exaggeration(largest * millimetres);
-    for change in record.changes.iter().filter(|change| !change.suspect) {
+    let (_, largest, _) = record.moves();
+    let times = exaggeration(largest * millimetres, paper);
+    for change in &record.changes {
         let from = at(change.x, change.before, change.z);
-        let length = times * millimetres * (change.after - change.before) * side(change.x);
-        if length.abs() >= LEAST {
-            arrow(&mut canvas, from, length, if change.after > change.before { &OUTWARD } else { &INWARD });
+        if change.suspect {
+            ring(&mut canvas, from);
+            continue;
         }
+        let length = times * millimetres * (change.after - change.before);
+        arrow(&mut canvas, from, [length * side(change.x), 0.0], length);
     }
-    let ring = Pen::new(0.5, "#7000a0");
-    let suspects: Vec<_> = record.changes.iter().filter(|change| change.suspect).collect();
-    for change in &suspects {
-        circle(&mut canvas, at(change.x, change.before, change.z), 1.6, &ring);
-    }
-    let name: String = caption::plain(&record.name).chars().take(60).collect();
-    let middle = TextStyle::new(4.5, Anchor::Middle);
-    canvas.text([0.5 * ROOM[0], 9.0], &format!("WHERE THE OFFSETS MOVED – {name}"), &middle);
-    let words = format!(
-        "scale 1:{n}    arrows {times:.0} times as long as the moves    moves {:.2} mm RMS, {:.2} mm at most",
-        1000.0 * rms,
-        1000.0 * largest
-    );
-    canvas.text([0.5 * ROOM[0], 16.0], &words, &TextStyle::new(3.0, Anchor::Middle));
-    key(&mut canvas, !suspects.is_empty());
+    let mut placer = LabelPlacer::default();
+    drawn.iter().for_each(|(_, line)| placer.add_curve(line));
+    let window = Rectangle::new(8.0, 20.0, paper[0] - 8.0, paper[1] - 14.0);
+    name_stations(&mut canvas, record, &drawn, &mut placer, &window);
+    head(&mut canvas, record, paper, &format!("scale 1:{n}    arrows {times:.0} times as long as the moves"));
+    let words = TextStyle::new(3.0, Anchor::Middle);
+    canvas.text([0.5 * paper[0] - 60.0, paper[1] - 18.0], "AFT", &words);
+    canvas.text([0.5 * paper[0] + 60.0, paper[1] - 18.0], "FORWARD", &words);
+    key(&mut canvas, paper, ["outward", "inward"], record.changes.iter().any(|change| change.suspect));
     Ok(canvas)
 }
 
-/// A horizontal arrow; its head is at most a third of it.
-fn arrow(canvas: &mut Canvas, from: [f64; 2], length: f64, pen: &Pen) {
-    let tip = [from[0] + length, from[1]];
+/// An arrow along `by` \[mm\], orange where `sign` is positive and blue elsewhere; its head is at most a third of it. None where it would
+/// be too short to be seen.
+pub(super) fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64) {
+    let length = by[0].hypot(by[1]);
+    if length < LEAST {
+        return;
+    }
+    let pen = if sign > 0.0 { &OUTWARD } else { &INWARD };
+    let along = by.map(|d| d / length);
+    let tip = [from[0] + by[0], from[1] + by[1]];
     canvas.line(from, tip, pen);
-    let head = (0.35 * length.abs()).min(1.4).copysign(length);
-    let wide = 0.35 * head.abs();
-    canvas.area(&[tip, [tip[0] - head, tip[1] - wide], [tip[0] - head, tip[1] + wide]], pen.colour);
+    let head = (0.35 * length).min(1.4);
+    let wide = 0.35 * head;
+    let corner =
+        |s: f64| [tip[0] - head * along[0] - s * wide * along[1], tip[1] - head * along[1] + s * wide * along[0]];
+    canvas.area(&[tip, corner(1.0), corner(-1.0)], pen.colour);
 }
 
-fn circle(canvas: &mut Canvas, at: [f64; 2], radius: f64, pen: &Pen) {
+/// A ring around an offset that was left out.
+pub(super) fn ring(canvas: &mut Canvas, at: [f64; 2]) {
     let points: Vec<[f64; 2]> = (0..=24)
         .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
-        .map(|(s, c)| [at[0] + radius * c, at[1] + radius * s])
+        .map(|(s, c)| [at[0] + 1.6 * c, at[1] + 1.6 * s])
         .collect();
-    canvas.polyline(&points, pen);
+    canvas.polyline(&points, &SUSPECT);
 }
 
-fn key(canvas: &mut Canvas, suspects: bool) {
-    let words = TextStyle::new(3.0, Anchor::Middle);
-    canvas.text([0.5 * ROOM[0] - 60.0, ROOM[1] - 18.0], "AFT", &words);
-    canvas.text([0.5 * ROOM[0] + 60.0, ROOM[1] - 18.0], "FORWARD", &words);
-    let y = ROOM[1] - 7.0;
+/// The key at the foot of the sheet; `signs` are the words for the two colours of arrows.
+pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspects: bool) {
+    let y = paper[1] - 7.0;
     let style = TextStyle::new(2.8, Anchor::Start);
     let mut x = 14.0;
+    let mut add = |canvas: &mut Canvas, word: &str| {
+        let place = [x + 14.0, y];
+        canvas.text(place, word, &style);
+        let from = x;
+        x = Canvas::text_place(place, word, &style).right + 10.0;
+        from
+    };
     for (pen, word) in [(&BEFORE, "before"), (&AFTER, "after")] {
-        canvas.line([x, y], [x + 12.0, y], pen);
-        canvas.text([x + 14.0, y], word, &style);
-        x += 36.0;
+        let from = add(canvas, word);
+        canvas.line([from, y], [from + 12.0, y], pen);
     }
-    for (pen, length, word) in [(&OUTWARD, 9.0, "outward (forward body)"), (&INWARD, -9.0, "inward (forward body)")] {
-        arrow(canvas, [if length > 0.0 { x } else { x + 9.0 }, y], length, pen);
-        canvas.text([x + 12.0, y], word, &style);
-        x += 60.0;
+    for (sign, word) in [1.0, -1.0].into_iter().zip(signs) {
+        let from = add(canvas, word);
+        let start = if sign > 0.0 { from } else { from + 11.0 };
+        arrow(canvas, [start, y], [9.0 * sign, 0.0], sign);
     }
     if suspects {
-        circle(canvas, [x + 2.0, y], 1.6, &Pen::new(0.5, "#7000a0"));
-        canvas.text([x + 6.0, y], "left out as a suspect", &style);
+        let from = add(canvas, "left out as a suspect");
+        ring(canvas, [from + 8.0, y]);
     }
-    canvas.text([ROOM[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
 }

@@ -3,9 +3,10 @@
 //! of the ship.
 
 use super::canvas::{Anchor, Canvas, TextStyle};
-use super::fairing::{Plan, SHEET, curves, draw, extent, title};
+use super::fairing::{Plan, curves, draw, extent, title};
 use super::label::Preference;
 use super::scale::drawing_scale;
+use super::sheet::Sheet;
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Planes;
@@ -24,16 +25,16 @@ type Project = fn(&Cut, [f64; 3]) -> [f64; 2];
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without buttocks.
-pub fn fairing_buttocks(record: &FairRecord) -> Result<Svg, PlotError> {
+pub fn fairing_buttocks(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
     let cuts = Planes::with_defaults(&record.after).buttocks.into_iter().map(|y| Cut::Buttock { y }).collect();
-    Ok(Svg { text: compose(record, "BUTTOCKS", cuts, |_, p| [p[0], p[2]])?.finish("fairing-buttocks") })
+    Ok(Svg { text: compose(record, sheet, "BUTTOCKS", cuts, |_, p| [p[0], p[2]])?.finish("fairing-buttocks") })
 }
 
 /// Diagonals in their true shape, before and after.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without diagonals.
-pub fn fairing_diagonals(record: &FairRecord) -> Result<Svg, PlotError> {
+pub fn fairing_diagonals(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
     let planes = Planes::with_defaults(&record.after);
     let angle = planes.diagonal_angle;
     let cuts = planes.diagonals.into_iter().map(|height| Cut::Diagonal { height, angle }).collect();
@@ -41,7 +42,7 @@ pub fn fairing_diagonals(record: &FairRecord) -> Result<Svg, PlotError> {
         Cut::Diagonal { height, .. } => [p[0], p[1].hypot(p[2] - height)],
         _ => [p[0], p[1]],
     };
-    Ok(Svg { text: compose(record, "DIAGONALS IN TRUE SHAPE", cuts, expanded)?.finish("fairing-diagonals") })
+    Ok(Svg { text: compose(record, sheet, "DIAGONALS IN TRUE SHAPE", cuts, expanded)?.finish("fairing-diagonals") })
 }
 
 /// Name of a plane: its distance or height.
@@ -55,10 +56,12 @@ fn name(cut: &Cut) -> String {
 
 pub(super) fn compose(
     record: &FairRecord,
+    sheet: Sheet,
     words: &'static str,
     cuts: Vec<Cut>,
     project: Project,
 ) -> Result<Canvas, PlotError> {
+    let paper = sheet.room();
     let fine = 1e-3 * record.after.particulars().breadth;
     let points: Vec<[f64; 2]> = cuts
         .iter()
@@ -72,16 +75,18 @@ pub(super) fn compose(
     };
     let ((low, high), (bottom, top)) = (bounds(0), bounds(1));
     let (low, high) = (low.min(x[0]), high.max(x[1]));
-    let room = [SHEET[0] - 2.0 * SIDE, SHEET[1] - HEAD - FOOT];
+    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(high - low, room[0]);
     let millimetres = 1000.0 / f64::from(n);
+    let buttocks = matches!(cuts.first(), Some(Cut::Buttock { .. }));
+    let across = if buttocks { "heights" } else { "distances" };
     let stretch = (room[1] / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
-    let scale = if stretch > 1.0 { format!("1:{n}, heights x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, title: words, scale };
-    let left = 0.5 * (SHEET[0] - millimetres * (high - low));
-    let floor = SHEET[1] - FOOT - 0.5 * (room[1] - stretch * millimetres * (top - bottom)).max(0.0);
+    let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
+    let plan = Plan { record, title: words, scale, room: paper };
+    let left = 0.5 * (paper[0] - millimetres * (high - low));
+    let floor = paper[1] - FOOT - 0.5 * (room[1] - stretch * millimetres * (top - bottom)).max(0.0);
     let place = move |p: [f64; 2]| [left + millimetres * (p[0] - low), floor - stretch * millimetres * (p[1] - bottom)];
-    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let mut canvas = Canvas::new(paper[0], paper[1]);
     for station in &record.lines.stations {
         canvas.line(place([station.x, bottom]), place([station.x, top]), &GRID);
     }
@@ -91,9 +96,9 @@ pub(super) fn compose(
         move |p: [f64; 3]| place(project(&cut, p))
     };
     let drawn = draw(&mut canvas, &plan, &cuts, 0.01 / (stretch * millimetres), &at);
-    title(&mut canvas, &plan, &drawn.scale);
+    title(&mut canvas, &plan, &drawn);
     let mut placer = drawn.placer();
-    let window = super::canvas::Rectangle::new(8.0, 24.0, SHEET[0] - 8.0, SHEET[1] - 14.0);
+    let window = super::canvas::Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     let style = TextStyle::new(2.4, Anchor::Middle);
     for station in &record.lines.stations {
         let [px, py] = place([station.x, bottom]);
@@ -106,7 +111,7 @@ pub(super) fn compose(
         let preferred = Preference { part: 0.3 + 0.12 * ((k % 3) as f64), crossings: 3, beside: false };
         placer.name_curve(&mut canvas, curve, &name(cut), &style, preferred, &window);
     }
-    canvas.text([14.0, SHEET[1] - 16.0], "AFT", &TextStyle::new(3.0, Anchor::Start));
-    canvas.text([SHEET[0] - 14.0, SHEET[1] - 16.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([14.0, paper[1] - 16.0], "AFT", &TextStyle::new(3.0, Anchor::Start));
+    canvas.text([paper[0] - 14.0, paper[1] - 16.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
     Ok(canvas)
 }

@@ -1,15 +1,19 @@
-//! The map of moves: station by waterline, what each offset moved, outward positive, in millimetres.
+//! The map of moves: station by waterline, what each offset moved, outward positive, in millimetres; in eighths of an inch where the
+//! table is written in feet, inches and eighths.
 //!
 //! The colour runs from blue (inward) over white to orange (outward), full at the largest move; numbers say the same. Locked cells
 //! have a black frame, cells that stop at their tolerance a bar below the number, suspects that were left out a ring; the
-//! largest move is framed and called out.
+//! largest move is framed and called out. Diamonds at the left edge stand at the height at which a station crosses a knuckle (full) or a
+//! tangent line (hollow).
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::sheet::ROOM;
 use super::{PlotError, Svg, caption};
 use crate::fairing::job::Change;
-use crate::fairing::record::FairRecord;
+use crate::fairing::record::{Crossing, FairRecord};
 use crate::fairing::surface::Origin;
+use crate::hull::LineKind;
+use crate::units::Notation;
 
 /// Width of the sheet \[mm\].
 const WIDTH: f64 = ROOM[0];
@@ -46,8 +50,31 @@ struct Map {
     points: Vec<Origin>,
     /// Largest move \[m\].
     full: f64,
-    /// Digits after the point of a move in millimetres.
+    /// What moves are written in.
+    unit: Unit,
+    /// Digits after the point of a move.
     digits: usize,
+}
+
+/// What moves are written in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    /// Length \[m\].
+    length: f64,
+    /// For the axis and for a number.
+    words: [&'static str; 2],
+}
+
+impl Unit {
+    /// Eighths of an inch for tables in feet, inches and eighths, else millimetres.
+    pub(super) fn of(notation: Notation) -> Self {
+        match notation {
+            Notation::FeetInchesEighths => {
+                Self { length: 0.0254 / 8.0, words: ["eighths of an inch (1 is 3.175 mm)", "eighths"] }
+            }
+            _ => Self { length: 1e-3, words: ["millimetres", "mm"] },
+        }
+    }
 }
 
 impl Map {
@@ -66,8 +93,24 @@ impl Map {
         Rectangle::new(left, bottom - self.cell[1], left + self.cell[0], bottom)
     }
 
+    /// The row, in cells and parts of them, at which a crossing stands; none above and below the rows of its station.
+    fn row_of(&self, record: &FairRecord, crossing: &Crossing) -> Option<f64> {
+        let heights: Vec<f64> = if self.points.is_empty() {
+            record.lines.waterlines.clone()
+        } else {
+            let own =
+                |change: &&Change| change.station == crossing.station && matches!(change.origin, Origin::Point { .. });
+            record.changes.iter().filter(own).map(|change| change.z).collect()
+        };
+        let k = (0..heights.len().saturating_sub(1)).find(|&k| {
+            let [a, b] = [heights[k], heights[k + 1]];
+            a - 1e-9 <= crossing.z && crossing.z <= b + 1e-9 && b > a
+        })?;
+        Some(k as f64 + ((crossing.z - heights[k]) / (heights[k + 1] - heights[k])).clamp(0.0, 1.0))
+    }
+
     fn number(&self, change: &Change) -> String {
-        let text = format!("{:+.*}", self.digits, 1000.0 * (change.after - change.before));
+        let text = format!("{:+.*}", self.digits, moved(change) / self.unit.length);
         if text.trim_start_matches(['+', '-']).chars().all(|c| matches!(c, '0' | '.')) { "0".to_owned() } else { text }
     }
 }
@@ -105,16 +148,18 @@ pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
     let frame = Rectangle::new(left, HEAD, left + cell[0] * columns as f64, bottom);
     let kept = record.changes.iter().filter(|change| !change.suspect);
     let full = kept.map(|change| moved(change).abs()).fold(0.0, f64::max);
-    let digits = match 1000.0 * full {
+    let unit = Unit::of(record.lines.notation);
+    let digits = match full / unit.length {
         most if most >= 100.0 => 0,
         most if most >= 1.0 => 1,
         _ => 2,
     };
-    let map = Map { frame, cell, rows, points, full, digits };
+    let map = Map { frame, cell, rows, points, full, unit, digits };
     let mut canvas = Canvas::new(WIDTH, bottom + FOOT);
     draw_cells(&mut canvas, record, &map);
     draw_names(&mut canvas, record, deck, &map);
-    head(&mut canvas, record);
+    draw_crossings(&mut canvas, record, &map);
+    head(&mut canvas, record, unit);
     key(&mut canvas, &map, bottom + 26.0);
     canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(canvas)
@@ -202,19 +247,38 @@ fn draw_names(canvas: &mut Canvas, record: &FairRecord, deck: bool, map: &Map) {
     );
 }
 
-fn head(canvas: &mut Canvas, record: &FairRecord) {
+/// A diamond at each crossing of a station with a knuckle or a tangent line.
+fn draw_crossings(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
+    for crossing in &record.lines.crossings {
+        let Some(row) = map.row_of(record, crossing) else { continue };
+        let at = [map.frame.left + map.cell[0] * crossing.station as f64, map.frame.bottom - map.cell[1] * (row + 0.5)];
+        diamond(canvas, [at[0] + 1.2, at[1]], crossing.kind);
+    }
+}
+
+/// Full for a knuckle, hollow for a tangent line.
+fn diamond(canvas: &mut Canvas, [x, y]: [f64; 2], kind: LineKind) {
+    let points = [[x, y - 1.3], [x + 1.0, y], [x, y + 1.3], [x - 1.0, y], [x, y - 1.3]];
+    canvas.area(&points[..4], if kind == LineKind::Knuckle { "#000000" } else { "#ffffff" });
+    canvas.polyline(&points, &Pen::new(0.25, "#000000"));
+}
+
+fn head(canvas: &mut Canvas, record: &FairRecord, unit: Unit) {
     let name: String = caption::plain(&record.name).chars().take(60).collect();
     let words = format!("WHAT MOVED – {name}");
     canvas.text([0.5 * WIDTH, 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, _, largest) = record.moves();
+    let rms = rms / unit.length;
     let called = largest.map(|change| {
         let station = record.lines.stations.get(change.station).map_or("", |s| s.name.as_str());
         let line = change.origin.words(change.z);
-        format!("largest move {:+.2} mm at station {}, {line}", 1000.0 * moved(change), caption::plain(station))
+        let size = moved(change) / unit.length;
+        format!("largest move {size:+.2} {} at station {}, {line}", unit.words[1], caption::plain(station))
     });
     let second = format!(
-        "moves in millimetres, outward positive    {:.2} mm RMS    {}",
-        1000.0 * rms,
+        "moves in {}, outward positive    {rms:.2} {} RMS    {}",
+        unit.words[0],
+        unit.words[1],
         called.unwrap_or_default()
     );
     canvas.text([0.5 * WIDTH, 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
@@ -227,13 +291,13 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
         let place = Rectangle::new(x, y - 3.0, x + 12.0, y + 3.0);
         canvas.fill(&place, &colour(share));
         canvas.rectangle(&place, &Pen::new(0.08, "#b0b0b0"));
-        let text = format!("{:+.*}", map.digits + 1, 1000.0 * share * map.full);
+        let text = format!("{:+.*}", map.digits + 1, share * map.full / map.unit.length);
         let text = if share.abs() > 0.0 { text } else { "0".to_owned() };
         canvas.text([x + 6.0, y], &text, &TextStyle::new(2.2, Anchor::Middle));
         x += 12.0;
     }
-    canvas.text([x + 2.0, y], "mm", &style);
-    x += 14.0;
+    canvas.text([x + 2.0, y], map.unit.words[1], &style);
+    x += 17.0;
     for (kind, word) in ["locked", "at its tolerance", "suspect, left out", "largest move"].into_iter().enumerate() {
         let place = Rectangle::new(x, y - 3.0, x + 10.0, y + 3.0);
         canvas.rectangle(&place, &Pen::new(0.08, "#b0b0b0"));
@@ -252,10 +316,16 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
         if kind == 3 {
             canvas.rectangle(&place.grown(0.5), &Pen::new(0.9, "#c00000"));
         }
-        canvas.text([x + 13.0, y], word, &style);
-        x += 46.0;
+        canvas.text([x + 12.0, y], word, &style);
+        x = Canvas::text_place([x + 12.0, y], word, &style).right + 6.0;
     }
     let place = Rectangle::new(x, y - 3.0, x + 10.0, y + 3.0);
     canvas.fill(&place, "#e4e4e4");
-    canvas.text([x + 13.0, y], "no offset", &style);
+    canvas.text([x + 12.0, y], "no offset", &style);
+    x = Canvas::text_place([x + 12.0, y], "no offset", &style).right + 7.0;
+    for (kind, word) in [(LineKind::Knuckle, "knuckle"), (LineKind::Tangent, "tangent line")] {
+        diamond(canvas, [x, y], kind);
+        canvas.text([x + 3.0, y], word, &style);
+        x = Canvas::text_place([x + 3.0, y], word, &style).right + 6.0;
+    }
 }

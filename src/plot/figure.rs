@@ -156,18 +156,23 @@ impl Figure {
         Ok(Svg { text: self.compose(inputs)?.finish(self.key()) })
     }
 
-    /// The lines plan on a sheet of its own.
+    /// Draws the figure as large as `sheet` lets it be; only lines plan and body plan, which have a scale, become larger than on A3.
     ///
     /// # Errors
     /// [`PlotError`] when there is nothing to draw.
-    pub fn lines_plan(inputs: &FigureInputs, sheet: Sheet) -> Result<Svg, PlotError> {
-        Ok(Svg { text: lines::draw(inputs, sheet)?.finish(Self::Lines.key()) })
+    pub fn draw_on(self, inputs: &FigureInputs, sheet: Sheet) -> Result<Svg, PlotError> {
+        let canvas = match self {
+            Self::Lines => lines::draw(inputs, sheet)?,
+            Self::Sections => sections::draw(inputs, sheet)?,
+            _ => self.compose(inputs)?,
+        };
+        Ok(Svg { text: canvas.finish(self.key()) })
     }
 
     pub(super) fn compose(self, inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         match self {
             Self::Lines => lines::draw(inputs, Sheet::A3),
-            Self::Sections => sections::draw(inputs),
+            Self::Sections => sections::draw(inputs, Sheet::A3),
             Self::SectionalArea => sectional_area::draw(inputs),
             Self::Hydrostatics => hydrostatics::draw(inputs),
             Self::DiagramSheet => diagram_sheet::draw(inputs),

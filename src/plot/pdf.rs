@@ -1,7 +1,7 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give the same bytes.
 
 use super::figure::Svg;
-use super::sheet::{ROOM, Sheet, framed};
+use super::sheet::{ROOM, Sheet, Titles, framed};
 use super::{PlotError, caption, png};
 use krilla::geom::{Size, Transform};
 use krilla::metadata::Metadata;
@@ -35,35 +35,95 @@ fn place(surface: &mut Surface<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), Plo
     Ok(())
 }
 
-/// The pages: each figure with its title, in the middle of an A3 sheet with frame, title block and check bar, or as the whole
-/// sheet where it is larger than the frame leaves.
+/// A figure of the document.
+#[derive(Debug, Clone, Copy)]
+pub struct Page<'a> {
+    /// What the title block calls it.
+    pub title: &'a str,
+    /// What to look for; two lines of the title block.
+    pub caption: &'a str,
+    /// The drawing.
+    pub svg: &'a Svg,
+}
+
+/// A figure that was read, with its size \[mm\] and its number.
+struct Read<'a> {
+    titles: Titles<'a>,
+    tree: Tree,
+    size: [f64; 2],
+}
+
+impl Read<'_> {
+    fn fits(&self, room: [f64; 2]) -> bool {
+        self.size[0] <= room[0] + 0.1 && self.size[1] <= room[1] + 0.1
+    }
+
+    /// The frame of `sheet` with its upper left corner at `corner` \[mm\], and the figure in the middle of it.
+    fn draw_framed(&self, surface: &mut Surface<'_>, sheet: Sheet, corner: [f64; 2]) -> Result<(), PlotError> {
+        let frame = framed(sheet, &self.titles);
+        place(surface, &png::tree(frame.as_str())?, corner)?;
+        let [width, height] = self.size;
+        // A figure covers what is under it: it stays off the frame.
+        let left = corner[0] + 0.5 * (sheet.size()[0] - width);
+        let top = corner[1] + sheet.frame().top + 1.0 + 0.5 * (sheet.room()[1] - height).max(0.0);
+        place(surface, &self.tree, [left, top])
+    }
+}
+
+/// A page of the document, its size \[mm\].
+fn page(
+    document: &mut Document,
+    paper: [f64; 2],
+    draw: impl FnOnce(&mut Surface<'_>) -> Result<(), PlotError>,
+) -> Result<(), PlotError> {
+    let [width, height] = paper.map(|millimetres| (millimetres * POINTS) as f32);
+    let settings = PageSettings::from_wh(width, height).ok_or_else(|| error("a page has no size"))?;
+    let mut page = document.start_page_with(settings);
+    let mut surface = page.surface();
+    draw(&mut surface)?;
+    surface.finish();
+    page.finish();
+    Ok(())
+}
+
+/// The figures at true size, each with frame, title block and check bar, or as the whole sheet where it is larger than the frame leaves.
+///
+/// On A3 a figure has a sheet of its own. On A1 the figures that fit into the frame of A3 come first, four to a sheet, and then those that
+/// were drawn larger, a sheet each.
 ///
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
-pub fn write_pdf(ship: &str, figures: &[(&str, &Svg)]) -> Result<Vec<u8>, PlotError> {
+pub fn write_pdf<'a>(ship: &'a str, figures: &[Page<'a>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
     let mut document = Document::new_with(SerializeSettings::default());
     let metadata = Metadata::new().title(ship.to_owned()).creator(caption::program()).language("en".to_owned());
     document.set_metadata(metadata);
-    for (k, (title, svg)) in figures.iter().enumerate() {
-        let tree = png::tree(svg.as_str())?;
-        let own = size(&tree);
-        let fits = own[0] <= ROOM[0] + 0.1 && own[1] <= ROOM[1] + 0.1;
-        let paper = if fits { Sheet::A3.size() } else { own };
-        let [width, height] = paper.map(|millimetres| (millimetres * POINTS) as f32);
-        let settings = PageSettings::from_wh(width, height).ok_or_else(|| error("a page has no size"))?;
-        let mut page = document.start_page_with(settings);
-        let mut surface = page.surface();
-        if fits {
-            place(&mut surface, &png::tree(framed(ship, title, k + 1, figures.len()).as_str())?, [0.0, 0.0])?;
-            let frame = Sheet::A3.frame();
-            // A figure covers what is under it: it stays off the frame.
-            let at = [0.5 * (paper[0] - own[0]), frame.top + 1.0 + 0.5 * (ROOM[1] - own[1]).max(0.0)];
-            place(&mut surface, &tree, at)?;
-        } else {
-            place(&mut surface, &tree, [0.0, 0.0])?;
+    let read = |(k, figure): (usize, &Page<'a>)| -> Result<Read<'a>, PlotError> {
+        let tree = png::tree(figure.svg.as_str())?;
+        let number = [k + 1, figures.len()];
+        let titles = Titles { ship, title: figure.title, caption: figure.caption, number };
+        Ok(Read { titles, size: size(&tree), tree })
+    };
+    let mut all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
+    if sheet != Sheet::A3 {
+        let (small, large): (Vec<_>, Vec<_>) = all.into_iter().partition(|figure| figure.fits(ROOM));
+        for four in small.chunks(4) {
+            page(&mut document, sheet.size(), |surface| {
+                let [wide, high] = Sheet::A3.size();
+                let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
+                for (k, figure) in four.iter().enumerate() {
+                    let corner = [spare[0] + wide * (k % 2) as f64, spare[1] + high * (k / 2) as f64];
+                    figure.draw_framed(surface, Sheet::A3, corner)?;
+                }
+                Ok(())
+            })?;
         }
-        surface.finish();
-        page.finish();
+        all = large;
+    }
+    for figure in &all {
+        let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
+        page(&mut document, paper, |surface| {
+            if fits { figure.draw_framed(surface, sheet, [0.0, 0.0]) } else { place(surface, &figure.tree, [0.0, 0.0]) }
+        })?;
     }
     document.finish().map_err(|found| error(format!("{found:?}")))
 }

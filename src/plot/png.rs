@@ -43,5 +43,22 @@ pub(super) fn render(svg: &str, dots_per_inch: f64) -> Result<Vec<u8>, PlotError
     })?;
     let transform = Transform::from_scale(width as f32 / size.width(), height as f32 / size.height());
     resvg::render(&tree, transform, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| PlotError::Png(error.to_string()))
+    packed(&pixmap).map_err(|error| PlotError::Png(error.to_string()))
+}
+
+/// The picture on white, three bytes a pixel, unfiltered: of line drawings that packs closer and twice as fast as filtered rows do.
+fn packed(pixmap: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    // What is over nothing is premultiplied: white shows through.
+    let pixels = pixmap.pixels().iter();
+    let colours: Vec<u8> = pixels
+        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()].map(|c| c.saturating_add(255 - pixel.alpha())))
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.write_header()?.write_image_data(&colours)?;
+    Ok(bytes)
 }

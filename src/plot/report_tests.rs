@@ -1,9 +1,13 @@
 //! The figures of reports: text keeps apart and on the sheet, and they fit into the frame of A3.
 
 use super::canvas::Canvas;
-use super::sheet::ROOM;
+use super::fairing_curves::Along;
+use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind};
-use super::{FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_long, fairing_moves};
+use super::{
+    FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves, fairing_long,
+    fairing_moves, fairing_suspects, pareto,
+};
 use crate::fairing::inspect::Planes;
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
@@ -12,11 +16,16 @@ use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
 use crate::parametric::cosh::{self, Wishes};
+use crate::units::Notation;
 
 fn faults(name: &str, canvas: &Canvas) -> Vec<String> {
+    faults_within(ROOM, name, canvas)
+}
+
+fn faults_within(room: [f64; 2], name: &str, canvas: &Canvas) -> Vec<String> {
     let (texts, sheet) = (canvas.texts(), canvas.sheet());
     let mut faults = Vec::new();
-    if sheet.width() > ROOM[0] + 1e-9 || sheet.height() > ROOM[1] + 1e-9 {
+    if sheet.width() > room[0] + 1e-9 || sheet.height() > room[1] + 1e-9 {
         faults.push(format!("{name}: {} x {} mm", sheet.width(), sheet.height()));
     }
     for (k, text) in texts.iter().enumerate() {
@@ -67,39 +76,56 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// A table of a Wigley hull with an error of some millimetres, faired.
+/// A table of a Wigley hull with an error of some millimetres and two wrong offsets, written in feet, inches and eighths, with a knuckle,
+/// faired.
 fn record() -> FairRecord {
     let hull = wigley();
     let stations: Vec<OffsetStation> =
-        (0..=10).map(|k| OffsetStation { name: k.to_string(), x: 10.0 * f64::from(k) }).collect();
+        (0..=20).map(|k| OffsetStation { name: k.to_string(), x: 5.0 * f64::from(k) }).collect();
     let waterlines: Vec<f64> = (0..=8).map(|k| 0.78125 * f64::from(k)).collect();
     let mut table = OffsetTable::from_hull(&hull, &stations, &waterlines, &[]);
     for (i, station) in table.stations.iter_mut().enumerate() {
         for (j, cell) in station.half_breadths.iter_mut().enumerate() {
             if let Some(y) = cell.value().filter(|y| *y > 0.1) {
-                cell.entry = Entry::Given(y + 0.004 * (((7 * i + 3 * j) % 5) as f64 - 2.0));
+                let wrong = if (i, j) == (6, 4) || (i, j) == (14, 5) { 0.35 } else { 0.0 };
+                cell.entry = Entry::Given(y + wrong + 0.004 * (((7 * i + 3 * j) % 5) as f64 - 2.0));
             }
         }
     }
+    table.form.notation = Notation::FeetInchesEighths;
+    table.stations[10].half_breadths[8].marks.knuckle = true;
     FairRecord::new(&table, &Job::default().run(&table).unwrap())
 }
 
 #[test]
 fn figures_of_faired_tables_keep_their_text_apart() {
     let record = record();
+    assert_eq!(record.doubts.len(), 2);
     let planes = Planes::with_defaults(&record.after);
-    let buttocks = planes.buttocks.iter().map(|&y| Cut::Buttock { y }).collect();
-    let figures = [
-        ("arrows", fairing_arrows::compose(&record)),
-        ("moves", fairing_moves::compose(&record)),
-        ("body plan", fairing::body_plan(&record)),
-        ("half-breadth plan", fairing::half_breadth_plan(&record)),
-        ("buttocks", fairing_long::compose(&record, "BUTTOCKS", buttocks, |_, p| [p[0], p[2]])),
-    ];
+    let buttocks: Vec<Cut> = planes.buttocks.iter().map(|&y| Cut::Buttock { y }).collect();
     let mut found = Vec::new();
-    for (name, canvas) in figures {
-        found.extend(faults(name, &canvas.unwrap()));
+    for sheet in Sheet::ALL {
+        let buttocks = buttocks.clone();
+        let figures = [
+            ("arrows", fairing_arrows::compose(&record, sheet)),
+            ("long arrows", fairing_arrows_long::compose(&record, sheet)),
+            ("body plan", fairing::body_plan(&record, sheet)),
+            ("half-breadth plan", fairing::half_breadth_plan(&record, sheet)),
+            ("buttocks", fairing_long::compose(&record, sheet, "BUTTOCKS", buttocks, |_, p| [p[0], p[2]])),
+            ("suspects", fairing_suspects::compose(&record, sheet).map(Option::unwrap)),
+            ("waterlines", Ok(fairing_curves::compose(&record, sheet, Along::Ship).unwrap())),
+            ("stations", Ok(fairing_curves::compose(&record, sheet, Along::Height).unwrap())),
+        ];
+        for (name, canvas) in figures {
+            let name = format!("{name} on {}", sheet.as_str());
+            found.extend(faults_within(sheet.room(), &name, &canvas.unwrap()));
+        }
     }
+    let moves = fairing_moves::compose(&record).unwrap();
+    let words: Vec<&str> = moves.texts().iter().map(|text| text.content.as_str()).collect();
+    assert!(words.iter().any(|word| word.starts_with("moves in eighths of an inch")), "{words:?}");
+    found.extend(faults("moves", &moves));
     found.extend(faults("deviation", &deviation::compose(&record).unwrap().unwrap()));
+    found.extend(faults("pareto", &pareto::compose(&record).unwrap().unwrap()));
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

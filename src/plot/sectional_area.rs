@@ -67,7 +67,13 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let mut series =
         vec![Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
     if let Some(before) = inputs.before {
-        series.insert(0, before_fairing(before, design.draught, &stations));
+        let old = before_fairing(before, design.draught, &stations);
+        let apart =
+            old.points.iter().zip(&curve.areas).map(|(point, area)| (area - point[1]).abs()).fold(0.0, f64::max);
+        // The dashes stand on the curve after fairing, so that both are seen where they are one.
+        series.push(old);
+        let words = format!("the areas before and after differ by {apart:.3} m² at most");
+        canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
         let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
         if let Some(x) = lcb.and_then(|row| row.lcb) {
             mark_centre(&mut canvas, &mut placer, &chart, ("LCB before", x), 2.0, !aft);

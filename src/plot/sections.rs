@@ -4,7 +4,7 @@ use super::body_plan::{self, BOTTOM_ROOM, SIDE_ROOM, TOP_ROOM};
 use super::canvas::{Anchor, Canvas, TextStyle};
 use super::lines_grid::LinesGrid;
 use super::scale::drawing_scale;
-use super::sheet::ROOM;
+use super::sheet::Sheet;
 use super::view::View;
 use super::{FigureInputs, PlotError, caption};
 
@@ -13,15 +13,16 @@ const TITLE: f64 = 22.0;
 /// Deviation of chords from their curves on paper [mm].
 const DEVIATION: f64 = 0.004;
 
-/// Draws the body plan on a sheet as large as it needs, at a scale of the list that fits into the frame of A3.
+/// Draws the body plan on a sheet as large as it needs, at a scale of the list that fits into the frame of `sheet`.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
-pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
+pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotError> {
+    let paper = sheet.room();
     let hull = inputs.hull;
     let p = hull.particulars();
     let rooms = [2.0 * SIDE_ROOM + 18.0, TITLE + TOP_ROOM + BOTTOM_ROOM + 8.0];
     let coarse = LinesGrid::new(hull, 1e-3 * p.breadth);
     let extent = [2.0 * coarse.half_breadth, coarse.height[1] - coarse.height[0].min(0.0)];
-    let scale = drawing_scale(extent[0], ROOM[0] - rooms[0]).max(drawing_scale(extent[1], ROOM[1] - rooms[1]));
+    let scale = drawing_scale(extent[0], paper[0] - rooms[0]).max(drawing_scale(extent[1], paper[1] - rooms[1]));
     let millimetres = 1000.0 / f64::from(scale);
     let grid = LinesGrid::new(hull, DEVIATION / millimetres);
     let size = [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]];

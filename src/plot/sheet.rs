@@ -9,7 +9,7 @@ const MARGIN: f64 = 8.0;
 /// Height of the title block under a figure \[mm\].
 const STRIP: f64 = 16.0;
 /// What the frame leaves of A3 to a figure \[mm\].
-pub(super) const ROOM: [f64; 2] = [402.0, 263.0];
+pub(super) const ROOM: [f64; 2] = Sheet::A3.room();
 
 /// A sheet, landscape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,11 +36,18 @@ impl Sheet {
 
     /// Width and height \[mm\].
     #[must_use]
-    pub fn size(self) -> [f64; 2] {
+    pub const fn size(self) -> [f64; 2] {
         match self {
             Self::A3 => [420.0, 297.0],
             Self::A1 => [841.0, 594.0],
         }
+    }
+
+    /// What frame and title block leave to a figure \[mm\].
+    #[must_use]
+    pub const fn room(self) -> [f64; 2] {
+        let [width, height] = self.size();
+        [width - 2.0 * MARGIN - 2.0, height - 2.0 * MARGIN - STRIP - 2.0]
     }
 
     /// The frame of a drawing that fills it \[mm\].
@@ -50,30 +57,76 @@ impl Sheet {
     }
 }
 
-/// The frame of sheet `number` of `count` on A3: name of the ship, title of the figure, check bar.
-pub(super) fn framed(ship: &str, title: &str, number: usize, count: usize) -> Svg {
-    let [width, height] = Sheet::A3.size();
+/// What a title block says of its drawing.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Titles<'a> {
+    pub(super) ship: &'a str,
+    pub(super) title: &'a str,
+    /// What to look for.
+    pub(super) caption: &'a str,
+    /// Number of the drawing, and how many there are.
+    pub(super) number: [usize; 2],
+}
+
+/// The frame of a drawing on a sheet: name of the ship, title and caption of the figure, check bar.
+pub(super) fn framed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
+    let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
-    let frame = Sheet::A3.frame();
+    let frame = sheet.frame();
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let top = frame.bottom - STRIP;
     let rule = Pen::new(0.25, "#000000");
     canvas.line([frame.left, top], [frame.right, top], &rule);
-    let columns = [frame.left + 112.0, frame.right - 96.0];
+    let columns = [frame.left + 112.0, frame.right - 66.0];
     for x in columns {
         canvas.line([x, top], [x, frame.bottom], &rule);
     }
     title_block::draw_check_bar(&mut canvas, [frame.left + 6.0, top + 9.0]);
     let room = columns[1] - columns[0] - 8.0;
-    let fitted = |canvas: &mut Canvas, y: f64, text: &str, size: f64| {
-        let style = TextStyle::new(size, Anchor::Start);
-        let width = Canvas::text_place([0.0, 0.0], text, &style).width().max(1.0);
-        canvas.text([columns[0] + 4.0, y], text, &TextStyle { size: size * (room / width).min(1.0), ..style });
-    };
-    fitted(&mut canvas, top + 5.0, &caption::plain(ship), 4.6);
-    fitted(&mut canvas, top + 11.5, title, 3.4);
-    let style = TextStyle::new(3.0, Anchor::Start);
-    canvas.text([columns[1] + 4.0, top + 5.0], &format!("sheet {number} of {count}   A3, true size"), &style);
+    let wide =
+        |text: &str, size: f64| Canvas::text_place([0.0, 0.0], text, &TextStyle::new(size, Anchor::Start)).width();
+    let heading = format!("{} – {}", caption::plain(titles.ship), titles.title);
+    let size = 3.8 * (room / wide(&heading, 3.8).max(1.0)).min(1.0);
+    canvas.text([columns[0] + 4.0, top + 4.2], &heading, &TextStyle::new(size, Anchor::Start));
+    let small = TextStyle::new(2.1, Anchor::Start);
+    for (k, line) in wrapped(titles.caption, |line| wide(line, small.size) <= room).iter().take(2).enumerate() {
+        canvas.text([columns[0] + 4.0, top + 9.2 + 3.4 * k as f64], line, &small);
+    }
+    let style = TextStyle::new(2.8, Anchor::Start);
+    let [number, count] = titles.number;
+    let words = format!("drawing {number} of {count}   {}, true size", sheet.as_str());
+    canvas.text([columns[1] + 4.0, top + 5.0], &words, &style);
     canvas.text([columns[1] + 4.0, top + 11.5], &caption::program(), &style);
-    Svg { text: canvas.finish(title) }
+    Svg { text: canvas.finish(titles.title) }
+}
+
+/// Words in lines that fit.
+fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = lines.last().map(|line| format!("{line} {word}")).filter(|line| fits(line));
+        match (longer, lines.last_mut()) {
+            (Some(longer), Some(line)) => *line = longer,
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_wrapped_where_they_do_not_fit() {
+        let lines = wrapped("one two  three four", |line| line.len() <= 9);
+        assert_eq!(lines, ["one two", "three", "four"]);
+    }
+
+    #[test]
+    fn the_frame_leaves_the_room_that_figures_have() {
+        for (found, expected) in [(ROOM, [402.0, 263.0]), (Sheet::A1.room(), [823.0, 560.0])] {
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        }
+    }
 }

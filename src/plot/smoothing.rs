@@ -45,7 +45,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let words = format!(
-        "weight taken {:.2e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
+        "weight taken {:.1e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
         record.lambda,
         record.edf,
         1e3 * record.sigma
@@ -65,15 +65,20 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 0.6, "#1f5fa8");
         let beside = taken.is_some_and(|taken| (taken[0] - at[0]).hypot(taken[1] - at[1]) < 8.0);
         if k % 2 == 0 && !beside {
-            let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] + 1.6, at[1] + 3.0], [at[0] - 12.0, at[1] + 3.0]];
-            placer.name_point(&mut canvas, &format!("{lambda:.0e}"), &style, &places, &frame);
+            let name = format!("{lambda:.0e}");
+            let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
+            let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] - width - 1.6, at[1] + 1.6], [at[0] + 1.6, at[1] + 3.0]];
+            placer.name_point(&mut canvas, &name, &style, &places, &frame);
         }
     }
     if let Some(at) = taken {
         dot(&mut canvas, at, 1.3, "#c00000");
         canvas.line([at[0], at[1]], [at[0], frame.bottom], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
         let style = TextStyle::new(2.8, Anchor::Start).coloured("#c00000").halo();
-        canvas.text([at[0] + 2.2, at[1] - 2.2], "taken", &style);
+        let name = format!("taken: {:.1e}", record.lambda);
+        let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
+        let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
+        placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
     Ok(Some(Svg { text: canvas.finish("lcurve") }))

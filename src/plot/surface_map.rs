@@ -1,6 +1,6 @@
 //! Curvature of the side of a hull, developed: position along the ship by girth from the keel.
 //!
-//! The Gaussian map is white where the surface is developable, orange where it is convex both ways and blue where it is a saddle; the
+//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is developable, orange where it is convex both ways and blue where it is a saddle; the
 //! mean map orange where it is convex outward and blue where it is hollow; on both, black lines mark zero. Colours are steps of the
 //! square root of the curvature, full at a size that nineteen twentieths of the surface do not pass. Zebra stripes are the reflections of
 //! lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous, have kinks where only
@@ -11,6 +11,7 @@ use super::chart::{Axis, Chart};
 use super::label::LabelPlacer;
 use super::scale::{decimals, nice_step};
 use super::sheet::ROOM;
+use super::zero_lines::zero_lines;
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{MapPoint, SurfaceMap};
 use crate::hull::Hull;
@@ -27,6 +28,10 @@ const FLAT: f64 = 1e-9;
 const HEIGHT: f64 = 78.0;
 /// Height of a chart with its head and axis \[mm\].
 const PITCH: f64 = 104.0;
+/// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step of colour.
+const ZERO: f64 = 0.25 / (STEPS * STEPS) as f64;
+/// Distance of the signs of curvature on the sheet \[mm\].
+const SIGNS: f64 = 9.0;
 /// Dark stripes to a turn of the reflected ray.
 const STRIPES: f64 = 16.0;
 
@@ -150,7 +155,11 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
         };
         draw_cells(&mut canvas, &chart, &side.map, kind, full);
         if kind != SurfaceMapKind::Zebra && full > 0.0 {
-            draw_zeros(&mut canvas, &chart, &side.map, which, 1e-2 * full);
+            let place = |at: [f64; 2]| chart.place(at);
+            draw_signs(&mut canvas, &chart, &side.map, which, ZERO * full);
+            for line in zero_lines(&side.map, which, ZERO * full, &place) {
+                canvas.polyline(&line, &Pen::new(0.3, "#000000"));
+            }
         }
         let columns = side.map.columns();
         for row in [0, side.map.rows - 1] {
@@ -184,7 +193,9 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
         for j in 0..map.rows - 1 {
             let mut run: Option<usize> = None;
             for i in 0..columns {
-                let cell = (i + 1 < columns).then(|| corners(i, j));
+                // The two sides of a line of the surface stand at one place.
+                let high = |i: usize| map.point(i, j + 1).girth > map.point(i, j).girth;
+                let cell = (i + 1 < columns && (high(i) || high(i + 1))).then(|| corners(i, j));
                 let signs = cell.and_then(|cell| {
                     let [a, b, c, d] = cell.map(|k| values[k].map(&beyond));
                     Some([a?, b?, c?, d?])
@@ -229,30 +240,35 @@ fn clipped(corners: [[f64; 2]; 4], signs: [f64; 4]) -> Vec<[f64; 2]> {
     part
 }
 
-/// Lines on which a curvature changes its sign, where it leaves `least` on one side.
-fn draw_zeros(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, least: f64) {
-    let pen = Pen::new(0.3, "#000000");
-    let value = |i: usize, j: usize| map.point(i, j).curvature.map(|c| c[which]);
-    for i in 0..map.columns() - 1 {
-        for j in 0..map.rows - 1 {
-            let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-            let values = corners.map(|(i, j)| value(i, j));
-            if values.iter().flatten().map(|v| v.abs()).fold(0.0, f64::max) < least {
+/// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature is positive and
+/// - where it is negative, about [`SIGNS`] apart.
+fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, least: f64) {
+    let pen = Pen::new(0.14, "#303030");
+    let mut across = f64::NEG_INFINITY;
+    for i in 0..map.columns() {
+        let place = |j: usize| {
+            let point = map.point(i, j);
+            chart.place([point.at[0], point.girth])
+        };
+        let x = place(0)[0];
+        if x - across < SIGNS {
+            continue;
+        }
+        across = x;
+        let mut last = place(0)[1] - 0.3 * SIGNS;
+        for j in 0..map.rows {
+            let [x, y] = place(j);
+            let Some(value) = map.point(i, j).curvature.map(|c| c[which]).filter(|_| last - y >= SIGNS) else {
+                continue;
+            };
+            last = y;
+            if value.abs() < least || y - chart.frame.top < 2.0 {
                 continue;
             }
-            let mut crossings = Vec::new();
-            for k in 0..4 {
-                let (Some(a), Some(b)) = (values[k], values[(k + 1) % 4]) else { continue };
-                if (a < 0.0) != (b < 0.0) {
-                    let t = a / (a - b);
-                    let [p, q] = [corners[k], corners[(k + 1) % 4]].map(|(i, j)| {
-                        let point = map.point(i, j);
-                        chart.place([point.at[0], point.girth])
-                    });
-                    crossings.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
-                }
+            canvas.line([x - 0.7, y], [x + 0.7, y], &pen);
+            if value > 0.0 {
+                canvas.line([x, y - 0.7], [x, y + 0.7], &pen);
             }
-            crossings.chunks_exact(2).for_each(|pair| canvas.line(pair[0], pair[1], &pen));
         }
     }
 }
@@ -283,8 +299,8 @@ fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
         x += 13.0;
     }
     let words = match kind {
-        SurfaceMapKind::Gaussian => "orange: convex both ways, white: developable, blue: saddle; black line: 0",
-        _ => "orange: convex outward, blue: hollow; black line: 0",
+        SurfaceMapKind::Gaussian => "orange, +: convex both ways; white: developable; blue, -: saddle; black line: 0",
+        _ => "orange, +: convex outward; blue, -: hollow; black line: 0",
     };
     canvas.text([x + 3.0, y], &format!("{}   {words}", kind.unit()), &style);
 }

@@ -314,27 +314,37 @@ fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &Suspect, wor
         .collect();
     let z = table.waterlines[j];
     let axes = if words.outward { [words.value, words.place] } else { [words.place, words.value] };
-    small_plot(canvas, &frame(0.0), axes, &section, suspect, z, words.outward);
+    let verdict = &suspect.verdict;
+    let reading = Expected { value: suspect.value, expected: verdict.expected, band: 2.0 * verdict.uncertainty };
+    small_plot(canvas, &frame(0.0), axes, &section, reading, z, words.outward);
     let waterline: Vec<[f64; 2]> = (i.saturating_sub(REACH)..(i + REACH + 1).min(table.stations.len()))
         .filter(|&k| k != i)
         .filter_map(|k| given(k, j).map(|y| [table.stations[k].station.x, y]))
         .collect();
-    small_plot(canvas, &frame(1.0), ["x [m]", words.value], &waterline, suspect, station.station.x, false);
+    small_plot(canvas, &frame(1.0), ["x [m]", words.value], &waterline, reading, station.station.x, false);
 }
 
-/// One line through the suspect: the other offsets, the suspect hollow, the prediction with twice its uncertainty.
-fn small_plot(
+/// What is known of one reading: its value, what is expected, and how far either side of that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Expected {
+    pub(super) value: f64,
+    pub(super) expected: f64,
+    pub(super) band: f64,
+}
+
+/// One line through a reading at `place`: the other offsets, the reading hollow, what is expected with its band.
+pub(super) fn small_plot(
     canvas: &mut Canvas,
     frame: &Rectangle,
     names: [&str; 2],
     others: &[[f64; 2]],
-    suspect: &Suspect,
+    reading: Expected,
     place: f64,
     section: bool,
 ) {
     let point = |y: f64| if section { [y, place] } else { [place, y] };
-    let (expected, band) = (suspect.verdict.expected, 2.0 * suspect.verdict.uncertainty);
-    let [cell, low, high] = [suspect.value, expected - band, expected + band].map(point);
+    let Expected { value, expected, band } = reading;
+    let [cell, low, high] = [value, expected - band, expected + band].map(point);
     let range = |axis: usize| {
         let all = others.iter().chain([&cell, &low, &high]).map(|p| p[axis]);
         let (a, b) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));

@@ -8,7 +8,7 @@ use super::check::suspect_json;
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
-use super::source::{read_bytes, read_table_file, utf8};
+use super::source::{read_bytes, read_table_file, ship_name, utf8};
 use crate::config::{self, JobFile, RuleMark};
 use crate::exchange::{
     ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
@@ -118,7 +118,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     };
     let (mut table, reading) = read_table_file(&table_file)?;
     if table.name.trim().is_empty() {
-        table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        table.name = ship_name(&table_file);
     }
     let (stated, over) = (&mut table.stated, &said.stated);
     stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);

@@ -3,7 +3,9 @@
 use super::failure::Failure;
 use super::files::OutputFile;
 use crate::fairing::record::FairRecord;
-use crate::plot::{PlotError, Svg, fairing_body_plan, fairing_half_breadth_plan, fairing_moves, smoothing_figure};
+use crate::plot::{
+    PlotError, Sheet, Svg, fairing_body_plan, fairing_half_breadth_plan, fairing_moves, smoothing_figure,
+};
 
 /// Resolution of the pictures \[dots per inch\]: about 2600 pixels across.
 const DOTS_PER_INCH: f64 = 160.0;
@@ -13,8 +15,8 @@ type Draw = fn(&FairRecord) -> Result<Option<Svg>, PlotError>;
 
 /// The pictures with their names.
 const PICTURES: [(&str, Draw); 4] = [
-    ("fairing-body-plan", |record| fairing_body_plan(record).map(Some)),
-    ("fairing-half-breadth-plan", |record| fairing_half_breadth_plan(record).map(Some)),
+    ("fairing-body-plan", |record| fairing_body_plan(record, Sheet::A3).map(Some)),
+    ("fairing-half-breadth-plan", |record| fairing_half_breadth_plan(record, Sheet::A3).map(Some)),
     ("fairing-moves", |record| fairing_moves(record).map(Some)),
     ("lcurve", smoothing_figure),
 ];

@@ -11,7 +11,7 @@ use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::sanity;
-use super::source::{read_bytes, read_table_file, utf8};
+use super::source::{read_bytes, read_table_file, ship_name, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
     ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
@@ -112,7 +112,7 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     inputs.insert(if is_method(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
     let (mut table, notes) = read_table_file(&table_file)?;
     if table.name.trim().is_empty() {
-        table.name = table_file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        table.name = ship_name(&table_file);
     }
     let (stated, over) = (&mut table.stated, &method.stated);
     stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);

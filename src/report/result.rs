@@ -11,7 +11,7 @@ use super::source::{read_bytes, utf8};
 use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_outputs,
 };
-use crate::fairing::record::FairRecord;
+use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};
 
@@ -170,7 +170,7 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         Some(text) => {
             let path = folder.join("fairing.json");
             let file = read_fairing(&text).map_err(|error| unread(&path, &error.to_string()))?;
-            let FairingFile { name, status, lines, sigma, edf, chosen, trials, progress, whole } = file;
+            let FairingFile { name, status, lines, doubts, energy, sigma, edf, chosen, trials, progress, whole } = file;
             let text = reader.needed("changes.csv", "`fair`")?;
             let moved =
                 read_changes(&text, &lines).map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
@@ -183,7 +183,9 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
                 before,
                 after,
                 lines,
+                doubts: Doubt::all(doubts, &moved),
                 changes: moved,
+                energy,
                 sigma,
                 lambda,
                 edf,

@@ -9,12 +9,14 @@ use serde_json::Value;
 use super::failure::Failure;
 use super::page::conventions_line;
 use super::result::JobResult;
+use super::result_files::ReportSettings;
 use super::result_page::{Table, condition, constraints, verdict};
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{
-    Figure, FigureInputs, PlotError, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
-    fairing_arrows, fairing_body_plan, fairing_buttocks, fairing_diagonals, fairing_half_breadth_plan, fairing_moves,
+    Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
+    fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
+    fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_waterlines, pareto_figure,
     smoothing_figure, surface_map, table_figure,
 };
 
@@ -27,8 +29,10 @@ pub(super) struct ReportFigure {
     pub(super) title: &'static str,
     /// What to look for.
     pub(super) caption: &'static str,
-    /// The drawing.
+    /// The drawing, on A3.
     pub(super) svg: Svg,
+    /// The drawing on the sheet of the PDF, where it is another.
+    pub(super) large: Option<Svg>,
     /// The picture.
     pub(super) png: Vec<u8>,
 }
@@ -40,12 +44,14 @@ impl ReportFigure {
     }
 }
 
-type Draw<'a> = Box<dyn Fn() -> Result<Option<Svg>, PlotError> + Sync + 'a>;
+type Draw<'a> = Box<dyn Fn(Sheet) -> Result<Option<Svg>, PlotError> + Sync + 'a>;
 
 /// Key, heading, caption and drawing of a figure.
 struct Job<'a> {
     words: [&'static str; 3],
     draw: Draw<'a>,
+    /// Whether it has a scale, and becomes larger on larger sheets.
+    scaled: bool,
 }
 
 fn words(figure: Figure) -> [&'static str; 3] {
@@ -82,7 +88,8 @@ fn words(figure: Figure) -> [&'static str; 3] {
 
 /// What is drawn of a faired table, before the hull.
 fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> {
-    let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw };
+    let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
+    let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
         job(
             [
@@ -90,7 +97,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "What is held, and at which price",
                 "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
             ],
-            Box::new(|| {
+            Box::new(|_| {
                 let note = "price: RMS of the moves that dropping the wish would save";
                 Ok(sheet("CONSTRAINTS AND PRICES", note, constraints(fairing)))
             }),
@@ -99,52 +106,87 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
             [
                 "fairing-moves",
                 "What moved",
-                "Every offset with its move in millimetres, outward positive. Look for runs of one sign along a line: they are a \
-                 change of shape, not noise. Locked cells are framed, cells at their tolerance underlined.",
+                "Every offset with its move, outward positive. Look for runs of one sign along a line: they are a change of shape, not \
+                 noise. Locked cells are framed, cells at their tolerance underlined, knuckles and tangent lines have diamonds.",
             ],
-            Box::new(|| fairing_moves(record).map(Some)),
+            Box::new(|_| fairing_moves(record).map(Some)),
         ),
-        job(
+        scaled(
+            [
+                "suspects",
+                "Suspects",
+                "Rings are offsets as the table has them, bars run to what is proposed. A slip that explains itself (two digits \
+                 changed over, a foot too much) is a slip; one that does not wants a look at the drawing.",
+            ],
+            Box::new(|sheet| fairing_suspects(record, sheet)),
+        ),
+        scaled(
             [
                 "fairing-arrows",
                 "Where the offsets moved",
                 "Before in grey, after in black; an arrow for every offset, exaggerated as the sheet says. Arrows that turn from \
                  point to point take noise out; a field of one direction is a change of form.",
             ],
-            Box::new(|| fairing_arrows(record).map(Some)),
+            Box::new(|sheet| fairing_arrows(record, sheet).map(Some)),
         ),
-        job(
+        scaled(
+            [
+                "fairing-arrows-long",
+                "Where the offsets moved, along the ship",
+                "Half-breadths move, heights do not: the arrows of the profile are what the buttocks make of it. A field of one \
+                 direction along a line is a change of form; arrows that turn from station to station take noise out.",
+            ],
+            Box::new(|sheet| fairing_arrows_long(record, sheet).map(Some)),
+        ),
+        scaled(
+            [
+                "fairing-waterlines",
+                "Waterlines that moved most",
+                "Above the line with its combs, below the offsets less the fair line with the bars of their tolerances: the fair line, 0, \
+                 leaves no bar. Dots that lie on one side over several stations are a change of form.",
+            ],
+            Box::new(|sheet| fairing_waterlines(record, sheet)),
+        ),
+        scaled(
+            [
+                "fairing-stations",
+                "Stations that moved most",
+                "The same for stations, laid on their side with the keel on the left.",
+            ],
+            Box::new(|sheet| fairing_stations(record, sheet)),
+        ),
+        scaled(
             [
                 "fairing-body-plan",
                 "Body plan before and after",
                 "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
                  mark inflections: those that are left should be meant.",
             ],
-            Box::new(|| fairing_body_plan(record).map(Some)),
+            Box::new(|sheet| fairing_body_plan(record, sheet).map(Some)),
         ),
-        job(
+        scaled(
             [
                 "fairing-half-breadth-plan",
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
             ],
-            Box::new(|| fairing_half_breadth_plan(record).map(Some)),
+            Box::new(|sheet| fairing_half_breadth_plan(record, sheet).map(Some)),
         ),
-        job(
+        scaled(
             [
                 "fairing-buttocks",
                 "Buttocks before and after",
                 "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
             ],
-            Box::new(|| some(fairing_buttocks(record))),
+            Box::new(|sheet| some(fairing_buttocks(record, sheet))),
         ),
-        job(
+        scaled(
             [
                 "fairing-diagonals",
                 "Diagonals before and after",
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
             ],
-            Box::new(|| some(fairing_diagonals(record))),
+            Box::new(|sheet| some(fairing_diagonals(record, sheet))),
         ),
         job(
             [
@@ -153,17 +195,25 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "If the moves are the noise of the table the steps follow the bell. Long tails are wrong readings; a middle off zero \
                  is a change of shape.",
             ],
-            Box::new(|| deviation_figure(record)),
+            Box::new(|_| deviation_figure(record)),
         ),
         job(
             [
                 "lcurve",
-                "Deviation against energy",
-                "A point for each smoothing weight, none of which can be bettered in both: the Pareto front of closeness and \
-                 fairness. The weight taken stands at the bend: to its left energy is bought dearly, to its right the offsets are given \
-                 away.",
+                "Search for the smoothing weight",
+                "A point for each smoothing weight. The one taken stands at the bend of the L: to its left energy is bought dearly, to its \
+                 right the offsets are given away.",
             ],
-            Box::new(|| smoothing_figure(record)),
+            Box::new(|_| smoothing_figure(record)),
+        ),
+        job(
+            [
+                "pareto",
+                "Deviation against fairness",
+                "No point of the curve can be bettered in both. The fair hull lies above it by what its wishes cost: the higher, the \
+                 dearer they are.",
+            ],
+            Box::new(|_| pareto_figure(record)),
         ),
         job(
             [
@@ -172,7 +222,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "All three lines fall to rounding where the program was solved; lines that level off above it are a program that \
                  was not.",
             ],
-            Box::new(|| convergence_figure(record)),
+            Box::new(|_| convergence_figure(record)),
         ),
     ]
 }
@@ -215,15 +265,17 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
         "What the fairing came to",
         "Moves, inflections and prices in one look; the sheets that follow prove them.",
     ];
-    jobs.insert(0, Job { words: came, draw: Box::new(|| Ok(verdict_figure(result))) });
+    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result))), scaled: false });
     let standard = |figure: Figure| Job {
         words: words(figure),
-        draw: Box::new(move || figure.draw(inputs).map(Some)) as Draw<'a>,
+        draw: Box::new(move |sheet| figure.draw_on(inputs, sheet).map(Some)) as Draw<'a>,
+        scaled: matches!(figure, Figure::Lines | Figure::Sections),
     };
     jobs.extend(Figure::ALL.map(standard));
     jobs.push(Job {
         words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught."],
-        draw: Box::new(|| Ok(condition_figure(inputs))),
+        draw: Box::new(|_| Ok(condition_figure(inputs))),
+        scaled: false,
     });
     jobs.push(Job {
         words: [
@@ -232,7 +284,8 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
             "At each station the area below a waterline is drawn forward of its line: draw a waterline at any trim and read the areas \
              that it cuts off.",
         ],
-        draw: Box::new(|| bonjean_figure(inputs).map(Some)),
+        draw: Box::new(|_| bonjean_figure(inputs).map(Some)),
+        scaled: false,
     });
     jobs.extend(SurfaceMapKind::ALL.map(|kind| {
         let words = match kind {
@@ -252,7 +305,8 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
                 "Stripes swing evenly over a fair surface. A kink is a break of curvature, a step a break of the tangent plane.",
             ],
         };
-        Job { words, draw: Box::new(move || surface_map(inputs.hull, inputs.before, kind).map(Some)) as Draw<'a> }
+        let draw: Draw<'a> = Box::new(move |_| surface_map(inputs.hull, inputs.before, kind).map(Some));
+        Job { words, draw, scaled: false }
     }));
     jobs
 }
@@ -260,11 +314,11 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
 /// A figure with its place in the order; none where there is nothing to draw.
 type Drawn = (usize, Result<Option<ReportFigure>, Failure>);
 
-/// Draws the figures of a result, pictures at `dots_per_inch`; on as many threads as there are cores, in one order.
+/// Draws the figures of a result; on as many threads as there are cores, in one order.
 pub(super) fn report_figures(
     result: &JobResult,
     inputs: &FigureInputs<'_>,
-    dots_per_inch: f64,
+    settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
     let jobs = jobs(result, inputs);
     let next = AtomicUsize::new(0);
@@ -272,7 +326,7 @@ pub(super) fn report_figures(
     let work = || {
         while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
         {
-            let one = figure(job, dots_per_inch);
+            let one = figure(job, settings);
             drawn.lock().unwrap_or_else(PoisonError::into_inner).push((index, one));
         }
     };
@@ -283,13 +337,17 @@ pub(super) fn report_figures(
     drawn.into_iter().filter_map(|(_, figure)| figure.transpose()).collect()
 }
 
-fn figure(job: &Job<'_>, dots_per_inch: f64) -> Result<Option<ReportFigure>, Failure> {
+fn figure(job: &Job<'_>, settings: &ReportSettings) -> Result<Option<ReportFigure>, Failure> {
     let [key, title, caption] = job.words;
     let failure = |error: PlotError| match error {
         PlotError::PictureSize { .. } => Failure::Usage(format!("{key}: {error}")),
         error => Failure::Internal(format!("{key}: {error}")),
     };
-    let Some(svg) = (job.draw)().map_err(failure)? else { return Ok(None) };
-    let png = svg.to_png(dots_per_inch).map_err(failure)?;
-    Ok(Some(ReportFigure { key, title, caption, svg, png }))
+    let Some(svg) = (job.draw)(Sheet::A3).map_err(failure)? else { return Ok(None) };
+    let large = match settings.sheet {
+        sheet if job.scaled && sheet != Sheet::A3 => (job.draw)(sheet).map_err(failure)?,
+        _ => None,
+    };
+    let png = svg.to_png(settings.dots_per_inch).map_err(failure)?;
+    Ok(Some(ReportFigure { key, title, caption, svg, large, png }))
 }

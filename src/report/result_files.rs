@@ -10,14 +10,14 @@ use super::result_figures::report_figures;
 use super::result_page::report_page;
 use super::result_tables::report_tables;
 use crate::hydrostatics::CurvesOfForm;
-use crate::plot::{Figure, FigureInputs, PlotError, Sheet, Svg, write_pdf};
+use crate::plot::{FigureInputs, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReportSettings {
     /// Resolution of the pictures \[dots per inch\].
     pub dots_per_inch: f64,
-    /// Sheet of the lines plan in the PDF.
+    /// Sheet of the PDF; drawings that have a scale are made as large as it lets them be.
     pub sheet: Sheet,
 }
 
@@ -33,23 +33,22 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
     let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves };
-    let figures = report_figures(result, &inputs, settings.dots_per_inch)?;
+    let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing
         .as_ref()
         .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
-    let large = match settings.sheet {
-        Sheet::A3 => None,
-        sheet => Some(Figure::lines_plan(&inputs, sheet).map_err(internal)?),
-    };
-    let pages: Vec<(&str, &Svg)> = figures
+    let pages: Vec<Page<'_>> = figures
         .iter()
-        .map(|figure| (figure.title, large.as_ref().filter(|_| figure.key == "lines").unwrap_or(&figure.svg)))
+        .map(|figure| {
+            let svg = figure.large.as_ref().unwrap_or(&figure.svg);
+            Page { title: figure.title, caption: figure.caption, svg }
+        })
         .collect();
     // The PDF takes as long as page and tables together.
     let (pdf, page, tables) = thread::scope(|scope| {
-        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages));
+        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages, settings.sheet));
         let page = report_page(result, &design, before.as_ref(), &curves, &figures);
         (pdf.join(), page, report_tables(result, &curves))
     });

@@ -91,6 +91,17 @@ pub fn read_design(path: &Path) -> Result<(Design, Vec<u8>), Failure> {
     Ok((design, bytes))
 }
 
+/// Names of files that say what is in them and not of which ship.
+const WORDS: [&str; 3] = ["offsets", "sections", "table"];
+
+/// What a ship is called whose table has no name: the file, or its folder where the file is just `offsets`.
+pub(super) fn ship_name(path: &Path) -> String {
+    let text = |name: Option<&std::ffi::OsStr>| name.map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = text(path.file_stem());
+    let folder = text(path.parent().and_then(Path::file_name));
+    if WORDS.contains(&stem.to_lowercase().as_str()) && !folder.is_empty() { folder } else { stem }
+}
+
 /// Generates the hull of a design.
 ///
 /// # Errors

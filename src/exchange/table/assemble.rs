@@ -5,7 +5,7 @@ use super::grid::MOST_LINES;
 use super::header::{Axis, Coordinate, Corner, Position, position};
 use super::matrix::{Block, Line};
 use super::problem::{Field, Problems};
-use super::scale::{Size, Units, origin, units};
+use super::scale::{Size, Units, ends_from_midship, origin, units};
 use super::settings::Settings;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, SideKind, SideLine, StationOffsets, TableForm, Written,
@@ -240,6 +240,7 @@ pub(super) fn assemble(
     let (origin, numbers) = origin(settings, corner, &stations, half * rough.metres(y.largest), problems);
     let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
     let units = units(settings, corner, sizes, numbers, problems);
+    let origin = ends_from_midship(origin, settings, &stations, units.x, problems);
     let mut reader = Reader::new(settings, TableForm { origin, ..form }, units, problems);
     let mut table = OffsetTable::default();
     for block in blocks {

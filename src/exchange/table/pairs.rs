@@ -6,7 +6,7 @@
 use super::assemble::Reader;
 use super::header::{Corner, Position, position};
 use super::problem::{Field, Problems};
-use super::scale::{Size, origin, units};
+use super::scale::{Size, ends_from_midship, origin, units};
 use super::settings::Settings;
 use crate::hull::{
     Cell, Kept, Marks, OffsetTable, Order, OutlinePoint, StationOffsets, TableForm, TableLayout, Written,
@@ -76,6 +76,7 @@ pub(super) fn read(
     let corner = Corner { rows: Some(super::header::Axis::Station), ..Corner::default() };
     let (origin, numbers) = origin(settings, corner, &positions, y.largest, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], numbers, problems);
+    let origin = ends_from_midship(origin, settings, &positions, units.x, problems);
     let form = TableForm { origin, layout: TableLayout::Pairs, ..form };
     let mut reader = Reader::new(settings, form, units, problems);
     let xs: Vec<f64> = positions.into_iter().map(|p| reader.along(p)).collect();

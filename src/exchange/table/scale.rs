@@ -160,6 +160,45 @@ fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared:
     }
 }
 
+/// Part of the longer distance from midship at which the perpendiculars may stand.
+const PERPENDICULARS: f64 = 0.9;
+
+/// The origin of distances from midship where L_PP is not known: AP is the outermost station aft of midship that has a station as far
+/// forward of it, if it stands near the end of the table; `unit` is that of the distances. Without such a pair x is 0 at midship.
+pub(super) fn ends_from_midship(
+    origin: Origin,
+    settings: &Settings,
+    heads: &[Position],
+    unit: Notation,
+    problems: &mut Problems,
+) -> Origin {
+    if origin != (Origin::Shifted { offset: 0.0, sign: 1.0 }) || settings.stated.length_between_perpendiculars.is_some()
+    {
+        return origin;
+    }
+    let distance = |position: &Position| match position.place {
+        Coordinate::Number(number) => Some(unit.metres(number)),
+        Coordinate::Length(length) => Some(length),
+        _ => None,
+    };
+    let all: Vec<f64> = heads.iter().filter_map(distance).collect();
+    let farthest = all.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    let paired = |x: f64| x > 0.0 && all.iter().any(|other| (x + other).abs() <= 1e-6 * farthest);
+    let half = all.iter().copied().filter(|&x| paired(x)).fold(0.0, f64::max);
+    let (offset, message) = if half >= PERPENDICULARS * farthest && half > 0.0 {
+        let message = format!(
+            "distances count from midship and L_PP is not known: the outermost stations at equal distances are taken as AP and FP, \
+             {} m apart",
+            2.0 * half
+        );
+        (half, message)
+    } else {
+        (0.0, "distances count from midship and L_PP is not known: x is 0 at midship".to_owned())
+    };
+    problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
+    Origin::Shifted { offset, sign: 1.0 }
+}
+
 /// Where stations are counted from, and how far apart they are.
 pub(super) fn origin(
     settings: &Settings,
@@ -198,11 +237,8 @@ pub(super) fn origin(
                 problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
                 (0.0, -1.0)
             }
-            _ => {
-                let message = "distances count from midship and L_PP is not known: x is 0 at midship".to_owned();
-                problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
-                (0.0, 1.0)
-            }
+            // `ends_from_midship` finds AP, once the unit is known.
+            _ => (0.0, 1.0),
         };
         if length.is_some() {
             let place = if sign > 0.0 { "midship" } else { "FP" };

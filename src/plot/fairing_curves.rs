@@ -1,0 +1,335 @@
+//! The lines that moved most, a panel each: the line with its offsets and combs, and under it how far the offsets lie from the fair line,
+//! each with the bar of its tolerance.
+//!
+//! The strip below is a draughtsman's batten laid straight: 0 is the fair line, dots are offsets of the table, bars run as far as the
+//! offset may be moved, the grey line is the surface through the table. The fair line leaves no bar.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::comb::CombScale;
+use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
+use super::scale::{decimals, multiples, nice_step};
+use super::sheet::Sheet;
+use super::{PlotError, Svg, caption};
+use crate::fairing::inspect::{Comb, combs};
+use crate::fairing::job::Change;
+use crate::fairing::record::FairRecord;
+use crate::fairing::surface::Origin;
+use crate::hull::{Cut, Hull};
+
+/// Panels side by side and one over the other.
+const GRID: [usize; 2] = [2, 3];
+/// Room above and below the panels, and between them \[mm\].
+const HEAD: f64 = 22.0;
+const FOOT: f64 = 14.0;
+const GAP: f64 = 10.0;
+/// Room left of a panel for figures \[mm\].
+const NAMES: f64 = 16.0;
+/// Parts of the height of a panel: words above, the strip below with its axis.
+const WORDS: f64 = 6.0;
+const STRIP: f64 = 0.34;
+const AXIS: f64 = 8.0;
+/// Longest tooth of a comb \[mm\].
+const LONGEST: f64 = 9.0;
+const TEETH: usize = 121;
+/// Offsets of a line that is shown, at least.
+const LEAST: usize = 4;
+const BAR: Pen = Pen::new(0.35, "#9c9c9c");
+const FRAME: Pen = Pen::new(0.18, "#000000");
+const LIGHT: Pen = Pen::new(0.08, "#c8c8c8");
+
+/// The waterlines that moved most; none of tables without offsets on waterlines.
+///
+/// # Errors
+/// [`PlotError`] when nothing can be drawn.
+pub fn fairing_waterlines(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
+}
+
+/// The stations that moved most.
+///
+/// # Errors
+/// [`PlotError`] when nothing can be drawn.
+pub fn fairing_stations(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
+}
+
+/// What the lines run along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Along {
+    /// Waterlines.
+    Ship,
+    /// Stations, laid on their side: heights to the right.
+    Height,
+}
+
+impl Along {
+    /// Coordinate along the line: 0 or 2.
+    fn axis(self) -> usize {
+        match self {
+            Self::Ship => 0,
+            Self::Height => 2,
+        }
+    }
+
+    fn place(self, change: &Change) -> f64 {
+        match self {
+            Self::Ship => change.x,
+            Self::Height => change.z,
+        }
+    }
+
+    fn words(self) -> [&'static str; 3] {
+        match self {
+            Self::Ship => ["WATERLINES", "waterlines", "x forward of AP [m]"],
+            Self::Height => ["STATIONS", "stations", "z above the base line [m]"],
+        }
+    }
+}
+
+/// A line with its offsets.
+struct Line<'a> {
+    name: String,
+    cut: Cut,
+    offsets: Vec<&'a Change>,
+    /// Root of the mean square and largest of its moves \[m\].
+    moves: [f64; 2],
+}
+
+/// The lines that moved most, in their order on the ship.
+fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
+    let count = if along == Along::Ship { record.lines.waterlines.len() } else { record.lines.stations.len() };
+    let line = |k: usize| {
+        let own = |change: &&Change| match along {
+            Along::Ship => matches!(change.origin, Origin::HalfBreadth { waterline, .. } if waterline == k),
+            Along::Height => change.station == k && !matches!(change.origin, Origin::Deck { .. }),
+        };
+        let mut offsets: Vec<&Change> = record.changes.iter().filter(own).collect();
+        offsets.sort_by(|a, b| along.place(a).total_cmp(&along.place(b)));
+        let kept: Vec<f64> = offsets.iter().filter(|c| !c.suspect).map(|c| (c.after - c.before).abs()).collect();
+        let squares: f64 = kept.iter().map(|by| by * by).sum();
+        let moves = [(squares / kept.len().max(1) as f64).sqrt(), kept.iter().copied().fold(0.0, f64::max)];
+        let (name, cut) = match along {
+            Along::Ship => {
+                let z = record.lines.waterlines[k];
+                (format!("waterline {z:.3} m"), Cut::Waterline { z })
+            }
+            Along::Height => {
+                let station = &record.lines.stations[k];
+                let name: String = caption::plain(&station.name).chars().take(12).collect();
+                (format!("station {name}"), station_cut(record, station.x))
+            }
+        };
+        Line { name, cut, offsets, moves }
+    };
+    let mut lines: Vec<(usize, Line<'_>)> =
+        (0..count).map(|k| (k, line(k))).filter(|(_, line)| line.offsets.len() >= LEAST).collect();
+    lines.sort_by(|a, b| b.1.moves[0].total_cmp(&a.1.moves[0]).then(a.0.cmp(&b.0)));
+    lines.truncate(GRID[0] * GRID[1]);
+    lines.sort_by_key(|(k, _)| *k);
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option<Canvas> {
+    let lines = chosen(record, along);
+    if lines.is_empty() {
+        return None;
+    }
+    let paper = sheet.room();
+    let cuts: Vec<Cut> = lines.iter().map(|line| line.cut).collect();
+    let tolerance = record.tolerance();
+    let [before, after] = [&record.before, &record.after].map(|hull| combs(hull, &cuts, TEETH, tolerance));
+    let scale = CombScale::within(before.iter().chain(&after), LONGEST);
+    let mut canvas = Canvas::new(paper[0], paper[1]);
+    let [title, plural, axis] = along.words();
+    let name: String = caption::plain(&record.name).chars().take(60).collect();
+    let middle = TextStyle::new(4.5, Anchor::Middle);
+    canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
+    let words = format!(
+        "combs before and after at one scale: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the \
+         table",
+        scale.words()
+    );
+    canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    let size = [
+        (paper[0] - GAP * (GRID[0] + 1) as f64) / GRID[0] as f64,
+        (paper[1] - HEAD - FOOT - GAP * (GRID[1] - 1) as f64) / GRID[1] as f64,
+    ];
+    for (k, line) in lines.iter().enumerate() {
+        let left = GAP + (size[0] + GAP) * (k % GRID[0]) as f64;
+        let top = HEAD + (size[1] + GAP) * (k / GRID[0]) as f64;
+        let place = Rectangle::new(left + NAMES, top, left + size[0], top + size[1]);
+        let of = |list: &[Comb]| list.iter().filter(|comb| comb.cut == line.cut).cloned().collect::<Vec<_>>();
+        panel(&mut canvas, record, (along, line), [&of(&before), &of(&after)], scale, &place, axis);
+    }
+    let y = paper[1] - 5.0;
+    let style = TextStyle::new(2.6, Anchor::Start);
+    canvas.text([GAP, y], &format!("{} {plural} of the table, by the RMS of their moves", lines.len()), &style);
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    Some(canvas)
+}
+
+/// A range of numbers on a side of a frame.
+struct Range {
+    low: f64,
+    high: f64,
+}
+
+impl Range {
+    fn of(values: impl Iterator<Item = f64>, room: f64) -> Self {
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let more = room * (high - low).max(1e-9);
+        Self { low: low - more, high: high + more }
+    }
+
+    fn share(&self, value: f64) -> f64 {
+        (value - self.low) / (self.high - self.low)
+    }
+}
+
+fn panel(
+    canvas: &mut Canvas,
+    record: &FairRecord,
+    (along, line): (Along, &Line<'_>),
+    [before, after]: [&[Comb]; 2],
+    scale: CombScale,
+    place: &Rectangle,
+    axis: &str,
+) {
+    let turns = |list: &[Comb]| list.iter().map(|comb| comb.inflections.len()).sum::<usize>();
+    let used =
+        line.offsets.iter().filter_map(|c| c.tolerance.filter(|t| *t > 0.0).map(|t| (c.after - c.before).abs() / t));
+    let used = used.fold(0.0, f64::max);
+    let words = format!(
+        "{}    moves {:.2} mm RMS, {:.2} mm at most    {:.0} % of a tolerance used at most    inflections {} → {}",
+        line.name,
+        1e3 * line.moves[0],
+        1e3 * line.moves[1],
+        100.0 * used.min(1.0),
+        turns(before),
+        turns(after)
+    );
+    canvas.text([place.left, place.top + 2.0], &words, &TextStyle::new(2.6, Anchor::Start));
+    let strip_top = place.bottom - AXIS - STRIP * place.height();
+    let upper = Rectangle::new(place.left, place.top + WORDS, place.right, strip_top - 2.0);
+    let strip = Rectangle::new(place.left, strip_top, place.right, place.bottom - AXIS);
+    let drawn = [&record.before, &record.after].map(|hull| curves(hull, line.cut, 1e-4 * breadth_of(hull)));
+    let k = along.axis();
+    let all = || drawn.iter().flatten().flatten();
+    let across = Range::of(all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))), 0.03);
+    let heights = Range::of(all().map(|p| p[1]).chain(line.offsets.iter().map(|c| c.before)), 0.02);
+    // Combs stand on the convex side of the line: they need room above it, and under hollows.
+    let room = (LONGEST + 1.0).min(0.3 * upper.height());
+    let below = 0.5 * room;
+    let on = |p: [f64; 3]| {
+        [
+            upper.left + across.share(p[k]) * upper.width(),
+            upper.bottom - below - heights.share(p[1]) * (upper.height() - room - below),
+        ]
+    };
+    canvas.begin_clip(&upper);
+    before.iter().for_each(|comb| scale.draw(canvas, comb, on, &BEFORE_COMB));
+    after.iter().for_each(|comb| scale.draw(canvas, comb, on, &AFTER_COMB));
+    for (lines, pen) in drawn.iter().zip([&BEFORE, &AFTER]) {
+        for curve in lines {
+            canvas.polyline(&curve.iter().map(|&p| on(p)).collect::<Vec<_>>(), pen);
+        }
+    }
+    before.iter().for_each(|comb| CombScale::rings(canvas, comb, on, &BEFORE_COMB));
+    after.iter().for_each(|comb| CombScale::rings(canvas, comb, on, &AFTER_COMB));
+    for change in &line.offsets {
+        let at = on([change.x, change.before, change.z]);
+        canvas.area(&square(at, 0.5), "#000000");
+    }
+    canvas.end_group();
+    let inner = Rectangle { top: upper.top + room, bottom: upper.bottom - below, ..upper };
+    figures(canvas, &inner, &heights, "y [m]");
+    canvas.rectangle(&upper, &FRAME);
+    deviations(canvas, record, (along, line), &strip, &across);
+    let style = TextStyle::new(2.2, Anchor::Middle);
+    let step = nice_step(across.high - across.low, 10.0);
+    for value in multiples(step, across.low, across.high) {
+        let x = strip.left + across.share(value) * strip.width();
+        canvas.line([x, strip.bottom], [x, strip.bottom + 0.9], &FRAME);
+        canvas.text([x, strip.bottom + 2.6], &format!("{:.*}", decimals(step), value + 0.0), &style);
+    }
+    canvas.text([0.5 * (strip.left + strip.right), strip.bottom + 5.8], axis, &style);
+}
+
+fn breadth_of(hull: &Hull) -> f64 {
+    hull.particulars().breadth
+}
+
+fn square([x, y]: [f64; 2], half: f64) -> [[f64; 2]; 4] {
+    [[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]]
+}
+
+/// Figures at the left side of a frame.
+fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
+    let step = nice_step(range.high - range.low, 5.0);
+    let style = TextStyle::new(2.2, Anchor::End);
+    for value in multiples(step, range.low, range.high) {
+        let y = frame.bottom - range.share(value) * frame.height();
+        canvas.line([frame.left, y], [frame.right, y], &LIGHT);
+        canvas.text([frame.left - 1.0, y], &format!("{:.*}", decimals(step), value + 0.0), &style);
+    }
+    let middle = [frame.left - 13.0, 0.5 * (frame.top + frame.bottom)];
+    canvas.text(middle, name, &TextStyle::new(2.2, Anchor::Middle).upward());
+}
+
+/// The strip of offsets less the fair line \[mm\].
+fn deviations(
+    canvas: &mut Canvas,
+    record: &FairRecord,
+    (along, line): (Along, &Line<'_>),
+    strip: &Rectangle,
+    across: &Range,
+) {
+    let kept = || line.offsets.iter().filter(|change| !change.suspect);
+    let largest = kept().map(|change| 1e3 * (change.before - change.after).abs()).fold(0.0, f64::max);
+    // Bars that are far longer than the moves leave the strip.
+    let bars = kept().filter_map(|change| change.tolerance).map(|t| 1e3 * t).fold(0.0, f64::max);
+    let reach = (1.1 * (largest + bars)).min(8.0 * largest).max(1e-3);
+    let range = Range { low: -reach, high: reach };
+    let on = |at: f64, by: f64| {
+        [strip.left + across.share(at) * strip.width(), strip.bottom - range.share(by) * strip.height()]
+    };
+    figures(canvas, strip, &range, "mm");
+    canvas.begin_clip(strip);
+    for change in kept() {
+        if let Some(tolerance) = change.tolerance {
+            let (at, by) = (along.place(change), 1e3 * (change.before - change.after));
+            let [from, to] = [-1.0, 1.0].map(|s| on(at, by + s * 1e3 * tolerance));
+            canvas.line(from, to, &BAR);
+            for end in [from, to] {
+                canvas.line([end[0] - 0.7, end[1]], [end[0] + 0.7, end[1]], &BAR);
+            }
+        }
+    }
+    let steps = 160;
+    let (first, last) = (line.offsets.first(), line.offsets.last());
+    if let (Some(first), Some(last)) = (first, last) {
+        let (from, to) = (along.place(first), along.place(last));
+        let half = |hull: &Hull, at: f64| match line.cut {
+            Cut::Waterline { z } => hull.half_breadth(at, z),
+            Cut::Station { x } => hull.half_breadth(x, at),
+            _ => None,
+        };
+        let mut run: Vec<[f64; 2]> = Vec::new();
+        for k in 0..=steps {
+            let at = from + (to - from) * f64::from(k) / f64::from(steps);
+            match half(&record.before, at).zip(half(&record.after, at)) {
+                Some((old, new)) => run.push(on(at, 1e3 * (old - new))),
+                None => canvas.polyline(&std::mem::take(&mut run), &BEFORE),
+            }
+        }
+        canvas.polyline(&run, &BEFORE);
+    }
+    canvas.line(on(across.low, 0.0), on(across.high, 0.0), &Pen::new(0.4, "#1f5fa8"));
+    for change in kept() {
+        let at = on(along.place(change), 1e3 * (change.before - change.after));
+        let ink = if change.locked { "#c00000" } else { "#000000" };
+        canvas.area(&square(at, if change.locked { 0.9 } else { 0.6 }), ink);
+    }
+    canvas.end_group();
+    canvas.rectangle(strip, &FRAME);
+}
