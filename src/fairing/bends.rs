@@ -231,9 +231,9 @@ mod tests {
             .collect();
         let limit_at = |seen: f64, x: usize| kept(&bends, &second, seen)[x].clone();
         // Seen, it may grow; else it stays between where it is and nothing. The others are seen.
-        assert_eq!(limit_at(5e-5, 50).lower, f64::NEG_INFINITY);
+        assert!(limit_at(5e-5, 50).lower.is_infinite());
         let small = limit_at(1e-4, 50);
-        assert!(small.lower == -1e-3 && small.upper > 0.0 && small.upper < 1e-4, "{small:?}");
-        assert_eq!(limit_at(1e-4, 20).upper, f64::INFINITY);
+        assert!((small.lower + 1e-3).abs() < 1e-18 && small.upper > 0.0 && small.upper < 1e-4, "{small:?}");
+        assert!(limit_at(1e-4, 20).upper.is_infinite());
     }
 }
