@@ -55,7 +55,8 @@ pub enum Holding {
 /// How far a reading may move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerance {
-    /// The same for the whole table \[m\]; none: three noise levels, at least two quanta of the writing.
+    /// The same for the whole table \[m\], three levels of the most that is taken for noise on the net of a fit; none: three noise levels, at
+    /// least two quanta of the writing.
     pub table: Option<f64>,
     /// For single stations: (index, tolerance \[m\]).
     pub stations: Vec<(usize, f64)>,
@@ -242,7 +243,8 @@ impl Job {
             constraints,
             rules: self.rules.clone(),
             weight: self.weight,
-            table_noise: Some(found.noise),
+            // Whoever names a tolerance for the table says how noisy it is.
+            table_noise: Some(self.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
             most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
             least_noise: quantum / 12f64.sqrt(),
             tolerance_levels: Some(3.0),

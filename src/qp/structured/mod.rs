@@ -61,7 +61,7 @@ pub struct Solver {
 /// Multipliers that exclude feasible points within this radius count as a Farkas proof.
 const RADIUS: f64 = 1e7;
 /// A warm start that takes longer was none.
-const WARM: usize = 12;
+const WARM: usize = 30;
 /// The largest defect of a ray.
 const DEFECT: f64 = 1e-8;
 
