@@ -31,7 +31,7 @@ pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, ro
 pub use manifest::{Manifest, ManifestEntry, read_manifest_outputs, sha256};
 pub use mesh::{write_gdf, write_glb, write_nemoh, write_obj, write_pnl, write_stl, write_stl_ascii};
 pub use offsets::{heights_csv, offsets_csv};
-pub use report_tables::{diagonals_csv, hydrostatics_workbook, section_areas_csv};
+pub use report_tables::{diagonals_csv, hydrostatics_workbook, micrometres, section_areas_csv};
 pub use residuals::residuals_csv;
 pub use scene::scene_json;
 pub use section::{section_csv, section_json};

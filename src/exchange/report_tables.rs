@@ -23,21 +23,29 @@ pub fn diagonals_csv(
     for station in stations {
         let mut row = vec![notation.write(station.x)];
         let offset = |&height: &f64| diagonal_offset(hull, station.x, height, angle);
-        row.extend(heights.iter().map(|height| offset(height).map_or(String::new(), |s| notation.write(s))));
+        row.extend(
+            heights.iter().map(|height| offset(height).map_or(String::new(), |s| notation.write(micrometres(s)))),
+        );
         text.push_str(&line(&row));
     }
     text
+}
+
+/// A length \[m\] to the micrometre, for tables that people read.
+#[must_use]
+pub fn micrometres(length: f64) -> f64 {
+    (1e6 * length).round() / 1e6
 }
 
 /// Areas of sections, both sides [m^2]: one row a height \[m\], one column a station \[m from AP\]; empty above the deck.
 #[must_use]
 pub fn section_areas_csv(stations: &[f64], heights: &[f64], areas: &[Vec<Option<f64>>]) -> String {
     let mut head = vec!["z [m]\\x [m], areas [m2]".to_owned()];
-    head.extend(stations.iter().map(|x| cell(Some(*x))));
+    head.extend(stations.iter().map(|x| cell(Some(micrometres(*x)))));
     let mut text = line(&head);
     for (height, row) in heights.iter().zip(areas) {
-        let mut fields = vec![cell(Some(*height))];
-        fields.extend(row.iter().map(|area| cell(*area)));
+        let mut fields = vec![cell(Some(micrometres(*height)))];
+        fields.extend(row.iter().map(|area| cell(area.map(micrometres))));
         text.push_str(&line(&fields));
     }
     text

@@ -330,7 +330,7 @@ impl Canvas {
         let (x, y) = (number(at[0]), number(at[1]));
         let _ = writeln!(
             self.body,
-            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\">\n{elements}</g>"
+            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\" style=\"white-space:normal\">\n{elements}</g>"
         );
     }
 
@@ -389,7 +389,7 @@ impl Canvas {
         let (w, h) = (number(self.width), number(self.height));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"'{}', sans-serif\" xml:space=\"preserve\">\n<title>{}</title>\n<rect width=\"{w}\" \
+             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n<rect width=\"{w}\" \
              height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
             font::FAMILY,
             escape(title),

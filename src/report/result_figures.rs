@@ -201,8 +201,9 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
             [
                 "lcurve",
                 "Search for the smoothing weight",
-                "A point for each smoothing weight. The one taken stands at the bend of the L: to its left energy is bought dearly, to its \
-                 right the offsets are given away.",
+                "A point for each smoothing weight that was tried. The one taken has the least expected error to the hull (cross-validation, or \
+                 Mallows' criterion at the noise of the table), which need not be a bend of the line: further right the offsets move more, for \
+                 less energy.",
             ],
             Box::new(|_| smoothing_figure(record)),
         ),

@@ -250,7 +250,11 @@ pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
     let (rms, largest, _) = record.moves();
     let left_out = record.changes.iter().filter(|change| change.suspect).count();
     let mut lines = vec![match fairing["status"].as_str() {
-        Some("optimal") => (false, "All wishes are held; the answer is proved to be the best.".to_owned()),
+        Some("optimal") => (
+            false,
+            "All targets, tolerances and locks are held; of all nets that do so this one is proved to be the best."
+                .to_owned(),
+        ),
         Some(word) => (true, format!("Status {word}: not all wishes are held. What is shown is a compromise.")),
         None => (true, "The status is not known.".to_owned()),
     }];
@@ -270,6 +274,23 @@ pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
         .map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after")))
         .collect();
     lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
+    let all = || {
+        ["waterlines", "stations", "buttocks", "diagonals"].iter().flat_map(|key| list(&fairing["inflections"][key]))
+    };
+    let more_than = |than: &str| {
+        all()
+            .filter(|line| line["after"].as_u64().zip(line[than].as_u64()).is_some_and(|(after, most)| after > most))
+            .count()
+    };
+    let (worse, beyond) = (more_than("before"), more_than("allowed"));
+    if worse > 0 {
+        lines.push((true, format!("{worse} lines bend more often after than before.")));
+    }
+    if beyond > 0 {
+        let text = "lines bend more often than was asked of them, between the places where their signs were imposed or within the dead band \
+                    about no curvature: compare the columns after and allowed.";
+        lines.push((true, format!("{beyond} {text}")));
+    }
     let prices: Vec<String> = list(&fairing["constraints"]).map(|held| text(&held["words"])).collect();
     if !prices.is_empty() {
         lines.push((false, format!("Prices: {}.", prices.join("; "))));

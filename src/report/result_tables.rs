@@ -6,11 +6,11 @@ use super::generate::json_file;
 use super::page::conventions_line;
 use super::result::JobResult;
 use crate::exchange::{
-    conventions_json, diagonals_csv, heights_csv, hydrostatics_csv, hydrostatics_workbook, offsets_csv, row_json,
-    section_areas_csv,
+    conventions_json, diagonals_csv, heights_csv, hydrostatics_csv, hydrostatics_workbook, micrometres, offsets_csv,
+    row_json, section_areas_csv,
 };
 use crate::fairing::inspect::Planes;
-use crate::hull::{OffsetTable, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{Entry, OffsetTable, default_buttocks, default_stations, default_waterlines};
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::BonjeanTable;
 use crate::units::{Notation, decimal};
@@ -23,7 +23,21 @@ fn offsets(result: &JobResult) -> OffsetTable {
         None => (default_stations(hull), default_waterlines(hull).into_iter().map(decimal).collect()),
     };
     let buttocks: Vec<f64> = default_buttocks(hull).into_iter().map(decimal).collect();
-    OffsetTable::from_hull(hull, &stations, &waterlines, &buttocks)
+    let mut table = OffsetTable::from_hull(hull, &stations, &waterlines, &buttocks);
+    for station in &mut table.stations {
+        for cell in station.half_breadths.iter_mut().chain(&mut station.heights) {
+            cell.entry = cell.value().map_or(cell.entry, |y| Entry::Given(micrometres(y)));
+        }
+        let more = [
+            &mut station.keel_height,
+            &mut station.flat_of_bottom,
+            &mut station.deck_height,
+            &mut station.deck_half_breadth,
+        ];
+        more.into_iter().for_each(|value| *value = value.map(micrometres));
+    }
+    table.endings.iter_mut().flatten().for_each(|end| *end = end.map(micrometres));
+    table
 }
 
 /// What the numbers refer to, a line each.

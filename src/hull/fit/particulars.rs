@@ -3,6 +3,7 @@
 use super::super::{HullError, OffsetTable, PrincipalParticulars};
 use super::FitError;
 use super::rows::Row;
+use crate::numeric::median;
 use crate::spline::KnotVector;
 
 /// Design draught over the height of the table where none is stated.
@@ -34,7 +35,27 @@ pub(super) fn draught_guess(bottom: f64, edge: f64) -> f64 {
     if guess > 0.0 { guess } else { edge - bottom }
 }
 
-/// L_PP, B, T and D: stated, or L_PP between the ends of the waterline at T, B twice the greatest half-breadth, T seven tenths
+/// How [`length_by_stations`] comes to it, in words.
+pub(super) const BY_STATIONS: &str = "from the station at x = 0 to the outermost at a whole number of station spacings";
+
+/// Part of the length of the hull that the distance of the perpendiculars is at least.
+const PERPENDICULARS: f64 = 0.9;
+
+/// L_PP by the stations, x counting from AP: the outermost one that stands a whole number of the usual distance (the median) forward of
+/// the station at x = 0; none where there is no such station or the hull of `length` \[m\] is much longer.
+pub(super) fn length_by_stations(table: &OffsetTable, length: f64) -> Option<f64> {
+    let mut places: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|a, b| *a - *b <= 1e-9 * length);
+    let mut steps: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let step = median(&mut steps)?;
+    let whole = |x: f64| (x / step - (x / step).round()).abs() <= 1e-4;
+    let from_aft = places.iter().any(|x| x.abs() <= 1e-6 * length);
+    let last = places.iter().copied().filter(|&x| whole(x)).fold(0.0, f64::max);
+    (from_aft && step > 0.0 && last >= PERPENDICULARS * length).then_some(last)
+}
+
+/// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline at T, B twice the greatest half-breadth, T seven tenths
 /// of the height up to the lowest upper edge of a section, D the top. What was not stated is noted.
 pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
     let stated = &table.stated;
@@ -63,7 +84,9 @@ pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<Str
         let share = ((draught - a.z) / (b.z - a.z)).clamp(0.0, 1.0);
         let at = |side: usize| a.ends[side].x + share * (b.ends[side].x - a.ends[side].x);
         let length = at(1) - at(0);
-        notes.push(format!("no length is stated: L_PP = {length:.3} m, that of the waterline at T"));
+        let (length, how) = length_by_stations(table, length)
+            .map_or((length, "that of the waterline at T"), |length| (length, BY_STATIONS));
+        notes.push(format!("no length is stated: L_PP = {length:.3} m, {how}"));
         length
     });
     PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth }

@@ -33,7 +33,7 @@ mod published;
 mod tests;
 
 use super::features::{self, FlatOfSide};
-use super::particulars::{draught_guess, lowest_edge};
+use super::particulars::{BY_STATIONS, draught_guess, length_by_stations, lowest_edge};
 use super::{CellResidual, Chart, FitError, Fitted};
 use crate::hull::cell::{Entry, FeatureLine, LineKind};
 use crate::hull::form::Hull;
@@ -209,7 +209,7 @@ impl Net {
     }
 }
 
-/// Stated dimensions, and where nothing is stated: L_PP between the outermost stations, B twice the greatest half-breadth, D
+/// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the outermost ones, B twice the greatest half-breadth, D
 /// the highest point, T seven tenths of the height up to the lowest upper edge. What was not stated is noted.
 pub(super) fn particulars(
     table: &OffsetTable,
@@ -219,7 +219,10 @@ pub(super) fn particulars(
 ) -> PrincipalParticulars {
     let size = size(profiles);
     let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
-    let (length, lowest) = (last.x - first.x, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
+    let length = last.x - first.x;
+    let (length, how) =
+        length_by_stations(table, length).map_or((length, "between the outermost stations"), |l| (l, BY_STATIONS));
+    let (length, lowest) = (length, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
     let top = lowest + size.depth;
     let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
         value.unwrap_or_else(|| {
@@ -230,12 +233,7 @@ pub(super) fn particulars(
     let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
     let stated = &table.stated;
     PrincipalParticulars {
-        length_between_perpendiculars: or(
-            stated.length_between_perpendiculars,
-            "length",
-            length,
-            "between the outermost stations",
-        ),
+        length_between_perpendiculars: or(stated.length_between_perpendiculars, "length", length, how),
         breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
         draught: or(
             stated.draught,

@@ -16,6 +16,7 @@ mod limits;
 mod nodes;
 mod section;
 
+use super::particulars::{BY_STATIONS, length_by_stations};
 use super::upright::profile::{Profile, SectionPoint};
 use super::upright::{self, Length, ends};
 use super::{Chart, FitError, Fitted, outlines};
@@ -63,9 +64,11 @@ pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let mut particulars = upright::particulars(table, &surface, &profiles, &mut assumed);
     let mut hull = Hull::new(&table.name, particulars, surface, deck)?;
     if let (false, Some([aft, fore])) = (stated, hull.endings(particulars.draught)) {
-        particulars.length_between_perpendiculars = fore - aft;
+        let (length, how) = length_by_stations(table, fore - aft)
+            .map_or((fore - aft, "that of the waterline at T"), |length| (length, BY_STATIONS));
+        particulars.length_between_perpendiculars = length;
         assumed.retain(|note| !note.starts_with("no length"));
-        assumed.push(format!("no length is stated: L_PP = {:.3} m, that of the waterline at T", fore - aft));
+        assumed.push(format!("no length is stated: L_PP = {length:.3} m, {how}"));
         hull = Hull::new(&table.name, particulars, hull.surface().clone(), hull.deck().clone())?;
     }
     notes.extend(assumed);
