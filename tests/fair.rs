@@ -200,6 +200,25 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert_eq!(certificate["status"], "infeasible");
 }
 
+/// A target beyond all measure does not vanish beside its row, nor does a tolerance beyond all measure spoil the answer.
+#[test]
+fn absurd_numbers_are_not_taken_for_an_answer() {
+    let folder = folder("absurd");
+    let table = carried(TABLE).display().to_string();
+    let run = |name: &str, option: &str, value: &str| {
+        let out = folder.join(name).display().to_string();
+        program(&["fair", &table, "-o", &out, option, value, "--no-figures"])
+    };
+    for value in ["1e15", "1e300"] {
+        let output = run(value, "--displacement", value);
+        assert_eq!(output.status.code(), Some(4), "{value}: {}", stderr(&output));
+    }
+    for value in ["1e9"] {
+        let output = run(value, "--tolerance", value);
+        assert!(output.status.success(), "{value}: {}", stderr(&output));
+    }
+}
+
 #[test]
 fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
     let folder = folder("refused");

@@ -343,8 +343,9 @@ impl Job {
         Ok(Outcome {
             proposals,
             signs,
-            status: if faired.diagnosis.is_some() {
-                Status::Infeasible
+            status: if let Some(found) = &faired.diagnosis {
+                // What is feasible and was not solved is no contradiction.
+                if found.widening.is_some_and(|least| least <= 1.0) { Status::Limit } else { Status::Infeasible }
             } else if faired.stalled() {
                 Status::Limit
             } else {
@@ -374,6 +375,9 @@ impl Job {
     /// Tolerances that the job names, one a reading.
     fn tolerances(&self, surface: &FairSurface) -> Vec<Option<f64>> {
         let of = |list: &[(usize, f64)], index: usize| list.iter().rev().find(|(i, _)| *i == index).map(|(_, t)| *t);
+        // Less than rounding leaves nothing to solve in, more than the breadth says nothing; what must not move at all is locked.
+        let breadth = surface.hull.particulars().breadth;
+        let sensible = |named: f64| named.clamp(LEAST_TOLERANCE * breadth, breadth);
         surface
             .places
             .iter()
@@ -384,9 +388,10 @@ impl Job {
                         .or_else(|| of(&self.tolerance.waterlines, waterline))
                         .or_else(|| of(&self.tolerance.stations, station))
                         .or(self.tolerance.table)
+                        .map(sensible)
                 }
                 Origin::Deck { station } | Origin::Point { station, .. } => {
-                    of(&self.tolerance.stations, station).or(self.tolerance.table)
+                    of(&self.tolerance.stations, station).or(self.tolerance.table).map(sensible)
                 }
             })
             .collect()

@@ -129,7 +129,11 @@ impl Program {
         let mut wanted: Vec<Wanted> = Vec::new();
         let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64, tolerance: f64| {
             let (row, offset) = reduced.row(row);
-            if row.iter().any(|(_, value)| value.abs() >= 1e-14) {
+            let told = row.iter().any(|(_, value)| value.abs() >= 1e-14);
+            // A target so far away that its row vanishes beside it still cannot be had.
+            let beyond = matches!(name, RowName::Constraint(_)) && (lower - offset > 1e-6 || upper - offset < -1e-6);
+            let row = if told { row } else { row.into_iter().map(|(i, _)| (i, 0.0)).collect() };
+            if told || beyond {
                 wanted.push(Wanted { name, row, tolerance, limits: [lower - offset, upper - offset] });
             }
         };

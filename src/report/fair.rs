@@ -327,12 +327,16 @@ impl FairOutputs {
             Status::Infeasible => (
                 "E401",
                 "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
-                format!(
-                    "Widen the tolerance, unlock cells, drop a rule or free one of the targets:{}{}{}",
-                    least.unwrap_or_default(),
-                    rule.unwrap_or_default(),
-                    cheapest.unwrap_or_default()
-                ),
+                match [least, rule, cheapest].map(Option::unwrap_or_default).concat() {
+                    none if none.is_empty() => {
+                        "Widen the tolerance, unlock cells, drop a rule or free one of the targets; no single one of \
+                                                them would do, or none was found that would"
+                            .to_owned()
+                    }
+                    which => {
+                        format!("Widen the tolerance, unlock cells, drop a rule or free one of the targets:{which}")
+                    }
+                },
             ),
             Status::Limit if self.outcome.faired.stalled() => (
                 "E403",
