@@ -45,7 +45,8 @@ const SHARED: [(&str, usize, usize, f64, f64, f64, f64); 13] = [
     ("series60_cb075", 25, 8, 0.0, 121.92, 10.8373, 9.0311),
     ("sterntrawler", 41, 21, -2.998, 48.4346, 10.7106, 5.8),
     ("vlcc_roh", 27, 24, -0.33, 20.43, 30.0, 30.0),
-    ("wigley", 41, 11, -50.0, 50.0, 6.25, 5.0),
+    // From midship in the file: AP and FP are the outermost stations.
+    ("wigley", 41, 11, 0.0, 100.0, 6.25, 5.0),
 ];
 
 #[test]
