@@ -338,6 +338,12 @@ fn files_are_converted_by_the_endings_of_their_names() {
     let back = read_table("a-pias.txt", &text).unwrap().table;
     let first = read_table("box.gf", &fs::read(place("box.gf")).unwrap()).unwrap().table;
     assert_eq!(back.stations.len(), first.stations.len());
+    // A station of one point is no section.
+    fs::write(place("raked.csv"), "x [m],0,1,2\n-1,,,1\n0,0,1,2\n5,1,2,2\n10,0,1,2\n").unwrap();
+    for file in ["raked.gf", "raked.bri"] {
+        run(&["convert", &place("raked.csv"), &place(file), "-q"]);
+        assert_eq!(read_table(file, &fs::read(place(file)).unwrap()).unwrap().table.stations.len(), 3);
+    }
     run(&["convert", &hull, &place("box.stl")]);
     run(&["convert", &place("box.stl"), &place("box.obj")]);
     run(&["convert", &hull, &place("box.csv"), "-q"]);

@@ -117,9 +117,11 @@ fn panels_have_the_volume_of_the_hull_and_converge() {
 #[test]
 fn panels_of_an_immersed_deck_are_refused() {
     let hull = config("box.toml").display().to_string();
-    let refused = program(&["export", &hull, "-f", "gdf", "--draught", "12"]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"));
+    for format in ["gdf", "michlet", "pdstrip"] {
+        let refused = program(&["export", &hull, "-f", format, "--draught", "12"]);
+        assert_eq!(refused.status.code(), Some(2), "{format}");
+        assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"), "{format}");
+    }
 }
 
 #[test]

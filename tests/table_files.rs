@@ -185,6 +185,10 @@ fn a_table_is_converted_and_the_rounding_reported() {
     let said = String::from_utf8(mm.stderr).unwrap();
     assert!(said.contains("largest change 0.400 mm, RMS 0.200 mm"), "{said}");
     assert_eq!(convert(&[&path, &out]).status.code(), Some(6));
+    let unknown = convert(&[&path, &folder.join("boat.foo").display().to_string()]);
+    let said = String::from_utf8(unknown.stderr).unwrap();
+    assert_eq!(unknown.status.code(), Some(2), "{said}");
+    assert!(said.contains("known are .csv, .xlsx, .step") && !folder.join("boat.foo").exists(), "{said}");
     // Conventions beside the table.
     fs::write(folder.join("boat.toml"), "[table]\nbreadths = \"full\"\n").unwrap();
     let half = convert(&[&path, "--notation", "m", "--layout", "tidy", "-q"]);

@@ -1,6 +1,6 @@
 //! `loftsman convert FILE [OUT]`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -37,6 +37,9 @@ pub(super) struct Arguments {
     quiet: bool,
 }
 
+/// Endings of tables.
+const TABLES: [&str; 2] = ["csv", "xlsx"];
+
 /// Endings of hulls and designs.
 const HULLS: [&str; 4] = ["json", "toml", "hgf", "huf"];
 
@@ -48,6 +51,21 @@ fn layout(word: &str) -> Result<TableLayout, String> {
     }
 }
 
+/// The ending of the file must say a format: that of a table, or that of the table which is written back. A name without any is that of a
+/// stream.
+fn known_ending(output: &Path, table: Option<&Path>) -> Result<(), Failure> {
+    let Some(ending) = output.extension() else { return Ok(()) };
+    let own = table.and_then(Path::extension).is_some_and(|own| own.eq_ignore_ascii_case(ending));
+    if own || TABLES.iter().any(|known| ending.eq_ignore_ascii_case(known)) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "the ending of {} says no format; known are .csv, .xlsx, .step, .stp, .igs, .iges, .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, \
+         .bri, .ftm, .mlt; --format says another",
+        output.display()
+    )))
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let said = arguments.said.said();
     let of_name = || arguments.output.as_deref().and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
@@ -57,7 +75,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let workbook = arguments.output.as_ref().and_then(|path| path.extension()).is_some_and(|e| e == "xlsx");
         if workbook { ExportFormat::Xlsx } else { ExportFormat::Csv }
     });
-    if let Some(format) = arguments.format.or_else(of_name).or(table) {
+    let said_format = arguments.format.or_else(of_name);
+    if let (None, Some(output)) = (said_format, arguments.output.as_deref()) {
+        known_ending(output, Some(arguments.table.as_path()).filter(|_| !hull))?;
+    }
+    if let Some(format) = said_format.or(table) {
         let name = arguments.output.as_deref().unwrap_or(&arguments.table).to_string_lossy().into_owned();
         let (file, messages) = convert_file(&arguments.table, &said, &name, format, &ExportSettings::default())?;
         if !arguments.quiet {

@@ -39,7 +39,7 @@ pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, MeshReport, Region, whole_volume};
 pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
 pub use outlines::section_stations;
-pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings};
+pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};
 pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};

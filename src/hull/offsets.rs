@@ -108,10 +108,13 @@ impl OffsetTable {
         }
     }
 
-    /// The offsets at [`default_stations`], [`default_waterlines`] and [`default_buttocks`].
+    /// The offsets at [`default_stations`], [`default_waterlines`] and [`default_buttocks`], without stations that no waterline meets.
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
-        Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull))
+        let mut table =
+            Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull));
+        table.stations.retain(|station| station.half_breadths.iter().any(|cell| cell.value().is_some()));
+        table
     }
 }
 
@@ -131,7 +134,7 @@ impl OffsetTable {
         if draught <= low || fore <= aft {
             return None;
         }
-        let at = |x: f64, z: f64| hull.half_breadth(x, z).map_or(0.0, |y| y.max(0.0));
+        let at = |x: f64, z: f64| breadth(hull, x, z).unwrap_or(0.0);
         let stations = (0..count).map(|k| {
             let x = aft + (fore - aft) * share(k, count);
             let half_breadths = waterlines.iter().map(|&z| Cell::from(Some(at(x, z)))).collect();
@@ -150,24 +153,31 @@ fn ends(hull: &Hull, z: f64) -> [Option<f64>; 2] {
     ends.map(|x| (z <= hull.deck_height(x) + slack).then_some(if x.abs() < dust { 0.0 } else { x }))
 }
 
+/// A half-breadth of the body |y| <= y(x, z): 0 where the surface is beyond the centreplane.
+fn positive(y: f64) -> f64 {
+    if y > 0.0 { y } else { 0.0 }
+}
+
+fn breadth(hull: &Hull, x: f64, z: f64) -> Option<f64> {
+    hull.half_breadth(x, z).map(positive)
+}
+
 fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f64]) -> StationOffsets {
     let x = station.x;
     let deck = hull.deck_height(x);
     let slack = 1e-12 * (hull.top() - hull.bottom());
-    let half_breadths = waterlines
-        .iter()
-        .map(|&z| Cell::from(if z <= deck + slack { hull.half_breadth(x, z) } else { None }))
-        .collect();
+    let half_breadths =
+        waterlines.iter().map(|&z| Cell::from(if z <= deck + slack { breadth(hull, x, z) } else { None })).collect();
     let keel_height = lowest(hull, x).filter(|&z| z <= deck + slack);
     let section = hull.section(Cut::Station { x }, 0.0);
     let heights =
         buttocks.iter().map(|&y| Cell::from(if y <= 0.0 { keel_height } else { height_at(&section, y) })).collect();
-    let on_deck = keel_height.and_then(|_| hull.half_breadth(x, deck.min(upper_edge(hull, x))));
+    let on_deck = keel_height.and_then(|_| breadth(hull, x, deck.min(upper_edge(hull, x))));
     StationOffsets {
         half_breadths,
         heights,
         keel_height,
-        flat_of_bottom: keel_point(hull, x).map(|point| point[1]),
+        flat_of_bottom: keel_point(hull, x).map(|point| positive(point[1])),
         deck_height: on_deck.map(|_| deck),
         deck_half_breadth: on_deck,
         ..StationOffsets::new(station.name.clone(), x)
@@ -319,6 +329,19 @@ mod tests {
         let particulars =
             PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 6.3, depth: 9.0 };
         Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
+    }
+
+    #[test]
+    fn beyond_the_centreplane_is_no_hull() {
+        let hull = hull();
+        let points =
+            hull.surface().points().iter().map(|p| [p[0], if p[2] > 0.0 { p[1] } else { -5e-6 }, p[2]]).collect();
+        let surface = BsplineSurface::new(hull.surface().u().clone(), hull.surface().v().clone(), points).unwrap();
+        let hull = Hull::new("test", *hull.particulars(), surface, hull.deck().clone()).unwrap();
+        let table = OffsetTable::from_hull(&hull, &[OffsetStation { name: "5".to_owned(), x: 50.0 }], &[0.0, 5.0], &[]);
+        let station = &table.stations[0];
+        assert_eq!((station.half_breadths[0].value(), station.flat_of_bottom), (Some(0.0), Some(0.0)));
+        assert!(station.half_breadths[1].value().unwrap() > 1.0);
     }
 
     fn breadth(x: f64, z: f64) -> f64 {

@@ -8,6 +8,9 @@ use super::section::{Cut, Face};
 /// Ends of pieces of a section that are as near as this part of the breadth are one point.
 const SAME: f64 = 1e-7;
 
+/// Points as near to the centreplane as this part of the breadth are on it where a section begins.
+const CENTREPLANE: f64 = 1e-6;
+
 /// Places on each end of the profile at which there is a section, from its lowest to its highest point.
 const PROFILE: usize = 5;
 
@@ -77,6 +80,39 @@ fn outlines(hull: &Hull, x: f64, deviation: f64) -> Vec<Vec<OutlinePoint>> {
             None => lines.push(piece),
         }
     }
+    let near = CENTREPLANE * hull.particulars().breadth;
+    lines.iter_mut().for_each(|line| begin_at_lowest(line, near));
+    let extends = |line: &Vec<[f64; 2]>| line.iter().any(|p| (p[0] - line[0][0]).hypot(p[1] - line[0][1]) > slack);
+    lines.retain(extends);
     let point = |[y, z]: [f64; 2]| OutlinePoint { y, z, marks: Marks::default() };
     lines.into_iter().map(|line| line.into_iter().map(point).collect()).collect()
+}
+
+/// Takes off the points along the centreplane from which a line first falls: beside the keel the surface may be beyond the centreplane by
+/// as much as its fit leaves.
+fn begin_at_lowest(line: &mut Vec<[f64; 2]>, near: f64) {
+    let falls = |pair: &[[f64; 2]]| pair[0][0] <= near && pair[1][0] <= near && pair[1][1] <= pair[0][1];
+    let count = line.windows(2).take_while(|pair| falls(pair)).count();
+    if count > 0 {
+        line.drain(..count);
+        line[0][0] = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_section_begins_where_it_rises() {
+        let mut line = vec![[0.0, 0.02], [0.0, 0.01], [4e-6, 0.0], [1.0, 0.0], [2.0, 3.0]];
+        begin_at_lowest(&mut line, 1e-5);
+        assert_eq!(line, [[0.0, 0.0], [1.0, 0.0], [2.0, 3.0]]);
+        // Hollow bottoms and skegs stay.
+        for kept in [vec![[0.0, 1.0], [1.0, 0.5], [2.0, 3.0]], vec![[0.0, 0.0], [0.0, 1.0], [2.0, 3.0]]] {
+            let mut line = kept.clone();
+            begin_at_lowest(&mut line, 1e-5);
+            assert_eq!(line, kept);
+        }
+    }
 }

@@ -46,7 +46,9 @@ pub enum PanelError {
         bottom: f64,
     },
     /// The deck is below the waterline.
-    #[error("at draught {draught} m the deck at side is immersed near x = {x} m; panels end at the waterline")]
+    #[error(
+        "at draught {draught} m the deck at side is immersed near x = {x} m; the wetted surface must end at the waterline"
+    )]
     DeckImmersed {
         /// The draught \[m\].
         draught: f64,
@@ -160,18 +162,12 @@ impl Wetted<'_> {
     }
 
     /// Ends of the immersed stretches of the hull in u, and the lines between that panels must have.
-    fn stretches(&self) -> Result<Vec<Vec<f64>>, PanelError> {
+    fn stretches(&self) -> Vec<Vec<f64>> {
         let surface = self.hull.surface();
         let mut runs: Vec<Vec<f64>> = Vec::new();
         let along = corners(surface.u());
         let meets = |u: f64| self.corners.iter().any(|&v| (surface.eval(u, v)[2] - self.draught).abs() <= self.slack);
         for piece in self.immersion.pieces() {
-            let middle = 0.5 * (piece.from + piece.to);
-            let end = self.immersion.end(middle);
-            let top = surface.eval(middle, end);
-            if piece.upper == UpperEnd::Deck || top[2] < self.draught - self.slack {
-                return Err(PanelError::DeckImmersed { draught: self.draught, x: top[0] });
-            }
             match runs.last_mut() {
                 Some(run) if run[run.len() - 1].to_bits() == piece.from.to_bits() => {
                     let border = run.len() - 1;
@@ -186,7 +182,7 @@ impl Wetted<'_> {
                 _ => runs.push(vec![piece.from, piece.to]),
             }
         }
-        Ok(runs)
+        runs
     }
 
     /// Lengths of arc along the hull over [from, to]: the mean, by parameter, and the greatest of the whole.
@@ -310,6 +306,32 @@ impl Builder {
     }
 }
 
+/// The hull below a draught, at which its deck at side is dry everywhere.
+fn immersed(hull: &Hull, draught: f64) -> Result<Immersion<'_>, PanelError> {
+    let nothing = PanelError::NothingImmersed { draught, bottom: hull.bottom() };
+    let slack = AFLOAT * (hull.top() - hull.bottom());
+    if draught <= hull.bottom() + slack {
+        return Err(nothing);
+    }
+    let immersion = Immersion::new(hull, draught).ok_or(nothing)?;
+    for piece in immersion.pieces() {
+        let middle = 0.5 * (piece.from + piece.to);
+        let top = hull.surface().eval(middle, immersion.end(middle));
+        if piece.upper == UpperEnd::Deck || top[2] < draught - slack {
+            return Err(PanelError::DeckImmersed { draught, x: top[0] });
+        }
+    }
+    Ok(immersion)
+}
+
+/// Whether a hull has a wetted surface that ends at the waterline at this draught.
+///
+/// # Errors
+/// [`PanelError`] when nothing is immersed or the deck is.
+pub fn floats_at(hull: &Hull, draught: f64) -> Result<(), PanelError> {
+    immersed(hull, draught).map(|_| ())
+}
+
 impl PanelMesh {
     /// Panels of the side y >= 0 below a draught (see the head).
     ///
@@ -317,12 +339,8 @@ impl PanelMesh {
     /// [`PanelError`] when nothing is immersed, the deck is, or there would be too many.
     pub fn new(hull: &Hull, settings: &PanelSettings) -> Result<Self, PanelError> {
         let (draught, size) = (settings.draught, settings.size);
-        let nothing = PanelError::NothingImmersed { draught, bottom: hull.bottom() };
         let slack = AFLOAT * (hull.top() - hull.bottom());
-        if draught <= hull.bottom() + slack {
-            return Err(nothing);
-        }
-        let immersion = Immersion::new(hull, draught).ok_or(nothing)?;
+        let immersion = immersed(hull, draught)?;
         let surface = hull.surface();
         let breadth = surface.points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
         let centreplane = CENTREPLANE * breadth;
@@ -333,7 +351,7 @@ impl PanelMesh {
         };
         let mut builder = Builder { mesh: Self::default(), known: HashMap::new(), flatness: settings.flatness };
         let (aft, fore) = surface.u().domain();
-        for run in wetted.stretches()? {
+        for run in wetted.stretches() {
             let mut columns = Vec::new();
             for pair in run.windows(2) {
                 let (line, longest) = wetted.along(pair[0], pair[1]);

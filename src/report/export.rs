@@ -12,7 +12,7 @@ use crate::exchange::{
 };
 use crate::hull::{
     Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, SubdivisionNet,
-    TableForm, section_stations, whole_volume,
+    TableForm, floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::Notation;
@@ -291,7 +291,7 @@ fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(Strin
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when there are no panels at the draught.
+/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the draught.
 pub fn export(
     hull: &Hull,
     name: &str,
@@ -299,6 +299,7 @@ pub fn export(
     settings: &ExportSettings,
 ) -> Result<Exported, Failure> {
     let deviation = settings.deviation.unwrap_or(DEVIATION * hull.particulars().breadth);
+    let draught = settings.draught.unwrap_or(hull.particulars().draught);
     let volume = whole_volume(hull);
     let (mut files, mut page) = (Vec::new(), Vec::new());
     let title = if hull.name().is_empty() { name } else { hull.name() };
@@ -347,13 +348,20 @@ pub fn export(
     } else {
         OffsetTable::default()
     };
+    if formats.iter().any(|format| matches!(format, ExportFormat::Pdstrip | ExportFormat::Michlet)) {
+        floats_at(hull, draught).map_err(|error| Failure::Usage(error.to_string()))?;
+    }
     for &format in formats {
         let file = format!("{name}{}", format.ending());
         let contents = match (format, &mesh, &solid) {
             (ExportFormat::Ghs, ..) => write_ghs(&sections).into_bytes(),
             (ExportFormat::Britfair, ..) => write_britfair(&sections).into_bytes(),
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
-            (ExportFormat::Pdstrip, ..) => write_pdstrip(&sections).into_bytes(),
+            (ExportFormat::Pdstrip, ..) => {
+                let mut below = sections.clone();
+                below.stated.draught = Some(draught);
+                write_pdstrip(&below).into_bytes()
+            }
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
             (ExportFormat::Delftship, ..) => write_delftship(&OffsetTable::with_defaults(hull)).into_bytes(),
             (ExportFormat::Ftm, ..) => {

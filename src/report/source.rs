@@ -24,16 +24,24 @@ pub struct Source {
     pub notes: Vec<String>,
 }
 
-/// No input is longer than this \[bytes\]; the readers have limits of their own.
+/// No input but a body is longer than this \[bytes\]; the readers have limits of their own.
 const LARGEST_INPUT: u64 = exchange::LARGEST_HULL_FILE as u64;
+
+/// No mesh or CAD file is longer than this \[bytes\].
+const LARGEST_BODY: u64 = 1 << 30;
+
+/// Endings of meshes and CAD files.
+const BODIES: [&str; 6] = ["stl", "obj", "step", "stp", "igs", "iges"];
 
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let failure = |error| Failure::FileSystem { act: "read", path: path.to_owned(), error };
+    let body = path.extension().is_some_and(|e| BODIES.iter().any(|known| e.eq_ignore_ascii_case(known)));
+    let most = if body { LARGEST_BODY } else { LARGEST_INPUT };
     let mut bytes = Vec::new();
     // One byte more than may be read tells a file that is too long, also one without an end.
-    fs::File::open(path).and_then(|file| file.take(LARGEST_INPUT + 1).read_to_end(&mut bytes)).map_err(failure)?;
-    if bytes.len() as u64 > LARGEST_INPUT {
-        let message = format!("the file has more than {LARGEST_INPUT} bytes; no design or hull is so long");
+    fs::File::open(path).and_then(|file| file.take(most + 1).read_to_end(&mut bytes)).map_err(failure)?;
+    if bytes.len() as u64 > most {
+        let message = format!("the file has more than {most} bytes; longer ones are not read");
         return Err(Failure::Input(vec![diagnostic("E129", path, None, None, message)]));
     }
     Ok(bytes)

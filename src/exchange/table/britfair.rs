@@ -4,7 +4,7 @@
 //! is cut at the centreplane and its starboard (y > 0) half is taken. Written with six decimals.
 
 use super::fields::{Line, Separator, lines};
-use super::outline::{joined, point, section_of};
+use super::outline::{line_of, point};
 use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
@@ -152,10 +152,7 @@ pub fn write(table: &OffsetTable) -> String {
     let title: String = table.name.chars().filter(|c| !c.is_control()).collect();
     let mut text = format!("{}\n1\n", if title.trim().is_empty() { "hull" } else { title.trim() });
     for station in &table.stations {
-        let line = joined(&section_of(station, &table.waterlines));
-        if line.is_empty() {
-            continue;
-        }
+        let Some(line) = line_of(station, &table.waterlines) else { continue };
         let x = station.station.x;
         let _ = writeln!(text, "{} {x:.6} {x:.6}", line.len());
         for p in &line {

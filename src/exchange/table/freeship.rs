@@ -6,7 +6,7 @@
 //! chines straight between their points. Round hulls are written with five decimals.
 
 use super::fields::{Line, Separator, finish, lines};
-use super::outline::{joined, point, section_of};
+use super::outline::{line_of, point};
 use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
@@ -203,10 +203,7 @@ pub fn write(table: &OffsetTable) -> String {
     let mut text = "0\n".to_owned();
     let mut between = "";
     for station in &table.stations {
-        let line = joined(&section_of(station, &table.waterlines));
-        if line.is_empty() {
-            continue;
-        }
+        let Some(line) = line_of(station, &table.waterlines) else { continue };
         text.push_str(between);
         between = "\n";
         for p in &line {

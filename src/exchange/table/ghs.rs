@@ -8,7 +8,7 @@
 //! Limits: shell thickness of shapes is not applied. Written are half sections of side 0 in 1e-4 ft (0.03 mm).
 
 use super::fields::{Line, Separator, finish, lines};
-use super::outline::{Deck, joined, point, section_of, take_off_deck};
+use super::outline::{Deck, line_of, point, take_off_deck};
 use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
@@ -482,16 +482,19 @@ pub fn write(table: &OffsetTable) -> String {
         .stations
         .iter()
         .rev()
-        .map(|station| {
-            let mut line = joined(&section_of(station, &table.waterlines));
+        .filter_map(|station| {
+            let mut line = line_of(station, &table.waterlines)?;
+            // A section begins on the centreplane; one of a grid may begin at the edge of a flat bottom, or at its lowest waterline.
+            if station.outlines.is_empty() && line[0].y > 0.0 {
+                line.insert(0, point(0.0, line[0].z));
+            }
             if let (Some(last), Some(z)) = (line.last().copied(), station.deck_centre_height)
                 && last.y > 0.0
             {
                 line.push(point(0.0, z));
             }
-            (station.station.x, line)
+            Some((station.station.x, line))
         })
-        .filter(|(_, line)| !line.is_empty())
         .collect();
     let feet = |value: f64| format!("{:.4}", value / FOOT + 0.0);
     let _ = writeln!(text, "{}", sections.len());

@@ -42,16 +42,28 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
     found(LABELS[0]) && found(LABELS[1])
 }
 
-/// The values under a comment, up to the next comment; those of the first hull.
-fn under<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> &'b [Line<'a>] {
+/// The values under each comment that begins so, up to the next comment.
+fn blocks<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> impl Iterator<Item = &'b [Line<'a>]> {
     let comment = |line: &Line<'_>| line.text.starts_with('#');
-    let named = |line: &Line<'_>| {
+    let named = move |line: &Line<'_>| {
         let words = line.text.trim_start_matches('#').trim().to_ascii_lowercase();
         comment(line) && words.starts_with(label)
     };
-    let Some(at) = rows.iter().position(named) else { return &[] };
-    let count = rows[at + 1..].iter().take_while(|line| !comment(line)).count();
-    &rows[at + 1..=at + count]
+    rows.iter().enumerate().filter(move |(_, line)| named(line)).map(move |(at, _)| {
+        let count = rows[at + 1..].iter().take_while(|line| !comment(line)).count();
+        &rows[at + 1..=at + count]
+    })
+}
+
+/// The values under a comment; those of the first hull. Comments with nothing under them, such as the title, are passed over.
+fn under<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> &'b [Line<'a>] {
+    blocks(rows, label).find(|block| !block.is_empty()).unwrap_or(&[])
+}
+
+/// The offsets: the first block of their label whose rows have more than one value, else the first with values.
+fn offsets<'a, 'b>(rows: &'b [Line<'a>]) -> &'b [Line<'a>] {
+    let grid = |block: &&[Line<'_>]| block.first().is_some_and(|line| line.fields.len() > 1);
+    blocks(rows, LABELS[2]).find(grid).unwrap_or_else(|| under(rows, LABELS[2]))
 }
 
 /// Reads the first hull of a file.
@@ -84,7 +96,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     };
     let (volume, length, draught) =
         (measure(0, "the displacement volume"), measure(1, "the length"), measure(2, "the draught"));
-    let block = under(&rows, LABELS[2]);
+    let block = offsets(&rows);
     if let ([line], true) = (block, wanted[0].is_some_and(|n| n > 1))
         && line.fields.len() > 1
         && wanted[1] != Some(line.fields.len())
@@ -294,6 +306,10 @@ mod tests {
             }
         }
         assert_eq!(write(&back, "boat", volume), text);
+        // Titles are comments like those that say what follows.
+        for title in ["offsets", "length (m)"] {
+            assert!(read("in.mlt", &text.replacen("boat", title, 1)).is_ok_and(|read| read.table.stations.len() == 5));
+        }
     }
 
     #[test]

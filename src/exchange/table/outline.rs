@@ -196,8 +196,18 @@ fn absent(cell: &Cell) -> bool {
     matches!(cell.entry, crate::hull::Entry::Absent)
 }
 
+/// Points nearer to each other than this are one in the decimals of the formats \[m\].
+const SAME: f64 = 1e-4;
+
+/// The section of a station as one line of points; none where fewer than two of them are distinct.
+pub(super) fn line_of(station: &StationOffsets, waterlines: &[f64]) -> Option<Vec<OutlinePoint>> {
+    let line = joined(&section_of(station, waterlines));
+    let first = *line.first()?;
+    line.iter().any(|p| (p.y - first.y).hypot(p.z - first.z) > SAME).then_some(line)
+}
+
 /// One line of points through all branches, joined along the centreplane.
-pub(super) fn joined(branches: &[Vec<OutlinePoint>]) -> Vec<OutlinePoint> {
+fn joined(branches: &[Vec<OutlinePoint>]) -> Vec<OutlinePoint> {
     let mut line: Vec<OutlinePoint> = Vec::new();
     for branch in branches {
         if let (Some(&last), Some(&first)) = (line.last(), branch.first()) {

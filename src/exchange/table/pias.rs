@@ -5,7 +5,7 @@
 //! decimals, knuckles with flag 2.
 
 use super::fields::{Line, Separator, lines};
-use super::outline::{joined, section_of};
+use super::outline::line_of;
 use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
@@ -103,8 +103,7 @@ pub fn write(table: &OffsetTable) -> String {
     let sections: Vec<(f64, Vec<OutlinePoint>)> = table
         .stations
         .iter()
-        .map(|station| (station.station.x, joined(&section_of(station, &table.waterlines))))
-        .filter(|(_, line)| !line.is_empty())
+        .filter_map(|station| Some((station.station.x, line_of(station, &table.waterlines)?)))
         .collect();
     let mut text = format!("{:6}\n", sections.len());
     for (x, line) in &sections {

@@ -66,7 +66,8 @@ impl Fitted {
         for cell in &self.cells {
             let place = surface.stations.get_mut(cell.station).and_then(|s| s.half_breadths.get_mut(cell.waterline));
             if let Some(place) = place {
-                place.entry = Entry::Given(cell.half_breadth);
+                // The surface beyond the centreplane is no hull.
+                place.entry = Entry::Given(cell.half_breadth.max(0.0) + 0.0);
             }
         }
         for (ends, &z) in surface.endings.iter_mut().zip(&table.waterlines) {
