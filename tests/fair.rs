@@ -213,10 +213,8 @@ fn absurd_numbers_are_not_taken_for_an_answer() {
         let output = run(value, "--displacement", value);
         assert_eq!(output.status.code(), Some(4), "{value}: {}", stderr(&output));
     }
-    for value in ["1e9"] {
-        let output = run(value, "--tolerance", value);
-        assert!(output.status.success(), "{value}: {}", stderr(&output));
-    }
+    let output = run("wide", "--tolerance", "1e9");
+    assert!(output.status.success(), "{}", stderr(&output));
 }
 
 #[test]
