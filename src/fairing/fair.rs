@@ -19,11 +19,11 @@ use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
-use super::smoothing::{GAMMA, Smoothed, Smoother, Trial};
+use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
-use crate::qp::{Engine, ProblemError, Settings, Solver, Status};
+use crate::qp::{ProblemError, Settings, Status};
 
 /// Room above the least widening, for an interior to solve in.
 const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
@@ -371,7 +371,7 @@ pub fn fair_prepared(
         sigma,
         lambda: final_lambda,
         trials: prepared.trials.clone(),
-        chosen: chosen(smoother, smoothed),
+        chosen: smoothed.trial(smoother.count()),
         edf: smoothed.edf,
         program,
         solved,
@@ -507,66 +507,6 @@ impl Faired {
     /// Rows of the program whose names are these.
     pub fn rows(&self, these: impl Fn(RowName) -> bool) -> impl Iterator<Item = usize> {
         self.program.names.iter().enumerate().filter(move |(_, name)| these(**name)).map(|(row, _)| row)
-    }
-
-    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
-    #[must_use]
-    pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
-        if self.rows(&these).next().is_none() {
-            return 0.0;
-        }
-        let without = self.program.without(these);
-        let solved = without.solve(model, &self.smoother, self.lambda, solver);
-        solved
-            .ok()
-            .filter(Solved::is_optimal)
-            .map_or(0.0, |solved| self.moved(model, &self.net) - self.moved(model, &solved.net))
-    }
-
-    /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after the other.
-    #[must_use]
-    pub fn prices_of_constraints(&self, model: &Model, count: usize, settings: &Settings) -> Vec<f64> {
-        let mut kept: Option<Solver> = None;
-        let price = |k: usize| {
-            let mut problem = self.program.problem.clone();
-            let own: Vec<usize> = self.rows(|name| name == RowName::Constraint(k)).collect();
-            if own.is_empty() {
-                return Some(0.0);
-            }
-            for row in own {
-                (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
-            }
-            let solution = match (settings.engine, &mut kept) {
-                (Engine::Clarabel, _) => problem.solve(settings).ok()?,
-                (_, Some(solver)) => {
-                    solver.update(&problem).ok()?;
-                    solver.solve()
-                }
-                (_, none) => none.insert(Solver::new(&problem, settings).ok()?).solve(),
-            };
-            let net = self.smoother.reduced.expand(&solution.x);
-            (solution.status == Status::Optimal).then(|| self.moved(model, &self.net) - self.moved(model, &net))
-        };
-        (0..count).map(price).map(|price| price.unwrap_or(0.0)).collect()
-    }
-
-    /// Root of the mean weighted square of what a net moves the readings by \[m\].
-    fn moved(&self, model: &Model, net: &[f64]) -> f64 {
-        let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
-        (squares / self.smoother.count().max(1) as f64).sqrt()
-    }
-}
-
-/// The point of the search for the weight where a smoothed net stands.
-fn chosen(smoother: &Smoother, smoothed: &Smoothed) -> Trial {
-    let count = smoother.count() as f64;
-    let freedom = count - GAMMA * smoothed.edf;
-    Trial {
-        lambda: smoothed.lambda,
-        gcv: if freedom > 0.0 { count * smoothed.rss / (freedom * freedom) } else { f64::INFINITY },
-        rms: (smoothed.rss / count.max(1.0)).sqrt(),
-        energy: smoothed.energy,
-        edf: smoothed.edf,
     }
 }
 

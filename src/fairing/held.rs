@@ -2,10 +2,11 @@
 
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
-use super::model::value;
-use super::program::RowName;
+use super::model::{Model, value};
+use super::program::{RowName, Solved};
 use super::surface::FairSurface;
 use crate::hull::Hull;
+use crate::qp::{Engine, Settings, Solver, Status};
 
 /// A row nearer to its limit than this binds: \[m\], a slope, or a part of the row's size.
 const BINDING: f64 = 1e-9;
@@ -86,4 +87,53 @@ pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Fai
         HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price }
     })
     .collect()
+}
+
+impl Faired {
+    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
+    #[must_use]
+    pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
+        if self.rows(&these).next().is_none() {
+            return 0.0;
+        }
+        let without = self.program.without(these);
+        let solved = without.solve(model, &self.smoother, self.lambda, solver);
+        solved
+            .ok()
+            .filter(Solved::is_optimal)
+            .map_or(0.0, |solved| self.moved(model, &self.net) - self.moved(model, &solved.net))
+    }
+
+    /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after the other.
+    #[must_use]
+    pub fn prices_of_constraints(&self, model: &Model, count: usize, settings: &Settings) -> Vec<f64> {
+        let mut kept: Option<Solver> = None;
+        let price = |k: usize| {
+            let mut problem = self.program.problem.clone();
+            let own: Vec<usize> = self.rows(|name| name == RowName::Constraint(k)).collect();
+            if own.is_empty() {
+                return Some(0.0);
+            }
+            for row in own {
+                (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
+            }
+            let solution = match (settings.engine, &mut kept) {
+                (Engine::Clarabel, _) => problem.solve(settings).ok()?,
+                (_, Some(solver)) => {
+                    solver.update(&problem).ok()?;
+                    solver.solve()
+                }
+                (_, none) => none.insert(Solver::new(&problem, settings).ok()?).solve(),
+            };
+            let net = self.smoother.reduced.expand(&solution.x);
+            (solution.status == Status::Optimal).then(|| self.moved(model, &self.net) - self.moved(model, &net))
+        };
+        (0..count).map(price).map(|price| price.unwrap_or(0.0)).collect()
+    }
+
+    /// Root of the mean weighted square of what a net moves the readings by \[m\].
+    fn moved(&self, model: &Model, net: &[f64]) -> f64 {
+        let squares: f64 = model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
+        (squares / self.smoother.count().max(1) as f64).sqrt()
+    }
 }

@@ -86,7 +86,24 @@ pub struct Trial {
     pub edf: f64,
 }
 
+impl Trial {
+    /// A net of weight `lambda` with its weighted sum of squares over `count` readings and its degrees of freedom.
+    fn new(count: usize, lambda: f64, [rss, edf]: [f64; 2], energy: f64) -> Self {
+        let m = count as f64;
+        let freedom = m - GAMMA * edf;
+        // Beyond the pole the criterion means nothing: too many degrees of freedom.
+        let gcv = if freedom > 0.0 { m * rss / (freedom * freedom) } else { f64::INFINITY };
+        Self { lambda, gcv, rms: (rss / m.max(1.0)).sqrt(), energy, edf }
+    }
+}
+
 impl Smoothed {
+    /// The point of the search where this net stands, for `count` readings.
+    #[must_use]
+    pub fn trial(&self, count: usize) -> Trial {
+        Trial::new(count, self.lambda, [self.rss, self.edf], self.energy)
+    }
+
     /// The noise of a reading of weight 1 \[m\].
     #[must_use]
     pub fn sigma(&self, count: usize) -> f64 {
@@ -190,14 +207,20 @@ impl Smoother {
         (self.normal.plus(lambda, &self.energy), right)
     }
 
+    /// The free control values for one weight, with the factor of N.
+    fn solved(&self, lambda: f64) -> Result<(Vec<f64>, BandedCholesky), SingularMatrix> {
+        let (matrix, mut free) = self.normal(lambda);
+        let factor = matrix.factor()?;
+        factor.solve(&mut free);
+        Ok((free, factor))
+    }
+
     /// The net for one weight.
     ///
     /// # Errors
     /// [`SingularMatrix`] when readings and energy together do not determine a control value.
     pub fn at(&self, lambda: f64) -> Result<Smoothed, SingularMatrix> {
-        let (matrix, mut free) = self.normal(lambda);
-        let factor = matrix.factor()?;
-        factor.solve(&mut free);
+        let (free, factor) = self.solved(lambda)?;
         let inverse = factor.inverse_band();
         let data = &self.reduced.data;
         let mut leverages = Vec::with_capacity(self.weights.len());
@@ -229,18 +252,12 @@ impl Smoother {
 
     /// What the search wants to know of a weight; edf is the trace of A'WA N^-1, without the leverages of single readings.
     fn trial(&self, lambda: f64) -> Option<Trial> {
-        let (matrix, mut free) = self.normal(lambda);
-        let factor = matrix.factor().ok()?;
-        factor.solve(&mut free);
+        let (free, factor) = self.solved(lambda).ok()?;
         let edf = self.told.trace_of_product(&factor.inverse_band());
         let data = &self.reduced.data;
         let told = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
         let rss = told.map(|(k, weight)| weight * (data.dot(k, &free) - self.reduced.values[k]).powi(2)).sum::<f64>();
-        let m = self.count as f64;
-        let freedom = m - GAMMA * edf;
-        // Beyond the pole the criterion means nothing: too many degrees of freedom.
-        let gcv = if freedom > 0.0 { m * rss / (freedom * freedom) } else { f64::INFINITY };
-        Some(Trial { lambda, gcv, rms: (rss / m.max(1.0)).sqrt(), energy: self.energy_of(&free), edf })
+        Some(Trial::new(self.count, lambda, [rss, edf], self.energy_of(&free)))
     }
 
     /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten,

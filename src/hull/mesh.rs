@@ -16,6 +16,7 @@
 
 use super::form::Hull;
 use super::functional::Functional;
+use super::vertices::Known;
 use crate::spline::{cross, dot, length, minus};
 use std::collections::HashMap;
 
@@ -159,19 +160,12 @@ pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
 #[derive(Default)]
 struct Builder {
     mesh: HullMesh,
-    known: HashMap<[u64; 3], usize>,
+    known: Known,
 }
 
 impl Builder {
     fn vertex(&mut self, point: [f64; 3]) -> usize {
-        // -0 is 0.
-        let point = point.map(|c| c + 0.0);
-        let next = self.mesh.vertices.len();
-        let place = *self.known.entry(point.map(f64::to_bits)).or_insert(next);
-        if place == next {
-            self.mesh.vertices.push(point);
-        }
-        place
+        self.known.place(&mut self.mesh.vertices, point)
     }
 
     fn triangle(&mut self, region: Region, corners: [[f64; 3]; 3]) {

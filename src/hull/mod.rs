@@ -22,6 +22,7 @@ mod solid;
 mod subdivision;
 mod table_form;
 mod triangles;
+mod vertices;
 
 pub(crate) use area::KnotLines;
 pub use area::SectionalAreaCurve;

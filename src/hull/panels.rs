@@ -16,8 +16,8 @@
 
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
+use super::vertices::Known;
 use crate::spline::{KnotVector, cross, dot, length, minus};
-use std::collections::HashMap;
 
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
@@ -249,20 +249,13 @@ impl Wetted<'_> {
 /// Builds panels, each vertex once.
 struct Builder {
     mesh: PanelMesh,
-    known: HashMap<[u64; 3], usize>,
+    known: Known,
     flatness: f64,
 }
 
 impl Builder {
     fn vertex(&mut self, point: [f64; 3]) -> usize {
-        // -0 is 0.
-        let point = point.map(|c| c + 0.0);
-        let next = self.mesh.vertices.len();
-        let place = *self.known.entry(point.map(f64::to_bits)).or_insert(next);
-        if place == next {
-            self.mesh.vertices.push(point);
-        }
-        place
+        self.known.place(&mut self.mesh.vertices, point)
     }
 
     /// A panel from its different corners; none from fewer than three, and none on the centreplane.
@@ -349,7 +342,7 @@ impl PanelMesh {
             let parts = (length / size).ceil().max(1.0);
             if parts <= MOST_PANELS as f64 { Ok(parts as usize) } else { Err(PanelError::TooMany { size }) }
         };
-        let mut builder = Builder { mesh: Self::default(), known: HashMap::new(), flatness: settings.flatness };
+        let mut builder = Builder { mesh: Self::default(), known: Known::default(), flatness: settings.flatness };
         let (aft, fore) = surface.u().domain();
         for run in wetted.stretches() {
             let mut columns = Vec::new();

@@ -7,6 +7,7 @@
 mod surfaces;
 
 use super::mesh::{MeshReport, measure};
+use super::vertices::Known;
 use crate::spline::{cross, length, minus};
 use std::collections::HashMap;
 
@@ -37,16 +38,9 @@ impl TriangleMesh {
     #[must_use]
     pub fn from_corners(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> Self {
         let mut mesh = Self::default();
-        let mut known: HashMap<[u64; 3], usize> = HashMap::new();
+        let mut known = Known::default();
         for triangle in corners.filter(|triangle| triangle.iter().flatten().all(|c| c.is_finite())) {
-            let places = triangle.map(|point| {
-                // -0 is 0.
-                let point = point.map(|c| c + 0.0);
-                *known.entry(point.map(f64::to_bits)).or_insert_with(|| {
-                    mesh.vertices.push(point);
-                    mesh.vertices.len() - 1
-                })
-            });
+            let places = triangle.map(|point| known.place(&mut mesh.vertices, point));
             let [a, b, c] = places;
             if a != b && b != c && c != a {
                 mesh.triangles.push(places);

@@ -1,6 +1,7 @@
 use super::*;
 use crate::hull::{HullError, PrincipalParticulars};
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use std::collections::HashMap;
 
 fn hull(u: KnotVector, v: KnotVector, place: impl Fn(f64, f64) -> [f64; 3]) -> Result<Hull, HullError> {
     let (us, vs) = (u.greville(), v.greville());
