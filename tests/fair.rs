@@ -198,6 +198,15 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(stderr(&output).contains("E401"), "{}", stderr(&output));
     let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
     assert_eq!(certificate["status"], "infeasible");
+    let found = &certificate["infeasible"];
+    assert!(found["widening"].as_f64().unwrap() > 1.0, "{found}");
+    assert_eq!(found["cheapest"], "block_coefficient");
+    let alone = found["alone"].as_array().unwrap();
+    let alone = alone.iter().find(|alone| alone["kind"] == "block_coefficient").unwrap();
+    let [least, greatest] = ["least", "greatest"].map(|key| alone[key].as_f64().unwrap());
+    // Within a millimetre of the table, C_B is that of the table but for a part in a hundred.
+    assert!(0.59 < least && least < greatest && greatest < 0.62, "{alone}");
+    assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
 }
 
 /// A target beyond all measure does not vanish beside its row, nor does a tolerance beyond all measure spoil the answer.
@@ -215,6 +224,13 @@ fn absurd_numbers_are_not_taken_for_an_answer() {
     }
     let output = run("wide", "--tolerance", "1e9");
     assert!(output.status.success(), "{}", stderr(&output));
+    for (option, value, code) in
+        [("--weight", "1e300", "E124"), ("--tolerance", "0", "E124"), ("--draught", "100 m", "E175")]
+    {
+        let output = run("refused", option, value);
+        assert_eq!(output.status.code(), Some(3), "{option}: {}", stderr(&output));
+        assert!(stderr(&output).contains(code), "{option}: {}", stderr(&output));
+    }
 }
 
 #[test]

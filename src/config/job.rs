@@ -303,7 +303,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         order: document.integer("energy.order").map(|order| order as usize),
         anisotropy: positive(document, "energy.anisotropy", "number"),
         weight: weight(document),
-        tolerance: document.number("tolerance.table").filter(|&t| not_negative(document, "tolerance.table", t)),
+        tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
         signs: document.switch("signs.impose"),
         true_curvature: document.switch("energy.true_curvature"),
@@ -326,23 +326,18 @@ fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> 
     None
 }
 
-fn not_negative(document: &mut Document<'_>, path: &str, value: f64) -> bool {
-    if value < 0.0 {
-        let span = document.entry(path).map_or(0..0, |e| e.span.clone());
-        let message = format!("{path} is {value} m");
-        document.problem("E124", path, &span, message, "A tolerance is 0 or more; 0 locks.".into());
-    }
-    value >= 0.0
-}
+/// Greatest smoothing weight: nothing but the energy is left well below it.
+const MOST_WEIGHT: f64 = 1e9;
 
 fn weight(document: &mut Document<'_>) -> Option<Option<f64>> {
     let Scalar::Measure(measure) = document.number_or_word("energy.weight")? else { return Some(None) };
-    if measure.value > 0.0 {
+    if measure.value > 0.0 && measure.value <= MOST_WEIGHT {
         return Some(Some(measure.value));
     }
     let span = document.entry("energy.weight").map_or(0..0, |e| e.span.clone());
-    let message = format!("energy.weight is {}", measure.value);
-    document.problem("E124", "energy.weight", &span, message, "Expected a positive number, or \"auto\".".into());
+    let message = format!("energy.weight is {:?}", measure.value);
+    let help = format!("Expected a positive number, {MOST_WEIGHT:.0e} at most, or \"auto\".");
+    document.problem("E124", "energy.weight", &span, message, help);
     None
 }
 

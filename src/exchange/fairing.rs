@@ -92,11 +92,7 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
             entry["minimum_proved"] = json!(proved);
         }
         let guarded = outcome.faired.guarded.as_ref();
-        let line = match turns.cut {
-            Cut::Station { x } => Line::Station(x),
-            Cut::Waterline { z } => Line::Waterline(z),
-            _ => return entry,
-        };
+        let Some(line) = Line::of(turns.cut) else { return entry };
         if let Some(guarded) = guarded {
             if guarded.asked.contains(&line) {
                 entry["allowed"] = json!(turns.minimum.map(|(count, _)| count));

@@ -16,6 +16,7 @@
 
 use super::model::{Limit, Row, value};
 use super::surface::{FairSurface, basis_row};
+use crate::hull::Cut;
 use crate::spline::{BsplineSurface, KnotVector};
 
 /// Points of a line in a span of the knots across it: the second derivative of a cubic is straight there, so that its ends count.
@@ -40,11 +41,25 @@ pub enum Line {
     Waterline(f64),
 }
 
+impl Line {
+    /// The station or the waterline in a plane; none of other planes.
+    #[must_use]
+    pub fn of(cut: Cut) -> Option<Self> {
+        match cut {
+            Cut::Station { x } => Some(Self::Station(x)),
+            Cut::Waterline { z } => Some(Self::Waterline(z)),
+            _ => None,
+        }
+    }
+}
+
 /// The numerator of curvature at a point, and (x'^2 or z'^2, the form of y').
 #[derive(Debug, Clone)]
 pub struct Bend {
     /// z' y'' - z'' y' on a station, x' y'' - x'' y' on a waterline, over the net.
     pub numerator: Row,
+    /// What the numerator has besides; 0 on stations and waterlines.
+    pub offset: f64,
     /// y' over the net.
     pub slope: Row,
     /// z' or x' \[m\].
@@ -88,7 +103,7 @@ pub fn bend(surface: &BsplineSurface<3>, at: [f64; 2], station: bool) -> Option<
         slope.push((s[k].0, dy));
         numerator.push((s[k].0, first * ddy - second * dy));
     }
-    Some(Bend { numerator, slope, along: first, at: d[0][0][along] })
+    Some(Bend { numerator, offset: 0.0, slope, along: first, at: d[0][0][along] })
 }
 
 impl Bend {
@@ -96,7 +111,7 @@ impl Bend {
     #[must_use]
     pub fn curvature(&self, net: &[f64]) -> f64 {
         let speed = self.along.hypot(value(&self.slope, net));
-        if speed > 0.0 { value(&self.numerator, net) / speed.powi(3) } else { 0.0 }
+        if speed > 0.0 { (value(&self.numerator, net) + self.offset) / speed.powi(3) } else { 0.0 }
     }
 }
 
@@ -105,21 +120,41 @@ impl Bend {
     /// below which there is none, at the slopes of `net`; none where the line has no bend to give.
     #[must_use]
     pub fn limit(&self, positive: bool, net: &[f64], none: f64) -> Option<Limit> {
-        let (row, room) = self.row(net, none)?;
-        let (lower, upper) = if positive { (-room, f64::INFINITY) } else { (f64::NEG_INFINITY, room) };
-        Some(Limit { row, lower, upper })
+        let scaled = self.scaled(net, ROOM * none)?;
+        let room = scaled.room;
+        Some(scaled.limit(if positive { [-room, f64::INFINITY] } else { [f64::NEG_INFINITY, room] }))
     }
 
-    /// The numerator scaled to size 1, and the room of its limits.
-    fn row(&self, net: &[f64], none: f64) -> Option<(Row, f64)> {
+    /// The numerator scaled to size 1, with the room that a curvature has on it \[1/m\].
+    fn scaled(&self, net: &[f64], room: f64) -> Option<Scaled> {
         let size = self.numerator.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
-        let room = ROOM * none * self.along.hypot(value(&self.slope, net)).powi(3) / size;
-        (size > 0.0).then(|| (self.numerator.iter().map(|&(i, value)| (i, value / size)).collect(), room))
+        let row = self.numerator.iter().map(|&(i, value)| (i, value / size)).collect();
+        let room = room * self.along.hypot(value(&self.slope, net)).powi(3) / size;
+        (size > 0.0).then_some(Scaled { row, offset: self.offset / size, room })
+    }
+}
+
+/// A numerator scaled to size 1.
+struct Scaled {
+    row: Row,
+    offset: f64,
+    room: f64,
+}
+
+impl Scaled {
+    fn at(&self, net: &[f64]) -> f64 {
+        value(&self.row, net) + self.offset
+    }
+
+    /// Limits of the numerator as limits of its row.
+    fn limit(self, [lower, upper]: [f64; 2]) -> Limit {
+        Limit { lower: lower - self.offset, upper: upper - self.offset, row: self.row }
     }
 }
 
 /// Points inside the spans.
-fn sites(knots: &KnotVector) -> Vec<f64> {
+#[must_use]
+pub fn sites(knots: &KnotVector) -> Vec<f64> {
     let breaks = knots.breakpoints();
     breaks.windows(2).flat_map(|w| PLACES.map(|part| w[0] + (w[1] - w[0]) * part)).collect()
 }
@@ -155,7 +190,11 @@ pub fn dead(bends: &[Bend], net: &[f64]) -> f64 {
 /// Signs of curvature along bends, 0 within the dead band.
 #[must_use]
 pub fn signs(bends: &[Bend], net: &[f64]) -> Vec<i8> {
-    let dead = dead(bends, net);
+    signs_beyond(bends, net, dead(bends, net))
+}
+
+/// Signs of curvature along bends, 0 up to `dead` \[1/m\].
+fn signs_beyond(bends: &[Bend], net: &[f64], dead: f64) -> Vec<i8> {
     let sign = |k: f64| match k {
         k if k.abs() <= dead => 0,
         k if k > 0.0 => 1,
@@ -171,28 +210,42 @@ pub fn changes(signs: &[i8]) -> usize {
     told.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the band is left open.
-/// Lobes that depart by less than `seen` \[m\] from their chord, which nobody counts, may fade but not grow: they would be counted.
+/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the band is left open, and
+/// no more than what departs by `seen` \[m\] over the length of the part. Lobes that depart by less than `seen` from their chord, which
+/// nobody counts, may fade but not grow: they would be counted. Where `strictly`, nothing is in the dead band.
 #[must_use]
-pub fn kept(bends: &[Bend], start: &[f64], seen: f64) -> Vec<Limit> {
-    let (signs, none) = (signs(bends, start), dead(bends, start));
+pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Limit> {
+    let none = dead(bends, start);
+    let signs = signs_beyond(bends, start, if strictly { 0.0 } else { none });
     let small = unseen(bends, &signs, start, seen);
-    let limits = bends.iter().enumerate().filter_map(|(k, bend)| match signs[k] {
-        0 => bend.row(start, none).map(|(row, room)| {
-            // A long part can be seen to bend however little it does.
-            let most = value(&row, start);
-            Limit { row, lower: most.min(-room), upper: most.max(room) }
-        }),
-        sign => bend.limit(sign > 0, start, none).map(|limit| {
-            let most = value(&limit.row, start);
-            match sign {
-                _ if !small[k] => limit,
-                1.. => Limit { upper: most, ..limit },
-                _ => Limit { lower: most, ..limit },
-            }
-        }),
-    });
-    limits.collect()
+    let mut limits = Vec::new();
+    let mut from = 0;
+    while from < bends.len() {
+        let to = (from..bends.len()).find(|&k| signs[k] != signs[from]).unwrap_or(bends.len());
+        let part = length(bends, [from, to], start);
+        let room = if part > 0.0 { (ROOM * none).min(8.0 * seen / (part * part)) } else { ROOM * none };
+        for k in from..to {
+            let Some(scaled) = bends[k].scaled(start, room) else { continue };
+            let (most, room) = (scaled.at(start), scaled.room);
+            limits.push(scaled.limit(match signs[k] {
+                // A long part can be seen to bend however little it does.
+                0 => [most.min(-room), most.max(room)],
+                1.. => [-room, if small[k] { most } else { f64::INFINITY }],
+                _ => [if small[k] { most } else { f64::NEG_INFINITY }, room],
+            }));
+        }
+        from = to;
+    }
+    limits
+}
+
+/// Length of the part of a line with these bends, from the middle of the gap before it to the middle of the gap after \[m\].
+fn length(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
+    let end = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
+    let (low, high) = (end(from.saturating_sub(1), from), end(to - 1, to.min(bends.len() - 1)));
+    let slope = |bend: &Bend| bend.along.hypot(value(&bend.slope, net)) / bend.along.abs();
+    let mean = bends[from..to].iter().map(slope).sum::<f64>() / (to - from) as f64;
+    (high - low).abs() * mean
 }
 
 /// Whether each bend lies in a lobe of the signs whose greatest curvature kappa and length l come to kappa l^2 / 8 < 2 `seen`.
@@ -202,13 +255,8 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
     while let Some(first) = (from..bends.len()).find(|&k| signs[k] != 0) {
         from = first;
         let to = (from + 1..bends.len()).find(|&k| signs[k] == -signs[from]).unwrap_or(bends.len());
-        // From middle to middle of the gaps to the lobes beside it.
-        let end = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
-        let (low, high) = (end(from.saturating_sub(1), from), end(to - 1, to.min(bends.len() - 1)));
-        let slope = |bend: &Bend| bend.along.hypot(value(&bend.slope, net)) / bend.along.abs();
-        let mean = bends[from..to].iter().map(slope).sum::<f64>() / (to - from) as f64;
         let largest = bends[from..to].iter().map(|bend| bend.curvature(net).abs()).fold(0.0, f64::max);
-        let length = (high - low).abs() * mean;
+        let length = length(bends, [from, to], net);
         small[from..to].fill(largest * length * length < 16.0 * seen);
         from = to;
     }
@@ -227,9 +275,9 @@ mod tests {
         let bends: Vec<Bend> = at
             .iter()
             .enumerate()
-            .map(|(k, &at)| Bend { numerator: vec![(k, 1.0)], slope: Vec::new(), along: 1.0, at })
+            .map(|(k, &at)| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at })
             .collect();
-        let limit_at = |seen: f64, x: usize| kept(&bends, &second, seen)[x].clone();
+        let limit_at = |seen: f64, x: usize| kept(&bends, &second, seen, false)[x].clone();
         // Seen, it may grow; else it stays between where it is and nothing. The others are seen.
         assert!(limit_at(5e-5, 50).lower.is_infinite());
         let small = limit_at(1e-4, 50);

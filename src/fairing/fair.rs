@@ -9,11 +9,12 @@
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
 use super::bends::Line;
-use super::constraint::{Constraint, Rule, between, breadths, broken};
+use super::compromise::{Answer, Basic};
+use super::constraint::{Constraint, Rule, breadths};
 use super::guard::{Guarded, Question};
-use super::infeasible::{Diagnosis, diagnose, least_widening};
+use super::infeasible::Diagnosis;
 use super::least::TableLine;
-use super::model::{Limit, Model};
+use super::model::Limit;
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
@@ -24,19 +25,6 @@ use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, Settings, Status};
-
-/// Room above the least widening, for an interior to solve in.
-const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
-
-/// What an answer may break a limit of half-breadths by, over the greatest one.
-const LIMIT_SLACK: f64 = 1e-6;
-
-/// What the surface may move between the offsets beyond the tolerance, over the greatest half-breadth: room for the swings of a
-/// table's own surface, none for a displacement that is had by waves.
-const ROOM_BETWEEN: f64 = 0.02;
-
-/// Most times that limits are added that an answer breaks.
-const LIMIT_ROUNDS: usize = 10;
 
 /// Dearest pattern, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
@@ -77,6 +65,10 @@ pub struct FairSettings {
     pub lines: Vec<Line>,
     /// Lines that keep the signs of the start in any case.
     pub kept: Vec<Line>,
+    /// Lines that keep them where the start is in the dead band as well.
+    pub strict: Vec<Line>,
+    /// Limits that keep the signs of buttocks and diagonals.
+    pub oblique: Vec<Limit>,
     /// Lines that are not asked for their least inflections, with the price at which they were let go.
     pub released: Vec<(Line, f64)>,
     /// The least departure of a lobe from its chord that counts \[m\].
@@ -261,8 +253,7 @@ pub fn fair_prepared(
     // The net of a fit goes through its table; a net of its own follows it as it was smoothed.
     let reference = if surface.own { &first } else { &surface.start };
     let basic = Basic { surface, model, smoother, lambda, reference, greatest, solver: &settings.solver };
-    let (answer, mut diagnosis) = basic.solve(&mut wishes)?;
-    let Answer { mut program, mut solved, mut programs, mut iterations, .. } = answer;
+    let Answer { mut program, mut solved, mut diagnosis, mut programs, mut iterations } = basic.solve(&mut wishes)?;
     if diagnosis.is_none()
         && solved.is_optimal()
         && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
@@ -277,10 +268,10 @@ pub fn fair_prepared(
         wishes.rules.extend(found.limits);
         (program, solved) = (found.program, found.solved);
         if !solved.is_optimal() {
-            let (answer, why) = basic.solve(&mut wishes)?;
+            let answer = basic.solve(&mut wishes)?;
             programs += answer.programs;
             iterations += answer.iterations;
-            (program, solved, diagnosis) = (answer.program, answer.solved, why);
+            (program, solved, diagnosis) = (answer.program, answer.solved, answer.diagnosis);
         }
     }
     let (mut patterns, mut price) = (None, 0.0);
@@ -322,6 +313,8 @@ pub fn fair_prepared(
             wishes: &wishes,
             lines: &guarded_lines(&prepared.lines, &settings.rules),
             kept: &settings.kept,
+            strict: &settings.strict,
+            oblique: &settings.oblique,
             released: &settings.released,
             seen: settings.seen,
             solver: &settings.solver,
@@ -382,107 +375,6 @@ pub fn fair_prepared(
         programs,
         iterations,
     })
-}
-
-/// The program without signs.
-struct Basic<'a> {
-    surface: &'a FairSurface,
-    model: &'a Model,
-    smoother: &'a Smoother,
-    lambda: f64,
-    /// The net from which the surface must not move far between the offsets.
-    reference: &'a [f64],
-    /// Greatest half-breadth \[m\].
-    greatest: f64,
-    solver: &'a Settings,
-}
-
-/// What it comes to.
-struct Answer {
-    program: Program,
-    solved: Solved,
-    /// Every wish is met.
-    met: bool,
-    /// The least factor on the tolerances; none when no factor makes a hull.
-    least: Option<f64>,
-    /// The factor that was taken; none when nothing was solved.
-    widening: Option<f64>,
-    programs: usize,
-    iterations: usize,
-}
-
-impl Basic<'_> {
-    /// Solves it, or the best compromise, and again with the limits that the answer breaks far from where they were expected to
-    /// matter, until it breaks none.
-    fn solve(&self, wishes: &mut Wishes) -> Result<(Answer, Option<Diagnosis>), FairError> {
-        let mut tolerances: Vec<f64> = self.model.readings.iter().filter_map(|reading| reading.tolerance).collect();
-        tolerances.sort_by(f64::total_cmp);
-        let tolerance = tolerances.get(tolerances.len() / 2).copied().unwrap_or(f64::INFINITY);
-        let (mut programs, mut iterations, mut rounds) = (0, 0, 0);
-        loop {
-            let (plain, mut answer) = self.attempt(wishes)?;
-            programs += answer.programs;
-            iterations += answer.iterations;
-            rounds += 1;
-            if let (Some(widening), true) = (answer.widening, rounds < LIMIT_ROUNDS) {
-                let (hull, net) = (&self.surface.hull, &answer.solved.net);
-                let slack = LIMIT_SLACK * self.greatest;
-                let limits = broken(hull, net, &self.surface.start, self.greatest, slack);
-                let bands = [tolerance, widening, ROOM_BETWEEN * self.greatest];
-                let bands = between(hull, net, self.reference, bands, slack);
-                if !(limits.is_empty() && bands.is_empty()) {
-                    wishes.breadths.extend(limits);
-                    wishes.between.extend(bands);
-                    continue;
-                }
-            }
-            let diagnosis = match answer.met {
-                true => None,
-                false => Some(diagnose(&plain, answer.least, self.solver)?),
-            };
-            programs += diagnosis.as_ref().map_or(0, |found| 2 * found.reaches.len() + found.rules.len());
-            (answer.programs, answer.iterations) = (programs, iterations);
-            return Ok((answer, diagnosis));
-        }
-    }
-
-    /// One program, and its compromise when it has no answer: every wish, with tolerances as wide as they must be and some room to
-    /// solve in.
-    fn attempt(&self, wishes: &Wishes) -> Result<(Program, Answer), FairError> {
-        let (model, smoother, lambda) = (self.model, self.smoother, self.lambda);
-        let program = Program::new(model, smoother, lambda, wishes, None);
-        let solved = program.solve(model, smoother, lambda, self.solver)?;
-        let iterations = solved.solution.iterations;
-        let met = solved.is_optimal();
-        let one = met.then_some(1.0);
-        let mut answer =
-            Answer { program: program.clone(), solved, met, least: one, widening: one, programs: 1, iterations };
-        if met {
-            return Ok((program, answer));
-        }
-        answer.programs += 1;
-        answer.least = least_widening(&program, self.solver)?;
-        if let Some(least) = answer.least {
-            for room in ROOMS {
-                let widening = least.max(1.0) * (1.0 + room);
-                let wider = Wishes { widening, ..wishes.clone() };
-                let compromise = Program::new(model, smoother, lambda, &wider, None);
-                let solved = compromise.solve(model, smoother, lambda, self.solver)?;
-                answer.programs += 1;
-                answer.iterations += solved.solution.iterations;
-                if solved.is_optimal() {
-                    (answer.program, answer.solved, answer.widening) = (compromise, solved, Some(widening));
-                    break;
-                }
-            }
-        }
-        if answer.widening.is_none() {
-            // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
-            answer.solved.net.clone_from(&self.surface.start);
-            answer.solved.solution.x = smoother.reduced.free.iter().map(|&i| self.surface.start[i]).collect();
-        }
-        Ok((program, answer))
-    }
 }
 
 impl Faired {

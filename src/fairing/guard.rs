@@ -81,6 +81,10 @@ pub(super) struct Question<'a> {
     pub(super) wishes: &'a Wishes,
     pub(super) lines: &'a [TableLine],
     pub(super) kept: &'a [Line],
+    /// Lines that keep them where the start is in the dead band as well.
+    pub(super) strict: &'a [Line],
+    /// Limits that keep the signs of buttocks and diagonals.
+    pub(super) oblique: &'a [Limit],
     /// Lines that were let go before, with their price.
     pub(super) released: &'a [(Line, f64)],
     /// The least departure that is counted \[m\].
@@ -96,11 +100,12 @@ impl Question<'_> {
         let mut asked: Vec<Asked> = Vec::new();
         for (k, line) in lines.iter().enumerate() {
             if self.kept.contains(&line.line) {
-                asked.push(Asked { line: k, limits: keep_signs(&line.bends, start, self.seen), start: true });
+                asked.push(Asked { line: k, limits: self.signs_of_start(line), start: true });
             } else if self.released.iter().all(|(gone, _)| *gone != line.line) && line.bends_too_often(&free.net) {
                 asked.push(Asked { line: k, limits: line.wished(start), start: false });
             }
         }
+        let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
         let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::told(lines) };
         for round in 0..ROUNDS {
             let last = round + 1 == ROUNDS;
@@ -113,16 +118,16 @@ impl Question<'_> {
             }
             let net = guarded.accepted.as_ref().map_or(&free.net, |(_, solved)| &solved.net).clone();
             let mut added = false;
-            if round > 0 || asked.is_empty() {
+            if round > 0 || nothing(&asked) {
                 for (k, line) in lines.iter().enumerate() {
                     let known = asked.iter().any(|asked| asked.line == k && asked.start);
                     if !known && line.count(&net) > line.count(start) {
                         asked.retain(|asked| asked.line != k);
-                        asked.push(Asked { line: k, limits: keep_signs(&line.bends, start, self.seen), start: true });
+                        asked.push(Asked { line: k, limits: self.signs_of_start(line), start: true });
                         added = true;
                     }
                 }
-                let solved_already = guarded.accepted.is_some() || asked.is_empty();
+                let solved_already = guarded.accepted.is_some() || nothing(&asked);
                 if !added && solved_already && !last {
                     break;
                 }
@@ -159,8 +164,13 @@ impl Question<'_> {
         Ok(guarded)
     }
 
+    /// Limits that keep a line at the signs of the start.
+    fn signs_of_start(&self, line: &TableLine) -> Vec<Limit> {
+        keep_signs(&line.bends, &self.surface.start, self.seen, self.strict.contains(&line.line))
+    }
+
     fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
-        let bends = asked.iter().flat_map(|asked| asked.limits.iter().cloned()).collect();
+        let bends = asked.iter().flat_map(|asked| asked.limits.iter()).chain(self.oblique).cloned().collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
         let iterations = self.solver.iterations.min(ITERATIONS);
@@ -177,8 +187,10 @@ fn charges(program: &Program, solved: &Solved, asked: &[Asked], free: &[f64]) ->
     let total = asked.iter().map(|asked| asked.limits.len()).sum();
     let mut multipliers = vec![0.0; total];
     for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
-        if let RowName::Bend(k) = *name {
-            multipliers[k] = *z;
+        if let RowName::Bend(k) = *name
+            && let Some(multiplier) = multipliers.get_mut(k)
+        {
+            *multiplier = *z;
         }
     }
     let mut first = 0;

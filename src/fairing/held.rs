@@ -6,7 +6,7 @@ use super::model::{Model, value};
 use super::program::{RowName, Solved};
 use super::surface::FairSurface;
 use crate::hull::Hull;
-use crate::qp::{Engine, Settings, Solver, Status};
+use crate::qp::{RepeatedSolver, Settings, Status};
 
 /// A row nearer to its limit than this binds: \[m\], a slope, or a part of the row's size.
 const BINDING: f64 = 1e-9;
@@ -107,7 +107,7 @@ impl Faired {
     /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after the other.
     #[must_use]
     pub fn prices_of_constraints(&self, model: &Model, count: usize, settings: &Settings) -> Vec<f64> {
-        let mut kept: Option<Solver> = None;
+        let mut solver = RepeatedSolver::new(settings);
         let price = |k: usize| {
             let mut problem = self.program.problem.clone();
             let own: Vec<usize> = self.rows(|name| name == RowName::Constraint(k)).collect();
@@ -117,14 +117,7 @@ impl Faired {
             for row in own {
                 (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
             }
-            let solution = match (settings.engine, &mut kept) {
-                (Engine::Clarabel, _) => problem.solve(settings).ok()?,
-                (_, Some(solver)) => {
-                    solver.update(&problem).ok()?;
-                    solver.solve()
-                }
-                (_, none) => none.insert(Solver::new(&problem, settings).ok()?).solve(),
-            };
+            let solution = solver.solve(&problem).ok()?;
             let net = self.smoother.reduced.expand(&solution.x);
             (solution.status == Status::Optimal).then(|| self.moved(model, &self.net) - self.moved(model, &net))
         };

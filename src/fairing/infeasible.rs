@@ -7,7 +7,7 @@
 //!   of its row. The distance from its target to that interval is what it would have to give.
 
 use super::program::{Program, RowName};
-use crate::qp::{LeastFactor, ProblemError, Settings, SparseRows, Status};
+use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, SparseRows, Status};
 
 /// What one constraint could be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,27 +82,61 @@ fn least_factor(
     Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
 }
 
-/// The interval of one row when its own limits are lifted.
-fn reach(program: &Program, row: usize, settings: &Settings) -> Result<Option<[f64; 2]>, ProblemError> {
-    let n = program.problem.linear.len();
-    let mut problem = program.problem.clone();
-    problem.quadratic = SparseRows::from_entries(n, n, &[]);
-    problem.lower[row] = f64::NEG_INFINITY;
-    problem.upper[row] = f64::INFINITY;
-    let mut ends = [0.0; 2];
-    for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
-        problem.linear = vec![0.0; n];
-        let (columns, values) = program.problem.rows.row(row);
-        for (&column, value) in columns.iter().zip(values) {
-            problem.linear[column] = sign * value;
+/// Most times that limits are added which an end of an interval breaks: an interval that still breaks some is too wide.
+const CUTS: usize = 6;
+
+/// A program whose rows are asked for extremes, with the limits that these break.
+struct Asked<'a, F> {
+    program: Program,
+    /// The program with the limits that x breaks; none where it breaks none.
+    cut: F,
+    solver: RepeatedSolver<'a>,
+    programs: usize,
+}
+
+impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
+    /// The interval of a constraint's row when its own limits are lifted.
+    fn reach(&mut self, name: RowName) -> Result<Option<[f64; 2]>, ProblemError> {
+        let mut ends = [0.0; 2];
+        for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+            match self.extreme(name, sign)? {
+                Some(value) => *end = value,
+                None => return Ok(None),
+            }
         }
-        let solution = problem.solve(settings)?;
-        if solution.status != Status::Optimal {
-            return Ok(None);
-        }
-        *end = program.problem.rows.dot(row, &solution.x);
+        Ok(Some(ends))
     }
-    Ok(Some(ends))
+
+    /// The least value of the row for sign 1, the greatest for -1.
+    fn extreme(&mut self, name: RowName, sign: f64) -> Result<Option<f64>, ProblemError> {
+        let mut found = None;
+        for _ in 0..CUTS {
+            let Some(row) = self.program.names.iter().position(|other| *other == name) else { break };
+            let n = self.program.problem.linear.len();
+            let mut problem = self.program.problem.clone();
+            problem.quadratic = SparseRows::from_entries(n, n, &[]);
+            (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
+            problem.linear = vec![0.0; n];
+            let (columns, values) = self.program.problem.rows.row(row);
+            for (&column, value) in columns.iter().zip(values) {
+                problem.linear[column] = sign * value;
+            }
+            let solution = self.solver.solve(&problem)?;
+            self.programs += 1;
+            match solution.status {
+                Status::Optimal => {}
+                // With less than all limits the interval is only wider.
+                Status::Limit if found.is_some() => break,
+                _ => return Ok(None),
+            }
+            found = Some(self.program.problem.rows.dot(row, &solution.x));
+            match (self.cut)(&solution.x) {
+                Some(program) => self.program = program,
+                None => break,
+            }
+        }
+        Ok(found)
+    }
 }
 
 /// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can be had.
@@ -110,31 +144,36 @@ fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result
     least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))
 }
 
-/// What each constraint alone could be.
-fn reaches(program: &Program, settings: &Settings) -> Result<Vec<Reach>, ProblemError> {
-    let mut reaches = Vec::new();
-    for (row, name) in program.names.iter().enumerate() {
-        let RowName::Constraint(constraint) = *name else { continue };
-        let interval = reach(program, row, settings)?;
-        let (lower, upper) = (program.problem.lower[row], program.problem.upper[row]);
-        let missing = interval.map(|[low, high]| (lower - high).max(low - upper).max(0.0));
-        reaches.push(Reach { constraint, row: interval, missing });
-    }
-    Ok(reaches)
-}
-
-/// Everything that can be said of a program without a solution, whose least widening is known.
+/// Everything that can be said of a program without a solution, whose least widening is known, and the programs that it took. `cut` says with
+/// which further limits an x is none that counts.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
-pub fn diagnose(program: &Program, widening: Option<f64>, settings: &Settings) -> Result<Diagnosis, ProblemError> {
+pub fn diagnose(
+    program: Program,
+    widening: Option<f64>,
+    settings: &Settings,
+    cut: impl FnMut(&[f64]) -> Option<Program>,
+) -> Result<(Diagnosis, usize), ProblemError> {
     let mut rules: Vec<(usize, Option<f64>)> = Vec::new();
     for name in &program.names {
         if let RowName::Rule(rule) = *name
             && !rules.iter().any(|(known, _)| *known == rule)
         {
-            rules.push((rule, least_slack(program, *name, settings)?));
+            rules.push((rule, least_slack(&program, *name, settings)?));
         }
     }
-    Ok(Diagnosis { rules, widening, reaches: reaches(program, settings)? })
+    let constraints = program.names.iter().enumerate().filter_map(|(row, name)| match *name {
+        RowName::Constraint(constraint) => Some((constraint, [program.problem.lower[row], program.problem.upper[row]])),
+        _ => None,
+    });
+    let constraints: Vec<(usize, [f64; 2])> = constraints.collect();
+    let mut asked = Asked { program, cut, solver: RepeatedSolver::new(settings), programs: rules.len() };
+    let mut reaches = Vec::new();
+    for (constraint, [lower, upper]) in constraints {
+        let row = asked.reach(RowName::Constraint(constraint))?;
+        let missing = row.map(|[low, high]| (lower - high).max(low - upper).max(0.0));
+        reaches.push(Reach { constraint, row, missing });
+    }
+    Ok((Diagnosis { rules, widening, reaches }, asked.programs))
 }

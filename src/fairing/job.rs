@@ -13,6 +13,7 @@ use super::least::TableLine;
 use super::program::RowName;
 use super::proposals::{Accepted, Proposal};
 use super::record::moves;
+use super::repeated::{Attempt, Repeated};
 use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
@@ -32,9 +33,6 @@ const ALARM: f64 = 3.0;
 /// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that has an answer.
 const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
-
-/// Most times that lines which bend more often than before are added and the job is done again.
-const REPEATS: usize = 4;
 
 /// What is held of the hull.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,6 +121,17 @@ pub enum JobError {
     /// The offsets make no problem.
     #[error(transparent)]
     Fair(#[from] FairError),
+    /// The draught lies above the hull.
+    #[error(
+        "the design draught of {draught:.3} m lies above the depth of {depth:.3} m up to which the hull goes: state one within it \
+         (--draught, T under [dimensions])"
+    )]
+    Draught {
+        /// Design draught \[m\].
+        draught: f64,
+        /// Depth \[m\].
+        depth: f64,
+    },
     /// A line is accepted that is not proposed.
     #[error("L{number} is not proposed: {}", match count { 0 => "no line is".to_owned(), 1 => "there is L1".to_owned(), n => format!("there are L1 to L{n}") })]
     NoLine {
@@ -222,6 +231,10 @@ impl Job {
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
         let Started { found, before, mut notes, noise, quantum, proposals, mut surface, search, excluded, watched } =
             Started::new(self, table)?;
+        let (draught, depth) = (before.particulars().draught, before.particulars().depth);
+        if draught > depth * (1.0 + 1e-9) {
+            return Err(JobError::Draught { draught, depth });
+        }
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
             Holding::Given(list) => list.clone(),
@@ -254,6 +267,8 @@ impl Job {
             true_curvature: self.true_curvature,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
+            strict: Vec::new(),
+            oblique: Vec::new(),
             released: Vec::new(),
             seen: quantum,
             solver: self.solver.clone(),
@@ -293,30 +308,15 @@ impl Job {
         } else {
             watched.turns(&after, resolution)
         };
-        for _ in 0..REPEATS {
-            let worse = lines.iter().filter(|turns| turns.after > turns.before).filter_map(|turns| match turns.cut {
-                Cut::Station { x } => Some(Line::Station(x)),
-                Cut::Waterline { z } => Some(Line::Waterline(z)),
-                _ => None,
-            });
-            let worse: Vec<Line> = worse.filter(|line| guarded(line) && !faired.kept().contains(line)).collect();
-            if !self.signs || surface.own || worse.is_empty() {
-                break;
-            }
-            settings.kept = faired.kept().to_vec();
-            settings.kept.extend(worse);
-            settings.released = faired.released().to_vec();
-            faired = fair_prepared(&mut surface, &settings, &prepared)?;
-            after = surface.hull_of(&faired.net)?;
-            lines = watched.turns(&after, resolution);
+        if self.signs && !surface.own {
+            let repeated =
+                Repeated { surface: &mut surface, settings: &mut settings, prepared: &prepared, watched: &watched };
+            let attempt = Attempt { faired, after, lines };
+            Attempt { faired, after, lines } = repeated.until_none_is_worse(attempt, resolution, guarded)?;
         }
         let changes = changes(table, &surface, &after, &excluded);
         for turns in &mut lines {
-            let line = match turns.cut {
-                Cut::Station { x } => Line::Station(x),
-                Cut::Waterline { z } => Line::Waterline(z),
-                _ => continue,
-            };
+            let Some(line) = Line::of(turns.cut) else { continue };
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),

@@ -14,11 +14,13 @@ mod clarabel;
 mod factor;
 mod problem;
 mod proof;
+mod repeated;
 mod sparse;
 mod structured;
 
 pub use certificate::Certificate;
 pub use factor::LeastFactor;
 pub use problem::{Engine, Problem, ProblemError, Progress, Settings, Solution, Status};
+pub use repeated::RepeatedSolver;
 pub use sparse::SparseRows;
 pub use structured::Solver;

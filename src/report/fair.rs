@@ -295,6 +295,12 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
     })
 }
 
+/// A length in millimetres, a small one with its digits.
+fn millimetres(length: f64) -> String {
+    let digits = if length < 1e-3 { 4 } else { 1 };
+    format!("{:.digits$} mm", 1e3 * length)
+}
+
 impl FairOutputs {
     /// The failure that ends the program when the wishes cannot all be had.
     ///
@@ -304,17 +310,19 @@ impl FairOutputs {
         let found = self.outcome.faired.diagnosis.as_ref();
         let least = found.and_then(|found| found.widening).map(|factor| {
             let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
-            format!(
-                " {factor:.3} times as wide ({:.1} mm where it is widest now {:.1} mm) would do;",
-                1e3 * factor * typical,
-                1e3 * typical
-            )
+            let [wide, now] = [factor * typical, typical].map(millimetres);
+            format!(" {factor:.3} times as wide ({wide} where it is widest now {now}) would do;")
         });
         let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
             let held = self.outcome.held.get(reach.constraint)?;
             let [low, high] = self.outcome.reached_values(reach)?;
-            let (words, target) = (held.constraint.words(), held.constraint.target());
-            Some(format!(" {words} could be {low:.6} to {high:.6} where {target:.6} is asked for"))
+            let (words, target, unit) = (held.constraint.words(), held.constraint.target(), held.constraint.unit());
+            let missing = 100.0 * reach.missing?;
+            let of = held.constraint.relative_to();
+            Some(format!(
+                " {words} alone would have to give by {missing:.3} % of {of}: it could be {low:.6} to {high:.6}{unit} where \
+                 {target:.6}{unit} is asked for"
+            ))
         });
         // Rules whose giving alone would do, the nearest first.
         let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));

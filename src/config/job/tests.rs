@@ -105,7 +105,7 @@ fn all_problems_of_a_file_at_once() {
     );
     let expected = [
         "E121 j.toml:1:1 tabel is not a key of a job. Did you mean table?",
-        "E124 j.toml:3:9 tolerance.table is -1 m. A tolerance is 0 or more; 0 locks.",
+        "E124 j.toml:3:9 tolerance.table is -1. Expected a positive length; what must not move is locked under [lock].",
         "E123 j.toml:4:14 tolerance.stations.5: \"1 t\" is a mass, expected a table of names with lengths",
         "E123 j.toml:5:11 tolerance.cells: \"5\" is no cell. Write \"station@waterline\", as \"5@6.5\".",
         "E123 j.toml:7:10 lock.cells: \"5\" is no cell.",

@@ -53,10 +53,14 @@ pub fn broken(hull: &Hull, net: &[f64], start: &[f64], greatest: f64, slack: f64
         let y = value(&limit.row, net);
         y < limit.lower - slack || y > limit.upper + slack
     });
-    let outside = |y: f64| !(-greatest..=2.0 * greatest).contains(&y);
-    let far = net.iter().enumerate().filter(|(_, y)| outside(**y));
-    limits.extend(far.map(|(i, _)| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest }));
+    let far = |limit: &Limit| !(limit.lower..=limit.upper).contains(&value(&limit.row, net));
+    limits.extend(control_values(net.len(), greatest).filter(far));
     limits
+}
+
+/// Limits of the control values of any hull of this greatest half-breadth \[m\]: from `-greatest` to `2 greatest`.
+pub fn control_values(count: usize, greatest: f64) -> impl Iterator<Item = Limit> {
+    (0..count).map(move |i| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest })
 }
 
 /// Limits of what the surface moves between the offsets that `net` breaks by more than `slack` \[m\], at the same points: `tolerance`

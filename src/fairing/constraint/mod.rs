@@ -99,6 +99,30 @@ impl Constraint {
         }
     }
 
+    /// Unit of the quantity, after a space; nothing for a coefficient.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Displacement(_) => " m3",
+            Self::WaterplaneArea(_) | Self::SectionArea { .. } | Self::WettedSurface(_) => " m2",
+            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => " m from AP",
+            Self::HeightOfBuoyancy(_) | Self::Metacentre { .. } => " m",
+            Self::BlockCoefficient(_) | Self::WaterplaneCoefficient(_) | Self::MidshipCoefficient(_) => "",
+        }
+    }
+
+    /// What an error of the row ([`Constraint::limit`]) is a part of, in words.
+    #[must_use]
+    pub fn relative_to(&self) -> &'static str {
+        match self {
+            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => "L_PP",
+            Self::HeightOfBuoyancy(_) => "T",
+            Self::MidshipCoefficient(_) | Self::SectionArea { .. } => "B T",
+            Self::Metacentre { .. } => "KM_T",
+            _ => "its target",
+        }
+    }
+
     /// What is wished, in the unit of the quantity.
     #[must_use]
     pub fn target(&self) -> f64 {
@@ -188,7 +212,7 @@ impl Constraint {
     }
 }
 
-pub use breadth::{between, breadths, broken};
+pub use breadth::{between, breadths, broken, control_values};
 pub use flat::edged;
 pub use rule::{FixedLine, Rule, TangentPlace};
 
