@@ -103,6 +103,8 @@ pub struct Conventions {
     pub keel_thickness: f64,
     /// Height of the centre of gravity above the base line \[m\], when known; GM and MTC use it.
     pub centre_of_gravity_height: Option<f64>,
+    /// Whether the design draught was assumed, because the table that the hull was laid through states none.
+    pub draught_assumed: bool,
 }
 
 impl Default for Conventions {
@@ -115,6 +117,7 @@ impl Default for Conventions {
             shell: Shell::None,
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
+            draught_assumed: false,
         }
     }
 }

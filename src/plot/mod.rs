@@ -67,6 +67,6 @@ pub use pdf::{Page, write_pdf};
 pub use scale::{DRAWING_SCALES, sheet_scale};
 pub use sheet::Sheet;
 pub use smoothing::smoothing_figure;
-pub use surface_map::{SurfaceMapKind, surface_map};
+pub use surface_map::{SurfaceMapKind, SurfaceMaps, surface_map};
 pub use suspects::{suspect_heights_figure, suspect_points_figure, suspects_figure};
 pub use table_sheet::table_figure;

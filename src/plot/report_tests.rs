@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::fairing_curves::Along;
 use super::sheet::{ROOM, Sheet};
-use super::surface_map::{self, SurfaceMapKind};
+use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
     FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves, fairing_long,
     fairing_moves, fairing_suspects, pareto,
@@ -64,8 +64,9 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
     let mut found = Vec::new();
     let start = wigley();
     for (hull, before) in [(wigley(), Some(&start)), (frigate(), None)] {
+        let maps = SurfaceMaps::new(&hull, before);
         for kind in SurfaceMapKind::ALL {
-            let canvas = surface_map::compose(&hull, before, kind).unwrap();
+            let canvas = surface_map::compose(&maps, kind).unwrap();
             found.extend(faults(&format!("{} {}", hull.name(), kind.key()), &canvas));
         }
         let draught = hull.particulars().draught;

@@ -237,7 +237,8 @@ fn summary(
 /// figure cannot be made.
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
-    let conventions = Conventions::default();
+    let draught_assumed = !job.table.stated.states_draught();
+    let conventions = Conventions { draught_assumed, ..Conventions::default() };
     let particulars = fitted.hull.particulars();
     // All draughts in one pass over the surface.
     let mut draughts = default_draughts(particulars.draught, particulars.depth);

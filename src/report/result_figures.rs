@@ -1,7 +1,7 @@
 //! The figures of a report: what is drawn of a result, in the order of its pages, with captions that say what to look for.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use serde_json::Value;
@@ -14,7 +14,7 @@ use super::result_page::{Table, condition, constraints, verdict};
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{
-    Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
+    Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure, convergence_figure, deviation_figure,
     fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
     fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_waterlines, pareto_figure,
     smoothing_figure, surface_map, table_figure,
@@ -258,7 +258,8 @@ fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
 }
 
 /// What is drawn of a result.
-fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
+fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>, maps: &'a OnceLock<SurfaceMaps>) -> Vec<Job<'a>> {
+    let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
     let mut jobs: Vec<Job<'a>> =
         result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
     let came = [
@@ -293,20 +294,23 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
             SurfaceMapKind::Gaussian => [
                 kind.key(),
                 "Gaussian curvature",
-                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable. Black lines are 0.",
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0. Steps of \
+                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
             ],
             SurfaceMapKind::Mean => [
                 kind.key(),
                 "Mean curvature",
-                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0.",
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0. Steps of \
+                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
             ],
             SurfaceMapKind::Zebra => [
                 kind.key(),
                 "Zebra stripes",
-                "Stripes swing evenly over a fair surface. A kink is a break of curvature, a step a break of the tangent plane.",
+                "Stripes swing evenly over a fair surface. A kink is a break of curvature: where the surface is made with one its line is dashed. A \
+                 step is a break of the tangent plane: a knuckle, its line heavy.",
             ],
         };
-        let draw: Draw<'a> = Box::new(move |_| surface_map(inputs.hull, inputs.before, kind).map(Some));
+        let draw: Draw<'a> = Box::new(move |_| surface_map(maps(), kind).map(Some));
         Job { words, draw, scaled: false }
     }));
     jobs
@@ -321,7 +325,8 @@ pub(super) fn report_figures(
     inputs: &FigureInputs<'_>,
     settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
-    let jobs = jobs(result, inputs);
+    let maps = OnceLock::new();
+    let jobs = jobs(result, inputs, &maps);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
     let work = || {
