@@ -16,7 +16,8 @@ use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
 
 /// Small pictures: what is tested here does not depend on their size.
-const SETTINGS: ReportSettings = ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3 };
+const SETTINGS: ReportSettings =
+    ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3, combs: String::new(), date: None };
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()

@@ -23,6 +23,12 @@ pub(super) struct Arguments {
     /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
     #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
     sheet: Sheet,
+    /// Lines of a faired table that bear combs, by kind and name or distance in metres: "station 5, waterline 2.0, buttock 1.5, diagonal 3"
+    #[arg(long, value_name = "LINES", default_value = "", hide_default_value = true)]
+    combs: String,
+    /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the same bytes
+    #[arg(long, value_parser = date, value_name = "TEXT")]
+    date: Option<String>,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not
     #[arg(long)]
     force: bool,
@@ -53,6 +59,12 @@ fn sheet(text: &str) -> Result<Sheet, String> {
     found.ok_or_else(|| "expected A3 or A1".to_owned())
 }
 
+fn date(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    let fits = (1..=20).contains(&text.chars().count()) && !text.chars().any(char::is_control);
+    if fits { Ok(text.to_owned()) } else { Err("expected 1 to 20 characters, as 2026-03-31".to_owned()) }
+}
+
 /// Whether two paths are one folder.
 fn same(a: &Path, b: &Path) -> bool {
     matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
@@ -71,7 +83,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder.display()
         )));
     }
-    let files = report_outputs(&result, &ReportSettings { dots_per_inch: arguments.dpi, sheet: arguments.sheet })?;
+    let settings = ReportSettings {
+        dots_per_inch: arguments.dpi,
+        sheet: arguments.sheet,
+        combs: arguments.combs.clone(),
+        date: arguments.date.clone(),
+    };
+    let files = report_outputs(&result, &settings)?;
     write_run(&folder, &files, arguments.force)?;
     if arguments.quiet {
         return Ok(());

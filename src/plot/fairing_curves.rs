@@ -6,6 +6,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
+use super::fairing_combs::{FairingCombs, TEETH};
 use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::Sheet;
@@ -30,7 +31,6 @@ const STRIP: f64 = 0.34;
 const AXIS: f64 = 8.0;
 /// Longest tooth of a comb \[mm\].
 const LONGEST: f64 = 9.0;
-const TEETH: usize = 121;
 /// Offsets of a line that is shown, at least.
 const LEAST: usize = 4;
 const BAR: Pen = Pen::new(0.35, "#9c9c9c");
@@ -41,16 +41,16 @@ const LIGHT: Pen = Pen::new(0.08, "#c8c8c8");
 ///
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
-pub fn fairing_waterlines(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
+pub fn fairing_waterlines(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, combs, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
 }
 
 /// The stations that moved most.
 ///
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
-pub fn fairing_stations(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
+pub fn fairing_stations(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, combs, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
 }
 
 /// What the lines run along.
@@ -129,7 +129,7 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option<Canvas> {
+pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, along: Along) -> Option<Canvas> {
     let lines = chosen(record, along);
     if lines.is_empty() {
         return None;
@@ -138,15 +138,15 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option
     let cuts: Vec<Cut> = lines.iter().map(|line| line.cut).collect();
     let tolerance = record.tolerance();
     let [before, after] = [&record.before, &record.after].map(|hull| combs(hull, &cuts, TEETH, tolerance));
-    let scale = CombScale::within(before.iter().chain(&after), LONGEST);
+    let scale = cuts.first().map_or(shared.along, |cut| shared.scale(cut));
+    let scale = scale.lowered(before.iter().chain(&after), LONGEST);
     let mut canvas = Canvas::new(paper[0], paper[1]);
     let [title, plural, axis] = along.words();
     let name: String = caption::plain(&record.name).chars().take(60).collect();
     let middle = TextStyle::new(4.5, Anchor::Middle);
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
-        "combs before and after at one scale: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the \
-         table",
+        "combs before and after: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
         scale.words()
     );
     canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(2.8, Anchor::Middle));
@@ -215,7 +215,7 @@ fn panel(
     let drawn = [&record.before, &record.after].map(|hull| curves(hull, line.cut, 1e-4 * breadth_of(hull)));
     let k = along.axis();
     let all = || drawn.iter().flatten().flatten();
-    let across = Range::of(all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))), 0.03);
+    let across = Range::of(all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))), (LONGEST + 1.0) / (upper.width() - 2.0 * LONGEST - 2.0));
     let heights = Range::of(all().map(|p| p[1]).chain(line.offsets.iter().map(|c| c.before)), 0.02);
     // Combs stand on the convex side of the line: they need room above it, and under hollows.
     let room = (LONGEST + 1.0).min(0.3 * upper.height());
@@ -227,8 +227,11 @@ fn panel(
         ]
     };
     canvas.begin_clip(&upper);
-    before.iter().for_each(|comb| scale.draw(canvas, comb, on, &BEFORE_COMB));
-    after.iter().for_each(|comb| scale.draw(canvas, comb, on, &AFTER_COMB));
+    for (list, pens) in [(before, &BEFORE_COMB), (after, &AFTER_COMB)] {
+        for comb in list {
+            scale.draw(canvas, comb, on, pens);
+        }
+    }
     for (lines, pen) in drawn.iter().zip([&BEFORE, &AFTER]) {
         for curve in lines {
             canvas.polyline(&curve.iter().map(|&p| on(p)).collect::<Vec<_>>(), pen);
@@ -293,7 +296,7 @@ fn deviations(
     let on = |at: f64, by: f64| {
         [strip.left + across.share(at) * strip.width(), strip.bottom - range.share(by) * strip.height()]
     };
-    figures(canvas, strip, &range, "mm");
+    figures(canvas, strip, &range, "moves [mm]");
     canvas.begin_clip(strip);
     for change in kept() {
         if let Some(tolerance) = change.tolerance {

@@ -1,6 +1,7 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
 mod check;
+mod comb_lines;
 mod convert;
 mod export;
 mod failure;

@@ -6,6 +6,7 @@ use std::thread;
 
 use serde_json::Value;
 
+use super::comb_lines::comb_lines;
 use super::failure::Failure;
 use super::page::conventions_line;
 use super::result::JobResult;
@@ -14,7 +15,7 @@ use super::result_page::{Table, condition, constraints, verdict};
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{
-    Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure, convergence_figure, deviation_figure,
+    CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure, convergence_figure, deviation_figure,
     fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
     fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_waterlines, pareto_figure,
     smoothing_figure, surface_map, table_figure,
@@ -87,7 +88,12 @@ fn words(figure: Figure) -> [&'static str; 3] {
 }
 
 /// What is drawn of a faired table, before the hull.
-fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> {
+fn fairing_jobs<'a>(
+    record: &'a FairRecord,
+    fairing: &'a Value,
+    (combs, chosen): (&'a OnceLock<FairingCombs>, &'a [CombLine]),
+) -> Vec<Job<'a>> {
+    let combs = move || combs.get_or_init(|| FairingCombs::new(record, chosen));
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
@@ -145,7 +151,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Above the line with its combs, below the offsets less the fair line with the bars of their tolerances: the fair line, 0, \
                  leaves no bar. Dots that lie on one side over several stations are a change of form.",
             ],
-            Box::new(|sheet| fairing_waterlines(record, sheet)),
+            Box::new(move |sheet| fairing_waterlines(record, combs(), sheet)),
         ),
         scaled(
             [
@@ -153,7 +159,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Stations that moved most",
                 "The same for stations, laid on their side with the keel on the left.",
             ],
-            Box::new(|sheet| fairing_stations(record, sheet)),
+            Box::new(move |sheet| fairing_stations(record, combs(), sheet)),
         ),
         scaled(
             [
@@ -162,7 +168,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
                  mark inflections: those that are left should be meant.",
             ],
-            Box::new(|sheet| fairing_body_plan(record, sheet).map(Some)),
+            Box::new(move |sheet| fairing_body_plan(record, combs(), sheet).map(Some)),
         ),
         scaled(
             [
@@ -170,7 +176,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
             ],
-            Box::new(|sheet| fairing_half_breadth_plan(record, sheet).map(Some)),
+            Box::new(move |sheet| fairing_half_breadth_plan(record, combs(), sheet).map(Some)),
         ),
         scaled(
             [
@@ -178,7 +184,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Buttocks before and after",
                 "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
             ],
-            Box::new(|sheet| some(fairing_buttocks(record, sheet))),
+            Box::new(move |sheet| some(fairing_buttocks(record, combs(), sheet))),
         ),
         scaled(
             [
@@ -186,7 +192,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Diagonals before and after",
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
             ],
-            Box::new(|sheet| some(fairing_diagonals(record, sheet))),
+            Box::new(move |sheet| some(fairing_diagonals(record, combs(), sheet))),
         ),
         job(
             [
@@ -257,11 +263,19 @@ fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
     sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
 }
 
+/// What several figures are drawn from, made when the first of them asks for it.
+#[derive(Default)]
+struct Shared {
+    maps: OnceLock<SurfaceMaps>,
+    combs: OnceLock<FairingCombs>,
+}
+
 /// What is drawn of a result.
-fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>, maps: &'a OnceLock<SurfaceMaps>) -> Vec<Job<'a>> {
+fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>, shared: &'a Shared, chosen: &'a [CombLine]) -> Vec<Job<'a>> {
+    let Shared { maps, combs } = shared;
     let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
     let mut jobs: Vec<Job<'a>> =
-        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
+        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing, (combs, chosen))).collect();
     let came = [
         "verdict",
         "What the fairing came to",
@@ -325,8 +339,9 @@ pub(super) fn report_figures(
     inputs: &FigureInputs<'_>,
     settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
-    let maps = OnceLock::new();
-    let jobs = jobs(result, inputs, &maps);
+    let shared = Shared::default();
+    let chosen = comb_lines(result, settings)?;
+    let jobs = jobs(result, inputs, &shared, &chosen);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
     let work = || {
