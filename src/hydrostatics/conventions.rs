@@ -140,7 +140,7 @@ impl Conventions {
             Some(height) => ("GM_L", format!("KG = {height} m")),
             None => ("BM_L", "KG not given".to_owned()),
         };
-        vec![
+        let mut list = vec![
             say("frame", "x forward from the aft perpendicular AP, z up from the moulded base line; metres"),
             say("water", &format!("density {} t/m^3", self.density)),
             say(
@@ -183,7 +183,11 @@ impl Conventions {
                 "sections equal to the largest one within 1e-6 of it over at least 1 % of Lpp; L_E from its fore end to FP, \
                  L_R from AP to its aft end, from the largest section where there is none",
             ),
-        ]
+        ];
+        if self.draught_assumed {
+            list.push(say("design draught", "assumed: the table that the hull was laid through states none"));
+        }
+        list
     }
 }
 

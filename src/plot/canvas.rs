@@ -384,13 +384,22 @@ impl Canvas {
     }
 
     /// The finished document.
-    pub(super) fn finish(mut self, title: &str) -> String {
+    pub(super) fn finish(self, title: &str) -> String {
+        let ground = format!("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", number(self.width), number(self.height));
+        self.finish_on(title, &ground)
+    }
+
+    /// The finished document without a ground, to be laid over another.
+    pub(super) fn finish_clear(self, title: &str) -> String {
+        self.finish_on(title, "")
+    }
+
+    fn finish_on(mut self, title: &str, ground: &str) -> String {
         self.flush_text();
         let (w, h) = (number(self.width), number(self.height));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n<rect width=\"{w}\" \
-             height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n{ground}{}</svg>\n",
             font::FAMILY,
             escape(title),
             self.body

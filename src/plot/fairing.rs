@@ -9,12 +9,12 @@ use super::comb::{CombPens, CombScale};
 use super::fairing_combs::FairingCombs;
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
-use crate::hull::{Cut, Face, Hull};
+use crate::hull::{Cut, Face, Hull, OffsetStation};
 use crate::qp::Status;
 
 /// Room at the sides, above and below the drawing \[mm\].
@@ -37,6 +37,8 @@ pub(super) struct Plan<'a> {
     pub(super) combs: &'a FairingCombs,
     pub(super) title: &'static str,
     pub(super) scale: String,
+    /// What the names of the other lines are.
+    pub(super) heights: &'static str,
     /// Width and height of the drawing \[mm\].
     pub(super) room: [f64; 2],
 }
@@ -148,7 +150,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan { record, combs, title: "BODY PLAN", scale: format!("1:{n}"), room: paper };
+    let plan = Plan { record, combs, title: "BODY PLAN", scale: format!("1:{n}"), heights: "waterlines by z [m] above the base line", room: paper };
     let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
     let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
@@ -172,13 +174,13 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window);
-    let style = TextStyle::new(2.4, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
         let places = [[x - 2.0, y], [x - 9.0, y]];
         placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
     }
-    let words = TextStyle::new(3.0, Anchor::Middle);
+    let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 20.0], "AFT", &words);
     canvas.text([0.5 * paper[0] + 60.0, paper[1] - 20.0], "FORWARD", &words);
     Ok(canvas)
@@ -195,7 +197,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, combs, title: "HALF-BREADTH PLAN", scale, room: paper };
+    let plan = Plan { record, combs, title: "HALF-BREADTH PLAN", scale, heights: "waterlines by z [m] above the base line", room: paper };
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
     // What is left of the height stands above and below.
     let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
@@ -212,24 +214,24 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     let mut placer = drawn.placer();
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
-    let style = TextStyle::new(2.4, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     for station in &record.lines.stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_point(&mut canvas, &name, &style, &[[px, py + 3.0], [px, py + 6.4]], &window);
     }
-    let style = TextStyle::new(2.5, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     let count = record.lines.waterlines.len();
     for (k, z) in record.lines.waterlines.iter().enumerate() {
         let Some(curve) = drawn.curves.iter().position(|(cut, _)| *cut == k) else { continue };
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };
         let preferred = Preference { part, crossings: 3, beside: false };
-        placer.name_curve(&mut canvas, curve, &format!("z {z:.3}"), &style, preferred, &window);
+        placer.name_curve(&mut canvas, curve, &format!("z {z:.3} m"), &style, preferred, &window);
     }
-    let words = TextStyle::new(3.0, Anchor::Start);
+    let words = TextStyle::new(3.2, Anchor::Start);
     canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
-    canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     Ok(canvas)
 }
 
@@ -241,7 +243,7 @@ pub(super) fn name_stations(
     placer: &mut LabelPlacer,
     window: &Rectangle,
 ) {
-    let style = TextStyle::new(2.6, Anchor::Middle).halo();
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     let mut shifts: Vec<[f64; 2]> =
         (0..16).flat_map(|row| (-6..=6).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
     shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
@@ -315,6 +317,22 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     Drawn { curves: drawn, rings, scale, combs: after.len(), left_out }
 }
 
+/// What the names of the stations are: their x, or names of the table with the x of the first and the last.
+pub(super) fn station_words(record: &FairRecord) -> String {
+    let stations = &record.lines.stations;
+    let is_place = |station: &OffsetStation| station.name.parse::<f64>().is_ok_and(|x| (x - station.x).abs() < 5e-3);
+    match (stations.first(), stations.last()) {
+        (Some(a), Some(b)) if !stations.iter().all(is_place) => format!(
+            "stations by their names in the table, from {} at x = {:.2} m to {} at x = {:.2} m forward of AP",
+            caption::plain(&a.name),
+            a.x,
+            caption::plain(&b.name),
+            b.x
+        ),
+        _ => "stations by x [m] forward of AP".to_owned(),
+    }
+}
+
 /// Title, scales and key.
 pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
@@ -332,23 +350,25 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
         1000.0 * rms,
         1000.0 * largest
     );
-    canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
-    let y = plan.room[1] - 7.0;
-    let style = TextStyle::new(2.8, Anchor::Start);
-    let mut x = 14.0;
+    canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.2, Anchor::Middle));
+    let words = TextStyle::new(LETTERS, Anchor::Middle);
+    canvas.text([0.5 * plan.room[0], plan.room[1] - 12.5], &format!("{}    {}", station_words(plan.record), plan.heights), &words);
+    let y = plan.room[1] - 6.0;
+    let style = TextStyle::new(LETTERS, Anchor::Start);
+    let mut x = 10.0;
     for (pens, pen, word) in [(BEFORE_COMB, BEFORE, "before"), (AFTER_COMB, AFTER, "after")] {
         canvas.line([x, y], [x + 12.0, y], &pen);
-        canvas.text([x + 14.0, y], word, &style);
-        canvas.line([x + 30.0, y], [x + 42.0, y], &pens.tips);
-        canvas.text([x + 44.0, y], "tips of the comb", &style);
-        let at = [x + 74.0, y];
+        canvas.text([x + 13.0, y], word, &style);
+        canvas.line([x + 30.0, y], [x + 40.0, y], &pens.tips);
+        canvas.text([x + 41.5, y], "tips of the comb", &style);
+        let at = [x + 78.0, y];
         let ring = Comb { cut: Cut::Waterline { z: 0.0 }, teeth: Vec::new(), inflections: vec![[at[0], at[1], 0.0]] };
         CombScale::rings(canvas, &ring, |p| [p[0], p[1]], &pens);
-        canvas.text([x + 77.0, y], "inflection", &style);
-        x += 108.0;
+        canvas.text([x + 81.0, y], "inflection", &style);
+        x += 112.0;
     }
     if plan.record.status != Status::Optimal {
         canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
     }
-    canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
 }

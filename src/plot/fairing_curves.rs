@@ -9,7 +9,7 @@ use super::comb::CombScale;
 use super::fairing_combs::{FairingCombs, TEETH};
 use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
 use super::scale::{decimals, multiples, nice_step};
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{Comb, combs};
 use crate::fairing::job::Change;
@@ -149,7 +149,7 @@ pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, 
         "combs before and after: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
         scale.words()
     );
-    canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let size = [
         (paper[0] - GAP * (GRID[0] + 1) as f64) / GRID[0] as f64,
         (paper[1] - HEAD - FOOT - GAP * (GRID[1] - 1) as f64) / GRID[1] as f64,
@@ -162,9 +162,9 @@ pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, 
         panel(&mut canvas, record, (along, line), [&of(&before), &of(&after)], scale, &place, axis);
     }
     let y = paper[1] - 5.0;
-    let style = TextStyle::new(2.6, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     canvas.text([GAP, y], &format!("{} {plural} of the table, by the RMS of their moves", lines.len()), &style);
-    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Some(canvas)
 }
 
@@ -208,7 +208,7 @@ fn panel(
         turns(before),
         turns(after)
     );
-    canvas.text([place.left, place.top + 2.0], &words, &TextStyle::new(2.6, Anchor::Start));
+    canvas.text([place.left, place.top + 2.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
     let strip_top = place.bottom - AXIS - STRIP * place.height();
     let upper = Rectangle::new(place.left, place.top + WORDS, place.right, strip_top - 2.0);
     let strip = Rectangle::new(place.left, strip_top, place.right, place.bottom - AXIS);
@@ -248,7 +248,7 @@ fn panel(
     figures(canvas, &inner, &heights, "y [m]");
     canvas.rectangle(&upper, &FRAME);
     deviations(canvas, record, (along, line), &strip, &across);
-    let style = TextStyle::new(2.2, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     let step = nice_step(across.high - across.low, 10.0);
     for value in multiples(step, across.low, across.high) {
         let x = strip.left + across.share(value) * strip.width();
@@ -269,14 +269,14 @@ fn square([x, y]: [f64; 2], half: f64) -> [[f64; 2]; 4] {
 /// Figures at the left side of a frame.
 fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
     let step = nice_step(range.high - range.low, 5.0);
-    let style = TextStyle::new(2.2, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     for value in multiples(step, range.low, range.high) {
         let y = frame.bottom - range.share(value) * frame.height();
         canvas.line([frame.left, y], [frame.right, y], &LIGHT);
         canvas.text([frame.left - 1.0, y], &format!("{:.*}", decimals(step), value + 0.0), &style);
     }
     let middle = [frame.left - 13.0, 0.5 * (frame.top + frame.bottom)];
-    canvas.text(middle, name, &TextStyle::new(2.2, Anchor::Middle).upward());
+    canvas.text(middle, name, &TextStyle::new(LETTERS, Anchor::Middle).upward());
 }
 
 /// The strip of offsets less the fair line \[mm\].

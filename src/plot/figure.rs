@@ -49,6 +49,8 @@ pub struct FigureInputs<'a> {
     pub design: &'a Hydrostatics,
     /// Hydrostatics over the draughts of interest: their range and conventions.
     pub curves: &'a CurvesOfForm,
+    /// What the hull was read from, for title blocks: name of the file and the first digits of its SHA-256.
+    pub source: Option<&'a str>,
 }
 
 impl FigureInputs<'_> {
@@ -143,7 +145,7 @@ impl Figure {
     /// let conventions = Conventions::default();
     /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
     /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
-    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves };
+    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves, source: None };
     /// let lines = Figure::Lines.draw(&inputs)?;
     /// assert!(lines.as_str().starts_with("<svg"));
     /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));

@@ -2,7 +2,7 @@
 
 use super::outline;
 use super::scale::{decimals, multiples, nice_step};
-use crate::hull::{Cut, Face, Hull};
+use crate::hull::{Cut, Face, Hull, default_buttocks};
 
 /// Intervals between the perpendiculars.
 const INTERVALS: i32 = 20;
@@ -125,8 +125,10 @@ impl LinesGrid {
             .chain(&deck)
             .map(|point| point[1])
             .fold(0.0, f64::max);
-        let buttock_spacing = nice_step(0.5 * p.breadth, 7.0);
-        let buttocks = multiples(buttock_spacing, buttock_spacing, 0.995 * half_breadth)
+        // Those of the tables of heights.
+        let distances = default_buttocks(hull);
+        let buttock_spacing = distances.first().copied().unwrap_or(0.5 * p.breadth);
+        let buttocks = distances
             .into_iter()
             .enumerate()
             .map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y }))

@@ -65,7 +65,7 @@ pub use figure::{Figure, FigureInputs, PlotError, Svg};
 pub const FONT: &[u8] = font::DEJAVU_SANS;
 
 pub use pareto::pareto_figure;
-pub use pdf::{Page, write_pdf};
+pub use pdf::{Heading, Page, write_pdf};
 pub use scale::{DRAWING_SCALES, sheet_scale};
 pub use sheet::Sheet;
 pub use smoothing::smoothing_figure;

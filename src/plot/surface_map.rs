@@ -44,8 +44,8 @@ const STRIPES: f64 = 16.0;
 /// Least angle between the tangent planes of the two sides of a line that is a knuckle \[rad\].
 const KNUCKLE: f64 = 0.005;
 /// Lines across which curvature jumps, and knuckles.
-const JUMP: Pen = Pen::new(0.25, "#5a3d7a").dashed(&[1.6, 0.9]);
-const KNUCKLE_LINE: Pen = Pen::new(0.6, "#5a3d7a");
+const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
+const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
 
 /// What is mapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -114,7 +114,7 @@ pub(super) fn compose(table: &OffsetTable, result: &Suspects, words: &Words) -> 
         let more = format!("{} further suspects are in the list", result.suspects.len() - shown);
         canvas.text([MARGIN, height - 4.0], &more, &TextStyle::new(2.6, Anchor::Start));
     }
-    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)
 }
 
@@ -171,7 +171,7 @@ fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, words: 
         canvas.line([map.left, z], [map.right, z], &thin);
     }
     canvas.rectangle(map, &Pen::new(0.25, "#000000"));
-    let size = (0.62 * cell).clamp(1.3, 2.4);
+    let size = (0.62 * cell).clamp(2.3, 2.4);
     // Names stand at every line where there is room, else at every second, third ...
     let stride = |room: f64, needed: f64| (needed / room).ceil().max(1.0) as usize;
     let style = TextStyle::new(size, Anchor::End);
@@ -207,7 +207,7 @@ fn draw_rings(
         canvas.polyline(&circle([x, y], radius), &Pen::new(0.45, "#000000"));
         taken.push(Rectangle::new(x - radius, y - radius, x + radius, y + radius));
     }
-    let style = TextStyle::new((0.75 * cell).clamp(2.0, 3.4), Anchor::Middle).halo();
+    let style = TextStyle::new((0.75 * cell).clamp(2.4, 3.4), Anchor::Middle).halo();
     let field = map.grown(5.0);
     for suspect in &result.suspects {
         let [x, y] = centre(suspect.station, suspect.waterline);
@@ -371,7 +371,7 @@ pub(super) fn small_plot(
 }
 
 fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [[f64; 2]; 2]) {
-    let style = TextStyle::new(2.1, Anchor::Middle);
+    let style = TextStyle::new(2.4, Anchor::Middle);
     let thin = Pen::new(0.08, "#c8c8c8");
     for (axis, [low, high]) in ranges.into_iter().enumerate() {
         let step = nice_step(high - low, 4.0);
@@ -385,13 +385,13 @@ fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [
             } else {
                 let y = frame.bottom - share * frame.height();
                 canvas.line([frame.left, y], [frame.right, y], &thin);
-                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(2.1, Anchor::End));
+                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(2.4, Anchor::End));
             }
         }
     }
     canvas.rectangle(frame, &Pen::new(0.18, "#000000"));
     canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 5.2], names[0], &style);
-    canvas.text([frame.left, frame.top - 1.8], names[1], &TextStyle::new(2.1, Anchor::Middle));
+    canvas.text([frame.left, frame.top - 1.8], names[1], &TextStyle::new(2.4, Anchor::Middle));
 }
 
 #[cfg(test)]

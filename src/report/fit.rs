@@ -260,7 +260,7 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
         json_file("fit.json", &summary)?,
     ];
     files.extend(figure_files(
-        &FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table },
+        &FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table, source: None },
         figures,
     )?);
     files.sort_by(|a, b| a.name.cmp(&b.name));

@@ -129,7 +129,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
         json_file("summary.json", &summary)?,
     ];
-    let inputs = FigureInputs { hull: &hull, before: None, design: &design_row, curves: &table };
+    let inputs = FigureInputs { hull: &hull, before: None, design: &design_row, curves: &table, source: None };
     files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };

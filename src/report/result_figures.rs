@@ -13,7 +13,7 @@ use super::result::JobResult;
 use super::result_files::ReportSettings;
 use super::result_page::{Table, condition, constraints, verdict};
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::CurvesOfForm;
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
 use crate::plot::{
     CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure, convergence_figure, deviation_figure,
     fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
@@ -249,17 +249,43 @@ fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
     (!rows.is_empty()).then(|| table_figure(title, note, &heads, table.words, &rows))
 }
 
+/// Most letters of a line of the verdict.
+const LINE: usize = 165;
+
+/// Words in lines of at most [`LINE`] letters where they have spaces, the second and all further ones set in.
+fn lines(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < LINE => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            Some(_) => lines.push(format!("      {word}")),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// What the fairing came to, in sentences; none of other results.
-fn verdict_figure(result: &JobResult) -> Option<Svg> {
-    let rows = verdict(result).into_iter().map(|(bad, line)| (bad, vec![line])).collect();
+fn verdict_figure(result: &JobResult, inputs: &FigureInputs) -> Option<Svg> {
+    let before = condition_before(inputs);
+    let found = verdict(result, [before.as_ref(), Some(inputs.design)]);
+    let rows = found.iter().flat_map(|(bad, text)| lines(text).into_iter().map(|line| (*bad, vec![line]))).collect();
     let table = Table { heads: vec![result.hull.name().to_owned()], words: 1, rows };
     sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
 }
 
+/// The design condition before fairing.
+fn condition_before(inputs: &FigureInputs) -> Option<Hydrostatics> {
+    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
+    inputs.before.and_then(rows)
+}
+
 /// The design condition, that before fairing beside it.
 fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
-    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
-    let before = inputs.before.and_then(rows);
+    let before = condition_before(inputs);
     sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
 }
 
@@ -281,7 +307,7 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>, shared: &'a Sha
         "What the fairing came to",
         "Moves, inflections and prices in one look; the sheets that follow prove them.",
     ];
-    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result))), scaled: false });
+    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result, inputs))), scaled: false });
     let standard = |figure: Figure| Job {
         words: words(figure),
         draw: Box::new(move |sheet| figure.draw_on(inputs, sheet).map(Some)) as Draw<'a>,

@@ -10,7 +10,7 @@ use super::result_figures::report_figures;
 use super::result_page::report_page;
 use super::result_tables::report_tables;
 use crate::hydrostatics::CurvesOfForm;
-use crate::plot::{FigureInputs, Page, PlotError, Sheet, write_pdf};
+use crate::plot::{FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,19 @@ pub struct ReportSettings {
     pub date: Option<String>,
 }
 
+/// Digits of a hash in title blocks.
+const HASH: usize = 8;
+
+/// What a result was made from, for title blocks: the file of the run where its manifest names it, else the file that was read; and the first
+/// digits of its SHA-256.
+fn source_words(result: &JobResult) -> String {
+    let entry = result.origin.as_ref().or(result.inputs.first());
+    entry.map_or(String::new(), |entry| {
+        let hash: String = entry.sha256.chars().take(HASH).collect();
+        format!("{}  sha256 {hash}", entry.file)
+    })
+}
+
 /// The files of a report, in the order of their names; the manifest is the last.
 ///
 /// # Errors
@@ -36,7 +49,8 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
-    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves };
+    let source = source_words(result);
+    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves, source: Some(&source) };
     let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing
@@ -50,9 +64,11 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
             Page { title: figure.title, caption: figure.caption, svg }
         })
         .collect();
+    let pages = &pages;
     // The PDF takes as long as page and tables together.
     let (pdf, page, tables) = thread::scope(|scope| {
-        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages, settings.sheet));
+        let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
+        let pdf = scope.spawn(move || write_pdf(&heading, pages, settings.sheet));
         let page = report_page(result, &design, before.as_ref(), &curves, &figures);
         (pdf.join(), page, report_tables(result, &curves))
     });

@@ -11,7 +11,7 @@ use crate::exchange::scene_json;
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
 use crate::hull::Hull;
-use crate::hydrostatics::{CurvesOfForm, Hydrostatics, QUANTITIES};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
 use crate::plot::FONT;
 
 const STYLE: &str = include_str!("html/page.css");
@@ -244,8 +244,29 @@ fn changes(result: &JobResult) -> Option<Table> {
     Some(table)
 }
 
+/// Displacement and LCB at the design draught before and after.
+fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conventions) -> String {
+    let share = 100.0 * (after.displacement_mass / before.displacement_mass - 1.0);
+    let lcb = |row: &Hydrostatics| row.lcb.map_or("-".to_owned(), |x| fixed(x, 3));
+    let moved = after.lcb.zip(before.lcb).map_or(String::new(), |(a, b)| format!(" ({:+.3} m)", a - b));
+    format!(
+        "At T {} m{}: displacement {} → {} t ({share:+.3} %), LCB {} → {} m from AP{moved}.",
+        fixed(after.draught, 3),
+        assumed(conventions),
+        fixed(before.displacement_mass, 1),
+        fixed(after.displacement_mass, 1),
+        lcb(before),
+        lcb(after)
+    )
+}
+
+/// ` (assumed)` where the design draught is.
+fn assumed(conventions: &Conventions) -> &'static str {
+    if conventions.draught_assumed { " (assumed)" } else { "" }
+}
+
 /// What the fairing came to, in sentences.
-pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
+pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) -> Vec<(bool, String)> {
     let Some((record, fairing)) = &result.fairing else { return Vec::new() };
     let (rms, largest, _) = record.moves();
     let left_out = record.changes.iter().filter(|change| change.suspect).count();
@@ -268,6 +289,9 @@ pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
             fixed(1e3 * record.sigma, 2)
         ),
     ));
+    if let [Some(before), Some(after)] = conditions {
+        lines.push((false, displacement(before, after, &result.conventions)));
+    }
     let sum = |key: &str, when: &str| list(&fairing["inflections"][key]).filter_map(|l| l[when].as_u64()).sum::<u64>();
     let counts: Vec<String> = ["waterlines", "stations", "buttocks", "diagonals"]
         .iter()
@@ -406,16 +430,17 @@ pub(super) fn report_page(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
          <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
          {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
-         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m{} &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
          from AP, z up from the base line</p>\n",
         STANDARD.encode(FONT),
         p.length_between_perpendiculars,
         p.breadth,
         p.draught,
+        assumed(&result.conventions),
         p.depth,
         result.conventions.density
     );
-    for (bad, line) in verdict(result) {
+    for (bad, line) in verdict(result, [before, Some(design)]) {
         html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, escape(&line)));
     }
     for note in &result.notes {
