@@ -119,6 +119,8 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         let design = (z - p.draught).abs() < 1e-9;
         canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
     }
+    let right = TextStyle::new(LETTERS, Anchor::Start);
+    canvas.text([at(end, p.draught)[0] + 1.5, at(end, p.draught)[1]], "DWL", &right);
     let mut last = f64::INFINITY;
     for &z in &table.heights {
         let y = at(low, z)[1];

@@ -113,6 +113,32 @@ pub(super) struct PlacedText {
     pub(super) place: Rectangle,
 }
 
+/// How far corners may stand off the sides of an area that leaves them out [mm].
+const STRAIGHT: f64 = 0.02;
+
+/// The corners of an outline, but for those beside straight sides.
+fn straightened(outline: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let Some((&first, rest)) = outline.split_first() else { return Vec::new() };
+    let (mut kept, mut from) = (vec![first], 0);
+    for k in 1..rest.len() {
+        let (a, b) = (outline[from], outline[k + 1]);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = along[0].hypot(along[1]);
+        let off = |p: &[f64; 2]| {
+            let by = [p[0] - a[0], p[1] - a[1]];
+            let across = (along[0] * by[1] - along[1] * by[0]).abs();
+            // A corner that turns back is one.
+            across > STRAIGHT * length || along[0] * by[0] + along[1] * by[1] > length * length
+        };
+        if outline[from + 1..=k].iter().any(off) {
+            kept.push(outline[k]);
+            from = k;
+        }
+    }
+    kept.extend(rest.last());
+    kept
+}
+
 /// The drawing under construction.
 pub(super) struct Canvas {
     width: f64,
@@ -265,17 +291,23 @@ impl Canvas {
         let _ = writeln!(self.body, " fill=\"{colour}\"/>");
     }
 
-    /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours.
+    /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours. Corners are rounded to a hundredth
+    /// of a millimetre, and those that lie within [`STRAIGHT`] of a side left out: both are less than the hair.
     pub(super) fn edged_areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str) {
         if areas.is_empty() {
             return;
         }
         let _ = write!(self.body, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.12\" d=\"");
+        let hundredths = |place: &[f64; 2]| place.map(|c| (100.0 * c).round());
         for area in areas {
-            for (k, [x, y]) in area.iter().enumerate() {
-                let _ = write!(self.body, "{}{} {}", if k == 0 { 'M' } else { 'L' }, number(*x), number(*y));
+            let mut last: Option<[f64; 2]> = None;
+            for place in straightened(area).iter().map(hundredths) {
+                let from = last.unwrap_or_default();
+                let [x, y] = [0, 1].map(|d| number((place[d] - from[d]) / 100.0));
+                let _ = write!(self.body, "{}{x} {y}", if last.is_none() { 'M' } else { 'l' });
+                last = Some(place);
             }
-            self.body.push('Z');
+            self.body.push('z');
         }
         self.body.push_str("\"/>\n");
     }

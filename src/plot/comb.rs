@@ -8,11 +8,11 @@ use crate::fairing::inspect::Comb;
 
 /// Length of the tooth whose curvature is printed \[mm\].
 const STATED: f64 = 10.0;
-/// Part of the teeth that are shorter than the usual one.
-const QUANTILE: f64 = 0.9;
 /// Length of the longest tooth of a drawing \[mm\].
 const LONGEST: f64 = 18.0;
-/// Length of the tooth at [`QUANTILE`], as a part of the longest.
+/// Part of the teeth that have room at least.
+const MOST: f64 = 0.9;
+/// Length of a short tooth, as a part of the longest.
 const USUAL: f64 = 0.5;
 /// Every so many teeth are drawn; the tips of all are joined.
 const DRAWN: usize = 3;
@@ -39,14 +39,14 @@ pub(super) struct CombPens {
 }
 
 impl CombScale {
-    /// The scale at which most teeth of `combs` are short enough for a drawing.
-    pub(super) fn fitting<'a>(combs: impl IntoIterator<Item = &'a Comb>) -> Self {
-        Self { curvature: sheet_scale(usual(combs), USUAL * LONGEST) * STATED, longest: LONGEST }
+    /// The scale at which the part `share` of the teeth of `combs` is short.
+    pub(super) fn fitting<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> Self {
+        Self { curvature: sheet_scale(usual(combs, share), USUAL * LONGEST) * STATED, longest: LONGEST }
     }
 
     /// This scale for teeth of `longest` at most \[mm\], or a smaller one where most teeth of `combs` would be longer.
     pub(super) fn lowered<'a>(self, combs: impl IntoIterator<Item = &'a Comb>, longest: f64) -> Self {
-        let needed = sheet_scale(usual(combs), longest) * STATED;
+        let needed = sheet_scale(usual(combs, MOST), longest) * STATED;
         Self { curvature: self.curvature.max(needed), longest }
     }
 
@@ -129,12 +129,12 @@ fn arrow(canvas: &mut Canvas, [from, to]: [[f64; 2]; 2], pen: &Pen) {
     canvas.polyline(&[[to[0] - x - 0.4 * y, to[1] - y + 0.4 * x], to, [to[0] - x + 0.4 * y, to[1] - y - 0.4 * x]], pen);
 }
 
-/// Curvature that most teeth do not pass \[1/m\].
-fn usual<'a>(combs: impl IntoIterator<Item = &'a Comb>) -> f64 {
+/// Curvature that the part `share` of the teeth does not pass \[1/m\].
+fn usual<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> f64 {
     let lengths = combs.into_iter().flat_map(|comb| &comb.teeth).map(|tooth| norm(tooth.tooth));
     let mut lengths: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
     lengths.sort_by(f64::total_cmp);
-    lengths.get((QUANTILE * lengths.len() as f64) as usize).copied().unwrap_or(0.0)
+    lengths.get((share * lengths.len() as f64) as usize).copied().unwrap_or(0.0)
 }
 
 fn norm(v: [f64; 3]) -> f64 {

@@ -68,7 +68,7 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
 
 /// The curves of a plane on the hull, in one piece where the hull is one: diagonals run on over the flat of bottom, a station at an end of
 /// the hull that goes in and out of its side is the edge there.
-fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
+pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
     let side = curves(hull, cut, deviation);
     match cut {
         Cut::Station { x } if side.len() > 1 => end_curve(hull, x).map_or(side, |edge| vec![edge]),
@@ -90,7 +90,10 @@ fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
         let points = (0..=POINTS).map(|k| surface.eval(u, v0 + (v1 - v0) * k as f64 / POINTS as f64));
         points.filter(|p| (p[0] - x).abs() <= near && p[2] <= hull.deck_height(p[0])).collect::<Vec<_>>()
     };
-    [ends.0, ends.1].map(edge).into_iter().max_by_key(Vec::len).filter(|points| points.len() > 1)
+    let xs = || surface.points().iter().map(|p| p[0]);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let end = if x - low <= near { ends.0 } else { Some(ends.1).filter(|_| high - x <= near)? };
+    Some(edge(end)).filter(|points| points.len() > 1)
 }
 
 /// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn there: an upright

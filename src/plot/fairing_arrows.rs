@@ -2,7 +2,7 @@
 //! sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship, name_stations, station_cut};
+use super::fairing::{extent, midship, name_stations, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
@@ -81,7 +81,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
         drawn.clear();
         for (k, station) in record.lines.stations.iter().enumerate() {
-            for line in curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
+            for line in whole_curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
                 canvas.polyline(&line, pen);
                 drawn.push((k, line));

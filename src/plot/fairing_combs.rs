@@ -11,6 +11,9 @@ pub(super) const TEETH: usize = 241;
 /// Most stations and most waterlines that bear combs where none are asked for: evenly among all, the first and the last not.
 const MOST: [usize; 2] = [8, 7];
 
+/// Part of the teeth of stations, and of all other lines, that are short; the ends of these turn sharply.
+const SHORT: [f64; 2] = [0.9, 0.75];
+
 /// A line that bears a comb.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CombLine {
@@ -80,7 +83,7 @@ impl FairingCombs {
         let (before, after) = (of(&record.before), of(&record.after));
         let scale = |around: bool| {
             let own = move |comb: &&Comb| matches!(comb.cut, Cut::Station { .. }) == around;
-            CombScale::fitting(before.iter().chain(&after).filter(own))
+            CombScale::fitting(before.iter().chain(&after).filter(own), SHORT[usize::from(!around)])
         };
         Self { buttocks, diagonals, around: scale(true), along: scale(false), before, after }
     }

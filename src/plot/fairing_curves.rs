@@ -200,7 +200,7 @@ fn panel(
         line.offsets.iter().filter_map(|c| c.tolerance.filter(|t| *t > 0.0).map(|t| (c.after - c.before).abs() / t));
     let used = used.fold(0.0, f64::max);
     let words = format!(
-        "{}    moves {:.2} mm RMS, {:.2} mm at most    {:.0} % of a tolerance used at most    inflections {} → {}",
+        "{}    moves {:.2} mm RMS, {:.2} mm at most    {:.0} % of tolerance    inflections {} → {}",
         line.name,
         1e3 * line.moves[0],
         1e3 * line.moves[1],
@@ -208,7 +208,7 @@ fn panel(
         turns(before),
         turns(after)
     );
-    canvas.text([place.left, place.top + 2.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
+    canvas.text([place.left - NAMES + 6.0, place.top + 1.6], &words, &TextStyle::new(LETTERS, Anchor::Start));
     let strip_top = place.bottom - AXIS - STRIP * place.height();
     let upper = Rectangle::new(place.left, place.top + WORDS, place.right, strip_top - 2.0);
     let strip = Rectangle::new(place.left, strip_top, place.right, place.bottom - AXIS);

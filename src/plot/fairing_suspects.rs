@@ -4,7 +4,7 @@
 //! them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship, station_cut};
+use super::fairing::{extent, midship, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
@@ -26,11 +26,11 @@ const ROW: f64 = 4.6;
 const COLUMNS: [(f64, &str); 7] = [
     (1.0, "mark"),
     (11.0, "station"),
-    (28.0, "waterline [m]"),
-    (49.0, "given"),
-    (68.0, "proposed"),
-    (87.0, "noises off"),
-    (104.0, "what it may be"),
+    (27.0, "waterline [m]"),
+    (52.0, "given"),
+    (70.0, "proposed"),
+    (88.0, "noises off"),
+    (107.0, "what it may be"),
 ];
 /// Height of a row of small plots \[mm\], most rows, and stations and waterlines on each side that they show.
 const PLOTS: f64 = 48.0;
@@ -83,7 +83,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
     let mut placer = LabelPlacer::default();
     for (k, station) in record.lines.stations.iter().enumerate() {
         let own = record.doubts.iter().any(|doubt| doubt.station == k);
-        for line in curves(&record.after, station_cut(record, station.x), 0.01 / millimetres) {
+        for line in whole_curves(&record.after, station_cut(record, station.x), 0.01 / millimetres) {
             let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
             canvas.polyline(&line, if own { &OWN } else { &QUIET });
             placer.add_curve(&line);

@@ -155,6 +155,8 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
         let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
         let top = lower.bottom + gap;
         // The table stands over the title block, or else between it and the body plan.
+        let wide = column.min(inner.right - extents.table[0] - 0.5 * GAP);
+        let column = wide.max(inner.left + extents.body_width(body_scale) + GAP).min(column);
         let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
         let beside = column - extents.table[0] - GAP;
         let between = over.height() < extents.table[1] && beside - GAP - inner.left >= extents.body_width(body_scale);

@@ -8,6 +8,8 @@ use crate::hull::{Cut, Face, Hull, default_buttocks};
 const INTERVALS: i32 = 20;
 /// Stations closer than this to the perpendiculars stand at half intervals [intervals].
 const HALF_STATIONS: i32 = 2;
+/// How far inside a station at an end of the hull is cut where it would be in pieces, in lengths of the hull.
+const INSIDE: f64 = 1e-4;
 /// Deviation of a section from surface and plane [m].
 const TOLERANCE: f64 = 1e-6;
 
@@ -105,7 +107,12 @@ impl LinesGrid {
             .into_iter()
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
-                plane(x, numeral(halves), Cut::Station { x })
+                let found = plane(x, numeral(halves), Cut::Station { x });
+                // An end of the hull that is a plane at its waterlines alone goes in and out of that plane.
+                let slack = INSIDE * (length[1] - length[0]);
+                let inward = [(length[0], slack), (length[1], -slack)].into_iter().find(|(end, _)| (x - end).abs() <= slack);
+                let inside = inward.map(|(_, by)| plane(x, numeral(halves), Cut::Station { x: x + by }));
+                inside.filter(|inside| (1..found.curves.len()).contains(&inside.curves.len())).unwrap_or(found)
             })
             .collect();
         let waterline_spacing = nice_step(p.draught, 8.0);

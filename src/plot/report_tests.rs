@@ -71,7 +71,7 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
         }
         let draught = hull.particulars().draught;
         let table = CurvesOfForm::new(&hull, &[draught], &Conventions::default());
-        let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None };
+        let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
         found.extend(faults(&format!("{} bonjean", hull.name()), &bonjean::compose(&inputs).unwrap()));
     }
     assert!(found.is_empty(), "{}", found.join("\n"));

@@ -224,7 +224,8 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
         let style = TextStyle::new(3.2, Anchor::Start);
         canvas.text([26.0, top - 3.4], side.heading, &style);
     }
-    legend(&mut canvas, kind, full, 22.0 + PITCH * sides.len() as f64 + 2.0);
+    let more = sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0);
+    legend(&mut canvas, kind, full, more, 22.0 + PITCH * sides.len() as f64 + 2.0);
     let corner = [ROOM[0] - 6.0, 22.0 + PITCH * sides.len() as f64 + 16.0];
     canvas.text(corner, &caption::program(), &TextStyle::new(TEXT, Anchor::End));
     Ok(canvas)
@@ -364,11 +365,16 @@ fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize
     }
 }
 
-fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
+fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, more: usize, y: f64) {
     let style = TextStyle::new(TEXT, Anchor::Start);
     let lower = y + 7.0;
     let mut x = 26.0;
-    for (pen, words) in [(&JUMP, "line of the surface across which curvature jumps"), (&KNUCKLE_LINE, "knuckle")] {
+    let jumps = if more > 0 {
+        format!("curvature may jump at {more} more lines of the surface")
+    } else {
+        "curvature jumps across a line of the surface".to_owned()
+    };
+    for (pen, words) in [(&JUMP, jumps.as_str()), (&KNUCKLE_LINE, "knuckle")] {
         canvas.line([x, lower], [x + 11.0, lower], pen);
         canvas.text([x + 13.0, lower], words, &style);
         x += 17.0 + Canvas::text_place([0.0, 0.0], words, &style).width();

@@ -8,6 +8,7 @@
 mod points;
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::sheet::LETTERS;
 use super::scale::{decimals, multiples, nice_step};
 use super::{PlotError, Svg, caption};
 use crate::fairing::{Suspect, Suspects, height_grid};
@@ -371,7 +372,7 @@ pub(super) fn small_plot(
 }
 
 fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [[f64; 2]; 2]) {
-    let style = TextStyle::new(2.4, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     let thin = Pen::new(0.08, "#c8c8c8");
     for (axis, [low, high]) in ranges.into_iter().enumerate() {
         let step = nice_step(high - low, 4.0);
@@ -381,17 +382,17 @@ fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [
             if axis == 0 {
                 let x = frame.left + share * frame.width();
                 canvas.line([x, frame.top], [x, frame.bottom], &thin);
-                canvas.text([x, frame.bottom + 2.2], &text, &style);
+                canvas.text([x, frame.bottom + 2.6], &text, &style);
             } else {
                 let y = frame.bottom - share * frame.height();
                 canvas.line([frame.left, y], [frame.right, y], &thin);
-                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(2.4, Anchor::End));
+                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(LETTERS, Anchor::End));
             }
         }
     }
     canvas.rectangle(frame, &Pen::new(0.18, "#000000"));
-    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 5.2], names[0], &style);
-    canvas.text([frame.left, frame.top - 1.8], names[1], &TextStyle::new(2.4, Anchor::Middle));
+    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 6.4], names[0], &style);
+    canvas.text([frame.left, frame.top - 2.2], names[1], &TextStyle::new(LETTERS, Anchor::Middle));
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
     let conventions = Conventions::default();
     let design = CurvesOfForm::new(hull, &[p.draught], &conventions);
     let curves = CurvesOfForm::new(hull, &[0.2 * p.draught, p.draught, p.depth], &conventions);
-    draw(&FigureInputs { hull, before: None, design: &design.rows[0], curves: &curves, source: None })
+    draw(&FigureInputs { hull, before: None, design: &design.rows[0], curves: &curves, source: None, dense: None })
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn a_picture_has_a_size() {
 fn curves_need_two_draughts() {
     let hull = wigley();
     let table = CurvesOfForm::new(&hull, &[6.25], &Conventions::default());
-    let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None };
+    let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
     for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
         assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
     }

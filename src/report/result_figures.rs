@@ -273,7 +273,7 @@ fn verdict_figure(result: &JobResult, inputs: &FigureInputs) -> Option<Svg> {
     let before = condition_before(inputs);
     let found = verdict(result, [before.as_ref(), Some(inputs.design)]);
     let rows = found.iter().flat_map(|(bad, text)| lines(text).into_iter().map(|line| (*bad, vec![line]))).collect();
-    let table = Table { heads: vec![result.hull.name().to_owned()], words: 1, rows };
+    let table = Table { heads: vec![result.hull.name().replace('_', " ")], words: 1, rows };
     sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
 }
 

@@ -1,5 +1,6 @@
 //! The job of `report`: a result in, its figures and pages out. Nothing is written here.
 
+use std::sync::OnceLock;
 use std::thread;
 
 use super::failure::Failure;
@@ -9,6 +10,7 @@ use super::result::JobResult;
 use super::result_figures::report_figures;
 use super::result_page::report_page;
 use super::result_tables::report_tables;
+use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
 use crate::plot::{FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
@@ -28,14 +30,10 @@ pub struct ReportSettings {
 /// Digits of a hash in title blocks.
 const HASH: usize = 8;
 
-/// What a result was made from, for title blocks: the file of the run where its manifest names it, else the file that was read; and the first
-/// digits of its SHA-256.
-fn source_words(result: &JobResult) -> String {
-    let entry = result.origin.as_ref().or(result.inputs.first());
-    entry.map_or(String::new(), |entry| {
-        let hash: String = entry.sha256.chars().take(HASH).collect();
-        format!("{}  sha256 {hash}", entry.file)
-    })
+/// A file for title blocks: its name and the first digits of its SHA-256.
+pub(super) fn source_words(entry: &ManifestEntry) -> String {
+    let hash: String = entry.sha256.chars().take(HASH).collect();
+    format!("{}  sha256 {hash}", entry.file)
 }
 
 /// The files of a report, in the order of their names; the manifest is the last.
@@ -49,8 +47,8 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
-    let source = source_words(result);
-    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves, source: Some(&source) };
+    let (source, dense) = (result.origin.as_ref().or(result.inputs.first()).map_or(String::new(), source_words), OnceLock::new());
+    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves, source: Some(&source), dense: Some(&dense) };
     let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing

@@ -32,6 +32,8 @@ pub struct SurfaceMap {
     pub points: Vec<MapPoint>,
     /// Knot lines of the surface across which curvature may jump.
     pub breaks: Vec<MapBreak>,
+    /// How many more of them the surface has: where there are too many, knuckles alone are among `breaks`.
+    pub more_breaks: usize,
 }
 
 /// What a knot line of the surface is to curvature.
@@ -55,8 +57,8 @@ pub struct MapBreak {
 }
 
 impl MapBreak {
-    /// The inner knots at which curvature may jump.
-    pub(super) fn of(knots: &KnotVector) -> Vec<(f64, KnotLine)> {
+    /// The inner knots at which curvature may jump, and how many are left out: of more than `most` knuckles alone are kept.
+    pub(super) fn of(knots: &KnotVector, most: usize) -> (Vec<(f64, KnotLine)>, usize) {
         let (low, high) = knots.domain();
         let inner = knots.breakpoints().into_iter().filter(|&t| low < t && t < high);
         let line = |t: f64| match knots.multiplicity(t) {
@@ -64,7 +66,14 @@ impl MapBreak {
             n if n + 1 >= knots.degree() => Some((t, KnotLine::Tangent)),
             _ => None,
         };
-        inner.filter_map(line).collect()
+        let mut list: Vec<(f64, KnotLine)> = inner.filter_map(line).collect();
+        let all = list.len();
+        if all > most {
+            list.retain(|(_, line)| *line == KnotLine::Knuckle);
+            list.truncate(most);
+        }
+        let left_out = all - list.len();
+        (list, left_out)
     }
 }
 
@@ -123,7 +132,7 @@ impl SurfaceMap {
                 points.push(point(hull, [u, v], girth));
             }
         }
-        Self { rows, points, breaks: Vec::new() }
+        Self { rows, points, breaks: Vec::new(), more_breaks: 0 }
     }
 
     /// How many columns there are.

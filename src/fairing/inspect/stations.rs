@@ -15,6 +15,8 @@ const BESIDE: f64 = 1e-7;
 const UPRIGHT: f64 = 1e-7;
 /// Lines u = constant and steps of v over which the mean girth is taken.
 const MEAN: [usize; 2] = [9, 400];
+/// Most knot lines in one direction that are two rows or two columns each: a surface with more breaks everywhere a little.
+const MOST: usize = 30;
 /// Halvings of an interval of v in which a station leaves the surface.
 const HALVINGS: usize = 30;
 
@@ -73,11 +75,11 @@ fn read(table: &[[f64; 2]], from: usize, to: usize, value: f64) -> f64 {
 }
 
 /// The rows by v, and those pairs of them that are the sides of a knot line.
-fn rows(hull: &Hull, count: usize) -> (Vec<f64>, Vec<MapBreak>) {
+fn rows(hull: &Hull, count: usize) -> (Vec<f64>, Vec<MapBreak>, usize) {
     let knots = hull.surface().v();
     let (v0, v1) = knots.domain();
     let table = mean_girths(hull);
-    let breaks = MapBreak::of(knots);
+    let (breaks, more) = MapBreak::of(knots, MOST);
     let mut edges = vec![0.0];
     edges.extend(breaks.iter().map(|(v, _)| read(&table, 0, 1, *v)));
     edges.push(table[MEAN[1]][1]);
@@ -89,11 +91,11 @@ fn rows(hull: &Hull, count: usize) -> (Vec<f64>, Vec<MapBreak>) {
         (values[first], values[first + 1]) = (v - BESIDE * (v1 - v0), v + BESIDE * (v1 - v0));
         found.push(MapBreak { line, columns: false, first });
     }
-    (values, found)
+    (values, found, more)
 }
 
 /// The inner knots in u at which curvature may jump and that are stations, with their x \[m\].
-fn upright_breaks(hull: &Hull, length: f64) -> Vec<(f64, f64, KnotLine)> {
+fn upright_breaks(hull: &Hull, length: f64) -> (Vec<(f64, f64, KnotLine)>, usize) {
     let surface = hull.surface();
     let (v0, v1) = surface.v().domain();
     let station = |&(u, line): &(f64, KnotLine)| {
@@ -101,17 +103,19 @@ fn upright_breaks(hull: &Hull, length: f64) -> Vec<(f64, f64, KnotLine)> {
         let same = xs.iter().all(|x| (x - xs[0]).abs() <= UPRIGHT * length);
         same.then_some((u, xs[0], line))
     };
-    MapBreak::of(surface.u()).iter().filter_map(station).collect()
+    let (breaks, more) = MapBreak::of(surface.u(), MOST);
+    (breaks.iter().filter_map(station).collect(), more)
 }
 
 /// The columns from aft, and those pairs of them that are the sides of a knot line.
-fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>) {
+fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>, usize) {
     let surface = hull.surface();
     let (u0, u1) = surface.u().domain();
     let xs = surface.points().iter().map(|p| p[0]);
     let (low, high) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let inside = INSIDE * (high - low);
-    let breaks: Vec<_> = upright_breaks(hull, high - low)
+    let (breaks, more) = upright_breaks(hull, high - low);
+    let breaks: Vec<_> = breaks
         .into_iter()
         .filter(|(_, x, _)| *x > low + 2.0 * inside && *x < high - 2.0 * inside)
         .collect();
@@ -126,7 +130,7 @@ fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>) {
         (list[first], list[first + 1]) = (Column::Line(u - beside), Column::Line(u + beside));
         found.push(MapBreak { line, columns: true, first });
     }
-    (list, found)
+    (list, found, more)
 }
 
 /// A station on the surface.
@@ -207,9 +211,9 @@ impl SurfaceMap {
     /// without normal and curvature.
     #[must_use]
     pub fn at_stations(hull: &Hull, columns: usize, rows: usize) -> Self {
-        let (rows, mut breaks) = self::rows(hull, rows.max(2));
-        let (columns, more) = self::columns(hull, columns.max(2));
-        breaks.extend(more);
+        let (rows, mut breaks, above) = self::rows(hull, rows.max(2));
+        let (columns, upright, along) = self::columns(hull, columns.max(2));
+        breaks.extend(upright);
         let station = |&column: &Column| {
             let x = match column {
                 Column::Line(u) => hull.surface().eval(u, rows[0])[0],
@@ -221,6 +225,6 @@ impl SurfaceMap {
             points
         };
         let points = columns.iter().flat_map(station).collect();
-        Self { rows: rows.len(), points, breaks }
+        Self { rows: rows.len(), points, breaks, more_breaks: above + along }
     }
 }
