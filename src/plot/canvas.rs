@@ -7,6 +7,7 @@
 //! no edge can cover a letter, and no renderer has to know `paint-order`. Subscripts have their own x.
 
 use super::font;
+use super::straight::straightened;
 use std::fmt::Write;
 
 /// How a line is drawn.
@@ -111,32 +112,6 @@ impl Rectangle {
 pub(super) struct PlacedText {
     pub(super) content: String,
     pub(super) place: Rectangle,
-}
-
-/// How far corners may stand off the sides of an area that leaves them out [mm].
-const STRAIGHT: f64 = 0.02;
-
-/// The corners of an outline, but for those beside straight sides.
-fn straightened(outline: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let Some((&first, rest)) = outline.split_first() else { return Vec::new() };
-    let (mut kept, mut from) = (vec![first], 0);
-    for k in 1..rest.len() {
-        let (a, b) = (outline[from], outline[k + 1]);
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let length = along[0].hypot(along[1]);
-        let off = |p: &[f64; 2]| {
-            let by = [p[0] - a[0], p[1] - a[1]];
-            let across = (along[0] * by[1] - along[1] * by[0]).abs();
-            // A corner that turns back is one.
-            across > STRAIGHT * length || along[0] * by[0] + along[1] * by[1] > length * length
-        };
-        if outline[from + 1..=k].iter().any(off) {
-            kept.push(outline[k]);
-            from = k;
-        }
-    }
-    kept.extend(rest.last());
-    kept
 }
 
 /// The drawing under construction.
@@ -292,7 +267,7 @@ impl Canvas {
     }
 
     /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours. Corners are rounded to a hundredth
-    /// of a millimetre, and those that lie within [`STRAIGHT`] of a side left out: both are less than the hair.
+    /// of a millimetre, and those that lie beside a side left out: both are less than the hair.
     pub(super) fn edged_areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str) {
         if areas.is_empty() {
             return;
@@ -417,7 +392,8 @@ impl Canvas {
 
     /// The finished document.
     pub(super) fn finish(self, title: &str) -> String {
-        let ground = format!("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", number(self.width), number(self.height));
+        let ground =
+            format!("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", number(self.width), number(self.height));
         self.finish_on(title, &ground)
     }
 

@@ -153,7 +153,14 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan { record, combs, title: "BODY PLAN", scale: format!("1:{n}"), heights: "waterlines by z [m] above the base line", room: paper };
+    let plan = Plan {
+        record,
+        combs,
+        title: "BODY PLAN",
+        scale: format!("1:{n}"),
+        heights: "waterlines by z [m] above the base line",
+        room: paper,
+    };
     let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
     let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
@@ -200,7 +207,14 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, combs, title: "HALF-BREADTH PLAN", scale, heights: "waterlines by z [m] above the base line", room: paper };
+    let plan = Plan {
+        record,
+        combs,
+        title: "HALF-BREADTH PLAN",
+        scale,
+        heights: "waterlines by z [m] above the base line",
+        room: paper,
+    };
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
     // What is left of the height stands above and below.
     let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
@@ -355,7 +369,11 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     );
     canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.2, Anchor::Middle));
     let words = TextStyle::new(LETTERS, Anchor::Middle);
-    canvas.text([0.5 * plan.room[0], plan.room[1] - 12.5], &format!("{}    {}", station_words(plan.record), plan.heights), &words);
+    canvas.text(
+        [0.5 * plan.room[0], plan.room[1] - 12.5],
+        &format!("{}    {}", station_words(plan.record), plan.heights),
+        &words,
+    );
     let y = plan.room[1] - 6.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut x = 10.0;

@@ -55,8 +55,7 @@ impl FairingCombs {
         let planes = Planes::with_defaults(&record.after);
         let angle = planes.diagonal_angle;
         let mut buttocks: Vec<Cut> = planes.buttocks.iter().map(|&y| Cut::Buttock { y }).collect();
-        let mut diagonals: Vec<Cut> =
-            planes.diagonals.iter().map(|&height| Cut::Diagonal { height, angle }).collect();
+        let mut diagonals: Vec<Cut> = planes.diagonals.iter().map(|&height| Cut::Diagonal { height, angle }).collect();
         let station = |k: usize| super::fairing::station_cut(record, record.lines.stations[k].x);
         let waterline = |k: usize| Cut::Waterline { z: record.lines.waterlines[k] };
         let cuts: Vec<Cut> = if chosen.is_empty() {

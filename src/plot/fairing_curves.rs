@@ -6,8 +6,8 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
-use super::fairing_combs::{FairingCombs, TEETH};
 use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
+use super::fairing_combs::{FairingCombs, TEETH};
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
@@ -215,7 +215,10 @@ fn panel(
     let drawn = [&record.before, &record.after].map(|hull| curves(hull, line.cut, 1e-4 * breadth_of(hull)));
     let k = along.axis();
     let all = || drawn.iter().flatten().flatten();
-    let across = Range::of(all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))), (LONGEST + 1.0) / (upper.width() - 2.0 * LONGEST - 2.0));
+    let across = Range::of(
+        all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))),
+        (LONGEST + 1.0) / (upper.width() - 2.0 * LONGEST - 2.0),
+    );
     let heights = Range::of(all().map(|p| p[1]).chain(line.offsets.iter().map(|c| c.before)), 0.02);
     // Combs stand on the convex side of the line: they need room above it, and under hollows.
     let room = (LONGEST + 1.0).min(0.3 * upper.height());

@@ -26,7 +26,10 @@ type Project = fn(&Cut, [f64; 3]) -> [f64; 2];
 /// # Errors
 /// [`PlotError::Chart`] for a hull without buttocks.
 pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(record, combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]])?.finish("fairing-buttocks") })
+    Ok(Svg {
+        text: compose(record, combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]])?
+            .finish("fairing-buttocks"),
+    })
 }
 
 /// Diagonals in their true shape, before and after.
@@ -38,7 +41,10 @@ pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet
         Cut::Diagonal { height, .. } => [p[0], p[1].hypot(p[2] - height)],
         _ => [p[0], p[1]],
     };
-    Ok(Svg { text: compose(record, combs, sheet, "DIAGONALS IN TRUE SHAPE", &combs.diagonals, expanded)?.finish("fairing-diagonals") })
+    Ok(Svg {
+        text: compose(record, combs, sheet, "DIAGONALS IN TRUE SHAPE", &combs.diagonals, expanded)?
+            .finish("fairing-diagonals"),
+    })
 }
 
 /// Name of a plane: its distance or height.

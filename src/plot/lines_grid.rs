@@ -110,7 +110,8 @@ impl LinesGrid {
                 let found = plane(x, numeral(halves), Cut::Station { x });
                 // An end of the hull that is a plane at its waterlines alone goes in and out of that plane.
                 let slack = INSIDE * (length[1] - length[0]);
-                let inward = [(length[0], slack), (length[1], -slack)].into_iter().find(|(end, _)| (x - end).abs() <= slack);
+                let inward =
+                    [(length[0], slack), (length[1], -slack)].into_iter().find(|(end, _)| (x - end).abs() <= slack);
                 let inside = inward.map(|(_, by)| plane(x, numeral(halves), Cut::Station { x: x + by }));
                 inside.filter(|inside| (1..found.curves.len()).contains(&inside.curves.len())).unwrap_or(found)
             })
@@ -135,11 +136,8 @@ impl LinesGrid {
         // Those of the tables of heights.
         let distances = default_buttocks(hull);
         let buttock_spacing = distances.first().copied().unwrap_or(0.5 * p.breadth);
-        let buttocks = distances
-            .into_iter()
-            .enumerate()
-            .map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y }))
-            .collect();
+        let buttocks =
+            distances.into_iter().enumerate().map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y })).collect();
         let diagonal_angle = p.draught.atan2(0.5 * p.breadth);
         let diagonals = [0.7, 1.0, 1.3]
             .into_iter()

@@ -39,6 +39,7 @@ mod sectional_area;
 mod sections;
 mod sheet;
 mod smoothing;
+mod straight;
 mod surface_map;
 mod suspects;
 mod table_sheet;

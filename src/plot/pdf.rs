@@ -70,7 +70,12 @@ impl Read<'_> {
     }
 
     /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of it.
-    fn draw_framed(&self, surface: &mut Surface<'_>, [sheet, paper]: [Sheet; 2], corner: [f64; 2]) -> Result<(), PlotError> {
+    fn draw_framed(
+        &self,
+        surface: &mut Surface<'_>,
+        [sheet, paper]: [Sheet; 2],
+        corner: [f64; 2],
+    ) -> Result<(), PlotError> {
         let frame = framed(sheet, paper, &self.titles);
         place(surface, &png::tree(frame.as_str())?, corner)?;
         let [width, height] = self.size;

@@ -3,8 +3,8 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::{FigureInputs, caption, outline};
 use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
+use super::{FigureInputs, caption, outline};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].

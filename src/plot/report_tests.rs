@@ -71,7 +71,14 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
         }
         let draught = hull.particulars().draught;
         let table = CurvesOfForm::new(&hull, &[draught], &Conventions::default());
-        let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
+        let inputs = FigureInputs {
+            hull: &hull,
+            before: None,
+            design: &table.rows[0],
+            curves: &table,
+            source: None,
+            dense: None,
+        };
         found.extend(faults(&format!("{} bonjean", hull.name()), &bonjean::compose(&inputs).unwrap()));
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
@@ -110,7 +117,10 @@ fn figures_of_faired_tables_keep_their_text_apart() {
             ("long arrows", fairing_arrows_long::compose(&record, sheet)),
             ("body plan", fairing::body_plan(&record, &combs, sheet)),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
-            ("buttocks", fairing_long::compose(&record, &combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]])),
+            (
+                "buttocks",
+                fairing_long::compose(&record, &combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]]),
+            ),
             ("suspects", fairing_suspects::compose(&record, sheet).map(Option::unwrap)),
             ("waterlines", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap())),
             ("stations", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap())),

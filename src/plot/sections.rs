@@ -42,6 +42,10 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));
     let view = View::new([centre, size[1].ceil() - BOTTOM_ROOM - 6.0], scale);
     body_plan::draw(&mut canvas, inputs, &grid, &view, (letters / 0.9).max(2.4));
-    canvas.text([size[0].ceil() - 4.0, size[1].ceil() - 2.8], &caption::program(), &TextStyle::new(letters, Anchor::End));
+    canvas.text(
+        [size[0].ceil() - 4.0, size[1].ceil() - 2.8],
+        &caption::program(),
+        &TextStyle::new(letters, Anchor::End),
+    );
     Ok(canvas)
 }

@@ -105,7 +105,11 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     let lines = [numbered(titles, paper), titles.source.to_owned(), stamped(titles)];
     for (k, line) in lines.iter().enumerate() {
         let fitted = ((frame.right - columns[1] - 6.0) / wide(line, LETTERS).max(1.0)).min(1.0);
-        canvas.text([columns[1] + 3.0, top + 4.0 + 5.0 * k as f64], line, &TextStyle { size: LETTERS * fitted, ..small });
+        canvas.text(
+            [columns[1] + 3.0, top + 4.0 + 5.0 * k as f64],
+            line,
+            &TextStyle { size: LETTERS * fitted, ..small },
+        );
     }
     Svg { text: canvas.finish(titles.title) }
 }

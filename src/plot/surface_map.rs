@@ -108,7 +108,11 @@ impl SurfaceMapKind {
             let all: Ranges = Box::new(|_, _| vec![[f64::NEG_INFINITY, f64::INFINITY]]);
             let dark: Ranges = Box::new(|low, high| {
                 let first = (0.5 * (low - 1.0)).ceil() as i64;
-                (first..).map(|m| 2.0 * m as f64).take_while(|from| *from <= high).map(|from| [from, from + 1.0]).collect()
+                (first..)
+                    .map(|m| 2.0 * m as f64)
+                    .take_while(|from| *from <= high)
+                    .map(|from| [from, from + 1.0])
+                    .collect()
             });
             return vec![(self.colour(1), all), (self.colour(0), dark)];
         }
@@ -264,10 +268,12 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
                 let corners = cell(i, j);
                 let (mut whole, mut parts) = (false, Vec::new());
                 if let Some(corners) = corners {
-                    let (low, top) = corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(c.1), b.max(c.1)));
+                    let (low, top) =
+                        corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(c.1), b.max(c.1)));
                     let ranges = ranges(low, top);
                     whole = ranges.iter().any(|[from, to]| *from <= low && top <= *to);
-                    parts = if whole { Vec::new() } else { ranges.iter().map(|range| clipped(&corners, *range)).collect() };
+                    parts =
+                        if whole { Vec::new() } else { ranges.iter().map(|range| clipped(&corners, *range)).collect() };
                 }
                 if whole {
                     run.get_or_insert(i);
@@ -314,8 +320,10 @@ fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usiz
     for found in &map.breaks {
         let mut runs: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
         for [a, b] in map.across(found) {
-            let jump = full > 0.0 && a.curvature.zip(b.curvature).is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= 1.0);
-            let angle = a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
+            let jump = full > 0.0
+                && a.curvature.zip(b.curvature).is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= 1.0);
+            let angle =
+                a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
             let knuckle = found.line == KnotLine::Knuckle && angle >= KNUCKLE;
             let place = chart.place([a.at[0], a.girth]);
             for (run, (here, pen)) in runs.iter_mut().zip([(jump && !knuckle, &JUMP), (knuckle, &KNUCKLE_LINE)]) {

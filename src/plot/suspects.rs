@@ -8,8 +8,8 @@
 mod points;
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::sheet::LETTERS;
 use super::scale::{decimals, multiples, nice_step};
+use super::sheet::LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::{Suspect, Suspects, height_grid};
 use crate::hull::OffsetTable;

@@ -48,7 +48,10 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
             coefficient("C_B", design.block_coefficient),
             coefficient("C_P", design.prismatic_coefficient)
         ),
-        format!("∇ {:.1} m³    Δ {:.1} t    ρ {:.3} t/m³", design.displacement_volume, design.displacement_mass, inputs.curves.conventions.density),
+        format!(
+            "∇ {:.1} m³    Δ {:.1} t    ρ {:.3} t/m³",
+            design.displacement_volume, design.displacement_mass, inputs.curves.conventions.density
+        ),
     ];
     let right_column = [
         format!("sheet {}, moulded, metres", scales.sheet.as_str()),
@@ -59,7 +62,10 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         caption::program(),
     ];
     let style = TextStyle::new(LETTERS, Anchor::Start);
-    let columns = [(&left_column, left, SPLIT * SIZE[0] - 4.0), (&right_column, block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0)];
+    let columns = [
+        (&left_column, left, SPLIT * SIZE[0] - 4.0),
+        (&right_column, block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0),
+    ];
     for (column, x, room) in columns {
         for (row, text) in column.iter().enumerate() {
             // Long names of files are set smaller rather than over the edge.
@@ -84,11 +90,11 @@ pub(super) fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
 }
 
 /// Height of a row of the table [mm].
-const ROW: f64 = 4.7;
+const ROW: f64 = 4.4;
 /// Room between the columns of the table [mm].
 const APART: f64 = 1.8;
 /// Waterlines past which a table may leave out every second of them.
-const MANY: usize = 10;
+const MANY: usize = 8;
 /// Width of its first column [mm].
 const FIRST_COLUMN: f64 = 29.0;
 

@@ -26,6 +26,7 @@ mod sanity;
 mod self_test;
 mod source;
 mod validate;
+mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use convert::{Converted, convert_file, convert_table};

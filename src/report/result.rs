@@ -9,7 +9,8 @@ use super::failure::{Failure, problem};
 use super::generate::manifest_entry;
 use super::source::{read_bytes, utf8};
 use crate::exchange::{
-    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_input, read_manifest_outputs,
+    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_input,
+    read_manifest_outputs,
 };
 use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
@@ -215,7 +216,15 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
         }));
     }
-    Ok(JobResult { draughts, fairing, changes, notes, origin, folder: Some(folder), ..bare(hull, conventions, reader.inputs) })
+    Ok(JobResult {
+        draughts,
+        fairing,
+        changes,
+        notes,
+        origin,
+        folder: Some(folder),
+        ..bare(hull, conventions, reader.inputs)
+    })
 }
 
 /// The draughts of `hydrostatics.csv`.

@@ -11,14 +11,15 @@ use super::failure::Failure;
 use super::page::conventions_line;
 use super::result::JobResult;
 use super::result_files::ReportSettings;
-use super::result_page::{Table, condition, constraints, verdict};
+use super::result_page::{Table, condition, constraints};
+use super::verdict::verdict;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
 use crate::plot::{
-    CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure, convergence_figure, deviation_figure,
-    fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
-    fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_waterlines, pareto_figure,
-    smoothing_figure, surface_map, table_figure,
+    CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
+    convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
+    fairing_diagonals, fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects,
+    fairing_waterlines, pareto_figure, smoothing_figure, surface_map, table_figure,
 };
 
 /// A figure of a report.
@@ -297,7 +298,12 @@ struct Shared {
 }
 
 /// What is drawn of a result.
-fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>, shared: &'a Shared, chosen: &'a [CombLine]) -> Vec<Job<'a>> {
+fn jobs<'a>(
+    result: &'a JobResult,
+    inputs: &'a FigureInputs<'a>,
+    shared: &'a Shared,
+    chosen: &'a [CombLine],
+) -> Vec<Job<'a>> {
     let Shared { maps, combs } = shared;
     let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
     let mut jobs: Vec<Job<'a>> =

@@ -47,8 +47,16 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
-    let (source, dense) = (result.origin.as_ref().or(result.inputs.first()).map_or(String::new(), source_words), OnceLock::new());
-    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves, source: Some(&source), dense: Some(&dense) };
+    let (source, dense) =
+        (result.origin.as_ref().or(result.inputs.first()).map_or(String::new(), source_words), OnceLock::new());
+    let inputs = FigureInputs {
+        hull,
+        before: start,
+        design: &design,
+        curves: &curves,
+        source: Some(&source),
+        dense: Some(&dense),
+    };
     let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing

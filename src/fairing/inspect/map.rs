@@ -166,7 +166,10 @@ impl SurfaceMap {
             let girth = |k: usize| self.points[k.clamp(first, last)].girth;
             let high = girth(k + 1) - girth(k.saturating_sub(1));
             let along = |k: usize| self.points[k].at[0];
-            let beside = [k.checked_sub(self.rows).unwrap_or(k), Some(k + self.rows).filter(|&n| n < self.points.len()).unwrap_or(k)];
+            let beside = [
+                k.checked_sub(self.rows).unwrap_or(k),
+                Some(k + self.rows).filter(|&n| n < self.points.len()).unwrap_or(k),
+            ];
             Some((point.curvature?[which].abs(), high * (along(beside[1]) - along(beside[0])).abs()))
         };
         let mut sizes: Vec<(f64, f64)> = self.points.iter().enumerate().filter_map(weighted).collect();

@@ -115,10 +115,8 @@ fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>, usize) {
     let (low, high) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let inside = INSIDE * (high - low);
     let (breaks, more) = upright_breaks(hull, high - low);
-    let breaks: Vec<_> = breaks
-        .into_iter()
-        .filter(|(_, x, _)| *x > low + 2.0 * inside && *x < high - 2.0 * inside)
-        .collect();
+    let breaks: Vec<_> =
+        breaks.into_iter().filter(|(_, x, _)| *x > low + 2.0 * inside && *x < high - 2.0 * inside).collect();
     let mut edges = vec![low + inside];
     edges.extend(breaks.iter().map(|(_, x, _)| *x));
     edges.push(high - inside);
