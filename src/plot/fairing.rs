@@ -244,7 +244,10 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };
         let preferred = Preference { part, crossings: 3, beside: false };
-        placer.name_curve(&mut canvas, curve, &format!("z {z:.3} m"), &style, preferred, &window);
+        let name = short(*z);
+        if !placer.name_curve(&mut canvas, curve, &name, &style, preferred, &window) {
+            placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
+        }
     }
     let words = TextStyle::new(3.2, Anchor::Start);
     canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
@@ -348,6 +351,12 @@ pub(super) fn station_words(record: &FairRecord) -> String {
         ),
         _ => "stations by x [m] forward of AP".to_owned(),
     }
+}
+
+/// A number to millimetres, as short as it can be written.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Title, scales and key.

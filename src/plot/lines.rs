@@ -54,11 +54,11 @@ impl Extents {
     }
 
     /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that neither
-    /// grows at the cost of the other; a tenth of it when the table does not fit.
+    /// grows at the cost of the other; a third of it when the table does not fit.
     fn merit(&self, layout: &Layout) -> f64 {
         let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
         let table = layout.table.width() >= self.table[0] && layout.table.height() >= self.table[1];
-        long * long * body * if table { 1.0 } else { 0.1 }
+        long * long * body * if table { 1.0 } else { 0.35 }
     }
 
     /// Height of the body plan with its names at 1 : `scale` [mm].

@@ -8,7 +8,7 @@ use crate::hull::{Cut, Face, Hull, default_buttocks};
 const INTERVALS: i32 = 20;
 /// Stations closer than this to the perpendiculars stand at half intervals [intervals].
 const HALF_STATIONS: i32 = 2;
-/// How far inside a station at an end of the hull is cut where it would be in pieces, in lengths of the hull.
+/// How near a station is to an end of the hull that it stands at, in lengths of the hull.
 const INSIDE: f64 = 1e-4;
 /// Deviation of a section from surface and plane [m].
 const TOLERANCE: f64 = 1e-6;
@@ -87,6 +87,19 @@ fn station_numbers(aft: f64, fore: f64) -> Vec<i32> {
         .collect()
 }
 
+/// A station at an end of the hull that is a plane at its waterlines alone goes in and out of that plane: its longest piece stays.
+fn in_one_piece(mut plane: GridPlane) -> GridPlane {
+    if plane.on_side > 1 {
+        let length =
+            |curve: &Vec<[f64; 3]>| curve.windows(2).map(|w| (w[1][1] - w[0][1]).hypot(w[1][2] - w[0][2])).sum::<f64>();
+        plane.curves.truncate(plane.on_side);
+        plane.curves.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        plane.curves.truncate(1);
+        plane.on_side = 1;
+    }
+    plane
+}
+
 impl LinesGrid {
     /// Cuts the hull; chords of the curves stay within `deviation` [m] of them.
     pub(super) fn new(hull: &Hull, deviation: f64) -> Self {
@@ -108,12 +121,8 @@ impl LinesGrid {
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
                 let found = plane(x, numeral(halves), Cut::Station { x });
-                // An end of the hull that is a plane at its waterlines alone goes in and out of that plane.
-                let slack = INSIDE * (length[1] - length[0]);
-                let inward =
-                    [(length[0], slack), (length[1], -slack)].into_iter().find(|(end, _)| (x - end).abs() <= slack);
-                let inside = inward.map(|(_, by)| plane(x, numeral(halves), Cut::Station { x: x + by }));
-                inside.filter(|inside| (1..found.curves.len()).contains(&inside.curves.len())).unwrap_or(found)
+                let ended = length.iter().any(|end| (x - end).abs() <= INSIDE * (length[1] - length[0]));
+                if ended { in_one_piece(found) } else { found }
             })
             .collect();
         let waterline_spacing = nice_step(p.draught, 8.0);

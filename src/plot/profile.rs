@@ -132,7 +132,7 @@ pub(super) fn draw_profile(
         let y = view.at([0.0, plane.at])[1];
         let name = if style.narrow { plane.name.clone() } else { grid.waterline_label(plane) };
         draw_level(canvas, &mut names, &frame, y, pen, &name, text_size);
-        if plane.name == design.name {
+        if plane.name == design.name && !style.narrow {
             name_assumed(canvas, inputs, &mut names, &frame, y, text_size);
         }
     }

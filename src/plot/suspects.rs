@@ -372,7 +372,9 @@ pub(super) fn small_plot(
 }
 
 fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [[f64; 2]; 2]) {
-    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    // Nine pixels where the sheet is 1200 wide.
+    let size = (0.0076 * canvas.sheet().width()).clamp(2.4, LETTERS);
+    let style = TextStyle::new(size, Anchor::Middle);
     let thin = Pen::new(0.08, "#c8c8c8");
     for (axis, [low, high]) in ranges.into_iter().enumerate() {
         let step = nice_step(high - low, 4.0);
@@ -382,17 +384,17 @@ fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [
             if axis == 0 {
                 let x = frame.left + share * frame.width();
                 canvas.line([x, frame.top], [x, frame.bottom], &thin);
-                canvas.text([x, frame.bottom + 2.6], &text, &style);
+                canvas.text([x, frame.bottom + 0.4 + 0.8 * size], &text, &style);
             } else {
                 let y = frame.bottom - share * frame.height();
                 canvas.line([frame.left, y], [frame.right, y], &thin);
-                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(LETTERS, Anchor::End));
+                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(size, Anchor::End));
             }
         }
     }
     canvas.rectangle(frame, &Pen::new(0.18, "#000000"));
-    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 6.4], names[0], &style);
-    canvas.text([frame.left, frame.top - 2.2], names[1], &TextStyle::new(LETTERS, Anchor::Middle));
+    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 0.4 + 2.0 * size], names[0], &style);
+    canvas.text([frame.left, frame.top - 0.7 * size], names[1], &TextStyle::new(size, Anchor::Middle));
 }
 
 #[cfg(test)]
