@@ -221,7 +221,7 @@ impl Canvas {
         }
     }
 
-    #[cfg(test)]
+    /// The whole drawing.
     pub(super) fn sheet(&self) -> Rectangle {
         Rectangle::new(0.0, 0.0, self.width, self.height)
     }
