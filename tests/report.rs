@@ -313,7 +313,7 @@ fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
 fn letters(svg: &str) -> Vec<f64> {
     let number = |text: &str, key: &str| -> Option<f64> {
         let rest = &text[text.find(key)? + key.len()..];
-        rest[..rest.find(['"', ')', ' '])?].parse().ok()
+        rest[..rest.find(['"', ')', ' '])?].trim_end_matches("mm").parse().ok()
     };
     let width = number(svg, " width=\"").unwrap();
     let (mut scales, mut sizes) = (vec![1.0], Vec::new());

@@ -190,7 +190,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.add_curve(&points);
     }
     canvas.end_group();
-    draw_level(&mut canvas, &mut placer, &frame, height(draught), &caption::design_waterline(inputs), 2.6);
+    draw_level(&mut canvas, &mut placer, &frame, height(draught), &caption::design_waterline(inputs), 2.7);
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
         placer.name_curve(

@@ -25,7 +25,9 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let scale = drawing_scale(extent[0], paper[0] - rooms[0]).max(drawing_scale(extent[1], paper[1] - rooms[1]));
     let millimetres = 1000.0 / f64::from(scale);
     let grid = LinesGrid::new(hull, DEVIATION / millimetres);
-    let size = [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]];
+    // What fits to rounding does not grow by a millimetre.
+    let size =
+        [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]].map(|side| side - 1e-6);
     let mut canvas = Canvas::new(size[0].ceil(), size[1].ceil());
     let centre = 0.5 * size[0].ceil();
     let letters = LETTERS * size[0].ceil() / Sheet::A3.size()[0];
