@@ -30,7 +30,7 @@ const WORDS: f64 = 6.0;
 const STRIP: f64 = 0.34;
 const AXIS: f64 = 8.0;
 /// Longest tooth of a comb \[mm\].
-const LONGEST: f64 = 9.0;
+const LONGEST: f64 = 7.0;
 /// Offsets of a line that is shown, at least.
 const LEAST: usize = 4;
 const BAR: Pen = Pen::new(0.35, "#9c9c9c");
@@ -220,9 +220,9 @@ fn panel(
         (LONGEST + 1.0) / (upper.width() - 2.0 * LONGEST - 2.0),
     );
     let heights = Range::of(all().map(|p| p[1]).chain(line.offsets.iter().map(|c| c.before)), 0.02);
-    // Combs stand on the convex side of the line: they need room above it, and under hollows.
+    // Combs stand on the convex side of the line: they need room above it, and as much under hollows.
     let room = (LONGEST + 1.0).min(0.3 * upper.height());
-    let below = 0.5 * room;
+    let below = room;
     let on = |p: [f64; 3]| {
         [
             upper.left + across.share(p[k]) * upper.width(),
