@@ -419,7 +419,16 @@ fn files_and_figures_of_a_canoe_body() {
     let design = row(&hull, 2.0);
     let curves = CurvesOfForm::new(&hull, &[0.4, 2.0, 4.0], &conventions);
     for figure in Figure::ALL {
-        let drawn = figure.draw(&FigureInputs { hull: &hull, before: None, design: &design, curves: &curves }).unwrap();
+        let drawn = figure
+            .draw(&FigureInputs {
+                hull: &hull,
+                before: None,
+                design: &design,
+                curves: &curves,
+                source: None,
+                dense: None,
+            })
+            .unwrap();
         assert!(drawn.as_str().contains("<svg"), "{}", figure.key());
     }
     // Waterlines are sections: above the ends of the keel one branch from end to end, below them one between its ends.

@@ -16,7 +16,8 @@ use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
 
 /// Small pictures: what is tested here does not depend on their size.
-const SETTINGS: ReportSettings = ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3 };
+const SETTINGS: ReportSettings =
+    ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3, combs: String::new(), date: None };
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
@@ -305,6 +306,57 @@ fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
     // The pictures beside the document stay as they are.
     let small = report_outputs(&result, &SETTINGS).unwrap();
     assert_eq!(text(&files, "sections.svg"), text(&small, "sections.svg"));
+}
+
+/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide, subscripts left aside: their attribute times the scale of the groups
+/// around them.
+fn letters(svg: &str) -> Vec<f64> {
+    let number = |text: &str, key: &str| -> Option<f64> {
+        let rest = &text[text.find(key)? + key.len()..];
+        rest[..rest.find(['"', ')', ' '])?].trim_end_matches("mm").parse().ok()
+    };
+    let width = number(svg, " width=\"").unwrap();
+    let (mut scales, mut sizes) = (vec![1.0], Vec::new());
+    for element in svg.split('<').skip(1) {
+        let scale = *scales.last().unwrap();
+        if element.starts_with("g ") || element.starts_with("g>") {
+            scales.push(scale * number(element, "scale(").unwrap_or(1.0));
+        } else if element.starts_with("/g>") {
+            scales.pop();
+        } else if element.starts_with("text ") {
+            sizes.extend(number(element, "font-size=\"").map(|size| size * scale * 1200.0 / width));
+        }
+    }
+    sizes
+}
+
+#[test]
+fn letters_are_nine_pixels_high_where_a_figure_is_1200_wide() {
+    for file in faired().1.iter().filter(|file| file.name.ends_with(".svg")) {
+        let sizes = letters(std::str::from_utf8(&file.contents).unwrap());
+        let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(!sizes.is_empty() && least >= 8.95, "{}: {least:.2} pixels", file.name);
+    }
+}
+
+#[test]
+fn lines_with_combs_are_chosen_by_their_names() {
+    let (path, files) = faired();
+    let result = read_result(path).unwrap();
+    let outputs = |combs: &str| report_outputs(&result, &ReportSettings { combs: combs.to_owned(), ..SETTINGS });
+    let chosen = outputs("waterline 3.125, station -20").unwrap();
+    assert!(text(&chosen, "fairing-buttocks.svg").contains("no combs"));
+    assert!(text(&chosen, "fairing-body-plan.svg").contains("combs before and after: 10 mm = "));
+    assert!(text(&chosen, "fairing-body-plan.svg").len() < text(files, "fairing-body-plan.svg").len());
+    for (words, part) in [
+        ("waterline 3", "'waterline 3' is no waterline of the table"),
+        ("station x", "'station x' is no station of the table; there are -50, "),
+        ("frame 4", "expected station, waterline, buttock or diagonal"),
+        ("buttock", "expected a distance in metres, as buttock 2.5"),
+    ] {
+        let message = outputs(words).unwrap_err().to_string();
+        assert!(message.contains(part), "{message}");
+    }
 }
 
 /// Elements by kind and the words of a figure; numbers only where `numbers`.

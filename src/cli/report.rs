@@ -23,6 +23,12 @@ pub(super) struct Arguments {
     /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
     #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
     sheet: Sheet,
+    /// Lines of a faired table that bear combs, by kind and name or distance in metres: "station 5, waterline 2.0, buttock 1.5, diagonal 3"
+    #[arg(long, value_name = "LINES", default_value = "", hide_default_value = true)]
+    combs: String,
+    /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the same bytes
+    #[arg(long, value_parser = date, value_name = "TEXT")]
+    date: Option<String>,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not
     #[arg(long)]
     force: bool,
@@ -37,7 +43,7 @@ space, and opens without a network; report.pdf holds them at true size, each she
 Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
 curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, suspects, moves as a map and as arrows \
 in three views, the lines that moved most with the tolerances of their offsets, stations, waterlines, buttocks and diagonals before and \
-after with combs at one scale, moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
+after with combs (one scale for stations, one for lines along the ship), moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 
@@ -51,6 +57,12 @@ fn dpi(text: &str) -> Result<f64, String> {
 fn sheet(text: &str) -> Result<Sheet, String> {
     let found = Sheet::ALL.into_iter().find(|sheet| sheet.as_str().eq_ignore_ascii_case(text));
     found.ok_or_else(|| "expected A3 or A1".to_owned())
+}
+
+fn date(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    let fits = (1..=20).contains(&text.chars().count()) && !text.chars().any(char::is_control);
+    if fits { Ok(text.to_owned()) } else { Err("expected 1 to 20 characters, as 2026-03-31".to_owned()) }
 }
 
 /// Whether two paths are one folder.
@@ -71,7 +83,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder.display()
         )));
     }
-    let files = report_outputs(&result, &ReportSettings { dots_per_inch: arguments.dpi, sheet: arguments.sheet })?;
+    let settings = ReportSettings {
+        dots_per_inch: arguments.dpi,
+        sheet: arguments.sheet,
+        combs: arguments.combs.clone(),
+        date: arguments.date.clone(),
+    };
+    let files = report_outputs(&result, &settings)?;
     write_run(&folder, &files, arguments.force)?;
     if arguments.quiet {
         return Ok(());

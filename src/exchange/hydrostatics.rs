@@ -23,6 +23,9 @@ pub(super) struct ConventionsRecord {
     keel_thickness: Option<f64>,
     #[serde(rename = "KG")]
     kg: Option<f64>,
+    /// Written only where it is so.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    design_draught_assumed: bool,
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -82,6 +85,7 @@ impl From<&Conventions> for ConventionsRecord {
             },
             keel_thickness: Some(c.keel_thickness),
             kg: c.centre_of_gravity_height,
+            design_draught_assumed: c.draught_assumed,
         }
     }
 }
@@ -112,6 +116,7 @@ impl From<ConventionsRecord> for Conventions {
             },
             keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
             centre_of_gravity_height: record.kg,
+            draught_assumed: record.design_draught_assumed,
         }
     }
 }
@@ -188,6 +193,7 @@ mod tests {
                 shell,
                 keel_thickness: 0.015,
                 centre_of_gravity_height: Some(7.5),
+                draught_assumed: lcb_reference == LcbReference::Midship,
             };
             let text = serde_json::to_string(&ConventionsRecord::from(&conventions)).unwrap();
             let back: ConventionsRecord = serde_json::from_str(&text).unwrap();

@@ -49,6 +49,18 @@ pub fn read_manifest_outputs(text: &str) -> Vec<ManifestEntry> {
     }
 }
 
+/// The file that a manifest says was read; none when the text is no manifest of this program.
+#[must_use]
+pub fn read_manifest_input(text: &str) -> Option<ManifestEntry> {
+    #[derive(Deserialize)]
+    struct Read {
+        program: String,
+        input: ManifestEntry,
+    }
+    let read: Read = serde_json::from_str(text).ok()?;
+    (read.program == env!("CARGO_PKG_NAME")).then_some(read.input)
+}
+
 /// SHA-256 in hexadecimal.
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {

@@ -120,6 +120,14 @@ pub struct StatedParticulars {
     pub depth: Option<f64>,
 }
 
+impl StatedParticulars {
+    /// Whether there is a design draught that can be one: a positive number.
+    #[must_use]
+    pub fn states_draught(&self) -> bool {
+        self.draught.is_some_and(|draught| draught.is_finite() && draught > 0.0)
+    }
+}
+
 impl From<&PrincipalParticulars> for StatedParticulars {
     /// All of them stated.
     fn from(p: &PrincipalParticulars) -> Self {

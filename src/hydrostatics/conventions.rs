@@ -103,6 +103,8 @@ pub struct Conventions {
     pub keel_thickness: f64,
     /// Height of the centre of gravity above the base line \[m\], when known; GM and MTC use it.
     pub centre_of_gravity_height: Option<f64>,
+    /// Whether the design draught was assumed, because the table that the hull was laid through states none.
+    pub draught_assumed: bool,
 }
 
 impl Default for Conventions {
@@ -115,6 +117,7 @@ impl Default for Conventions {
             shell: Shell::None,
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
+            draught_assumed: false,
         }
     }
 }
@@ -137,7 +140,7 @@ impl Conventions {
             Some(height) => ("GM_L", format!("KG = {height} m")),
             None => ("BM_L", "KG not given".to_owned()),
         };
-        vec![
+        let mut list = vec![
             say("frame", "x forward from the aft perpendicular AP, z up from the moulded base line; metres"),
             say("water", &format!("density {} t/m^3", self.density)),
             say(
@@ -180,7 +183,11 @@ impl Conventions {
                 "sections equal to the largest one within 1e-6 of it over at least 1 % of Lpp; L_E from its fore end to FP, \
                  L_R from AP to its aft end, from the largest section where there is none",
             ),
-        ]
+        ];
+        if self.draught_assumed {
+            list.push(say("design draught", "assumed: the table that the hull was laid through states none"));
+        }
+        list
     }
 }
 

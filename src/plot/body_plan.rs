@@ -1,10 +1,11 @@
 //! The body plan: aft sections on the left, forward sections on the right, the midship section on both sides.
 
+use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference, length};
 use super::lines_grid::{GridPlane, LinesGrid};
+use super::profile::name_assumed;
 use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
-use crate::hull::Hull;
 
 /// Room beside the sections for the names of waterlines [mm].
 pub(super) const SIDE_ROOM: f64 = 28.5;
@@ -42,14 +43,15 @@ impl Half {
 }
 
 /// Draws the body plan around `view`, whose origin is centre line and base line.
-pub(super) fn draw(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, text_size: f64) {
+pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, view: &View, text_size: f64) {
+    let hull = inputs.hull;
     let midship = 0.5 * hull.particulars().length_between_perpendiculars;
     let half_width = grid.half_breadth * view.scale + BEYOND;
     let (top, bottom) = (view.at([0.0, grid.height[1]])[1] - BEYOND, view.at([0.0, grid.height[0]])[1] + BEYOND);
     let [centre, _] = view.origin;
     let frame = Rectangle::new(centre - half_width, top, centre + half_width, bottom);
     canvas.begin_group("body-plan");
-    draw_grid(canvas, grid, view, &frame, text_size);
+    draw_grid(canvas, inputs, grid, view, &frame, text_size);
 
     let mut placer = LabelPlacer::default();
     for text in canvas.texts() {
@@ -133,7 +135,14 @@ fn name_diagonals(
     }
 }
 
-fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
+fn draw_grid(
+    canvas: &mut Canvas,
+    inputs: &FigureInputs,
+    grid: &LinesGrid,
+    view: &View,
+    frame: &Rectangle,
+    text_size: f64,
+) {
     let [centre, base] = view.origin;
     let mut names = LabelPlacer::default();
     let room = frame.grown(SIDE_ROOM + BEYOND);
@@ -147,6 +156,9 @@ fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectang
         names.name_point(canvas, &label, &style, &[[frame.left - 1.0, y]], &room);
         let right = TextStyle { anchor: Anchor::Start, ..style };
         names.name_point(canvas, &label, &right, &[[frame.right + 1.0, y]], &room);
+        if plane.name == design.name {
+            name_assumed(canvas, inputs, &mut names, frame, y, text_size);
+        }
     }
     // Name and distance side by side, in two rows, or the name alone, the same for all.
     let caption = TextStyle { anchor: Anchor::Middle, ..style };

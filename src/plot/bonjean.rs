@@ -5,11 +5,12 @@
 //! scale than lengths: the profile is contracted.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::label::{LabelPlacer, Preference};
 use super::scale::{drawing_scale, nice_step, sheet_scale};
-use super::sheet::ROOM;
+use super::sheet::{LETTERS, ROOM};
 use super::view::{DESIGN, GRID, OUTLINE};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
-use crate::hull::{Hull, SectionalAreaCurve};
+use crate::hull::{Cut, Hull, SectionalAreaCurve};
 
 /// Room at the sides of the profile \[mm\].
 const SIDE: f64 = 26.0;
@@ -112,16 +113,18 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let words = format!(
         "areas: 1 mm = {scale} m² forward of the line of the station    heights 1 : {n}    lengths contracted to 1 : {contracted:.0}    moulded"
     );
-    canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(2.8, Anchor::Middle));
-    let names = TextStyle::new(2.6, Anchor::End);
+    canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(LETTERS, Anchor::Middle));
+    let names = TextStyle::new(LETTERS, Anchor::End);
     for &z in &table.heights {
         let design = (z - p.draught).abs() < 1e-9;
         canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
     }
+    let right = TextStyle::new(LETTERS, Anchor::Start);
+    canvas.text([at(end, p.draught)[0] + 1.5, at(end, p.draught)[1]], "DWL", &right);
     let mut last = f64::INFINITY;
     for &z in &table.heights {
         let y = at(low, z)[1];
-        if last - y >= 3.0 {
+        if last - y >= 3.6 {
             canvas.text([SIDE - 2.0, y], &format!("{z:.2} m"), &names);
             last = y;
         }
@@ -131,15 +134,17 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let deck: Vec<[f64; 2]> = outline::deck_at_side(hull).into_iter().map(|p| at(p[0], p[2])).collect();
     canvas.polyline(&deck, &OUTLINE);
     let curve = Pen::new(0.35, "#0b4a86");
+    let (mut placer, mut numbers) = (LabelPlacer::default(), Vec::new());
     for (k, &x) in table.stations.iter().enumerate() {
-        canvas.line(at(x, bottom), at(x, hull.deck_height(x)), &Pen::new(0.2, "#000000"));
-        let mut points: Vec<[f64; 2]> = Vec::new();
+        let Some(keel) = keel_height(hull, x) else { continue };
+        canvas.line(at(x, keel), at(x, hull.deck_height(x)), &Pen::new(0.2, "#000000"));
+        let mut points: Vec<[f64; 2]> = vec![at(x, keel)];
         let mut add = |z: f64, area: f64| {
             let [px, py] = at(x, z);
             points.push([px + area / scale, py]);
         };
         for (z, row) in levels.iter().zip(&dense.areas) {
-            if let Some(area) = row[k] {
+            if let Some(area) = row[k].filter(|_| *z > keel) {
                 add(*z, area);
             }
         }
@@ -148,25 +153,44 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             add(deck, *area);
         }
         canvas.polyline(&points, &curve);
-        canvas.text([at(x, bottom)[0], floor + 3.4], &k.to_string(), &TextStyle::new(2.6, Anchor::Middle));
+        canvas.text([at(x, bottom)[0], floor + 3.4], &k.to_string(), &TextStyle::new(LETTERS, Anchor::Middle));
+        placer.add_curve(&points);
+        numbers.push(k);
     }
-    canvas.text([at(0.0, bottom)[0], floor + 7.6], "AP", &TextStyle::new(2.6, Anchor::Middle));
-    canvas.text([at(length, bottom)[0], floor + 7.6], "FP", &TextStyle::new(2.6, Anchor::Middle));
+    // Each curve bears the number of its station.
+    let window = Rectangle::new(0.0, TOP - 4.0, ROOM[0], floor);
+    let style = TextStyle::new(LETTERS, Anchor::Middle).coloured(curve.colour).halo();
+    for (curve, k) in numbers.into_iter().enumerate() {
+        let preferred = Preference { part: 0.8, crossings: 1, beside: true };
+        placer.name_curve(&mut canvas, curve, &k.to_string(), &style, preferred, &window);
+    }
+    canvas.text([at(0.0, bottom)[0], floor + 7.6], "AP", &TextStyle::new(LETTERS, Anchor::Middle));
+    canvas.text([at(length, bottom)[0], floor + 7.6], "FP", &TextStyle::new(LETTERS, Anchor::Middle));
     draw_table(&mut canvas, &table, p.draught, floor + 17.0);
-    canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    let words = format!("{}    stations L_PP / 20 = {spacing:.3} m from AP", caption::design_waterline(inputs));
+    canvas.text([10.0, height - 4.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
+    canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)
+}
+
+/// Height of the lowest point of the station at `x` \[m\]; none where there is no station.
+fn keel_height(hull: &Hull, x: f64) -> Option<f64> {
+    let (low, high) = (hull.bottom(), hull.top());
+    let section = hull.section(Cut::Station { x }, 1e-6);
+    let points = section.branches.iter().flat_map(|branch| branch.polyline(1e-3 * (high - low)));
+    points.map(|p| p[2]).reduce(f64::min)
 }
 
 /// Areas of the stations, the highest waterline on top.
 fn draw_table(canvas: &mut Canvas, table: &BonjeanTable, design: f64, top: f64) {
     let columns = table.stations.len() as f64;
-    let (left, first) = (10.0, 24.0);
+    let (left, first) = (10.0, 30.0);
     let width = (ROOM[0] - 2.0 * left - first) / columns;
     let largest = table.areas.iter().flatten().flatten().copied().fold(0.0, f64::max);
     let digits = if largest >= 1000.0 { 0 } else { usize::from(largest >= 100.0) + 2 * usize::from(largest < 100.0) };
-    let style = TextStyle::new(2.5, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     let head = TextStyle { anchor: Anchor::Start, ..style };
-    canvas.text([left, top - 3.0], "AREAS OF SECTIONS, BOTH SIDES [m²]", &TextStyle { size: 2.8, ..head });
+    canvas.text([left, top - 3.0], "AREAS OF SECTIONS, BOTH SIDES [m²]", &TextStyle { size: 3.2, ..head });
     let y = |row: usize| top + ROW * (row as f64 + 0.5);
     canvas.text([left + 1.0, y(0)], "z [m] \\ station", &head);
     for k in 0..table.stations.len() {

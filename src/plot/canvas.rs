@@ -7,6 +7,7 @@
 //! no edge can cover a letter, and no renderer has to know `paint-order`. Subscripts have their own x.
 
 use super::font;
+use super::straight::straightened;
 use std::fmt::Write;
 
 /// How a line is drawn.
@@ -220,7 +221,7 @@ impl Canvas {
         }
     }
 
-    #[cfg(test)]
+    /// The whole drawing.
     pub(super) fn sheet(&self) -> Rectangle {
         Rectangle::new(0.0, 0.0, self.width, self.height)
     }
@@ -265,17 +266,23 @@ impl Canvas {
         let _ = writeln!(self.body, " fill=\"{colour}\"/>");
     }
 
-    /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours.
+    /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours. Corners are rounded to a hundredth
+    /// of a millimetre, and those that lie beside a side left out: both are less than the hair.
     pub(super) fn edged_areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str) {
         if areas.is_empty() {
             return;
         }
         let _ = write!(self.body, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.12\" d=\"");
+        let hundredths = |place: &[f64; 2]| place.map(|c| (100.0 * c).round());
         for area in areas {
-            for (k, [x, y]) in area.iter().enumerate() {
-                let _ = write!(self.body, "{}{} {}", if k == 0 { 'M' } else { 'L' }, number(*x), number(*y));
+            let mut last: Option<[f64; 2]> = None;
+            for place in straightened(area).iter().map(hundredths) {
+                let from = last.unwrap_or_default();
+                let [x, y] = [0, 1].map(|d| number((place[d] - from[d]) / 100.0));
+                let _ = write!(self.body, "{}{x} {y}", if last.is_none() { 'M' } else { 'l' });
+                last = Some(place);
             }
-            self.body.push('Z');
+            self.body.push('z');
         }
         self.body.push_str("\"/>\n");
     }
@@ -384,13 +391,23 @@ impl Canvas {
     }
 
     /// The finished document.
-    pub(super) fn finish(mut self, title: &str) -> String {
+    pub(super) fn finish(self, title: &str) -> String {
+        let ground =
+            format!("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", number(self.width), number(self.height));
+        self.finish_on(title, &ground)
+    }
+
+    /// The finished document without a ground, to be laid over another.
+    pub(super) fn finish_clear(self, title: &str) -> String {
+        self.finish_on(title, "")
+    }
+
+    fn finish_on(mut self, title: &str, ground: &str) -> String {
         self.flush_text();
         let (w, h) = (number(self.width), number(self.height));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n<rect width=\"{w}\" \
-             height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n{ground}{}</svg>\n",
             font::FAMILY,
             escape(title),
             self.body

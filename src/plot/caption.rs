@@ -18,9 +18,28 @@ pub(super) fn conventions(inputs: &FigureInputs) -> String {
         CoefficientLength::Waterline => "L_WL",
     };
     format!(
-        "L_PP {:.2} m   B {:.2} m   T {:.2} m   D {:.2} m   ρ {:.3} t/m³   coefficients on {length}, moulded",
-        p.length_between_perpendiculars, p.breadth, p.draught, p.depth, c.density
+        "L_PP {:.2} m   B {:.2} m   {}   D {:.2} m   ρ {:.3} t/m³   coefficients on {length}, moulded",
+        p.length_between_perpendiculars,
+        p.breadth,
+        draught(inputs),
+        p.depth,
+        c.density
     )
+}
+
+/// ` (assumed)` where the design draught is.
+pub(super) fn assumed(inputs: &FigureInputs) -> &'static str {
+    if inputs.curves.conventions.draught_assumed { " (assumed)" } else { "" }
+}
+
+/// The design draught, `T 7.70 m`, and whether it was assumed.
+pub(super) fn draught(inputs: &FigureInputs) -> String {
+    format!("T {:.2} m{}", inputs.design.draught, assumed(inputs))
+}
+
+/// The design waterline, `DWL 7.70 m`, and whether it was assumed.
+pub(super) fn design_waterline(inputs: &FigureInputs) -> String {
+    format!("DWL {:.2} m{}", inputs.design.draught, assumed(inputs))
 }
 
 /// The title of a chart `width` \[mm\] wide with the name of the ship, and a line of words under it.

@@ -1,5 +1,6 @@
-//! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all combs of a
-//! drawing have one scale, which is printed.
+//! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all combs of one
+//! kind of line have one scale, which is printed. Teeth that are longer than there is room for are left out, the line of the tips is
+//! interrupted there, and an arrow in the direction of the longest of them says so.
 
 use super::canvas::{Canvas, Pen};
 use super::scale::sheet_scale;
@@ -7,21 +8,25 @@ use crate::fairing::inspect::Comb;
 
 /// Length of the tooth whose curvature is printed \[mm\].
 const STATED: f64 = 10.0;
-/// Part of the teeth that are shorter than the usual one.
-const QUANTILE: f64 = 0.75;
-/// Length of the longest tooth of a drawing \[mm\]; longer ones are cut there.
-const LONGEST: f64 = 22.0;
-/// Length of the tooth at [`QUANTILE`], as a part of the longest.
-const USUAL: f64 = 4.0 / 11.0;
+/// Length of the longest tooth of a drawing \[mm\].
+const LONGEST: f64 = 18.0;
+/// Part of the teeth that have room at least.
+const MOST: f64 = 0.9;
+/// Length of a short tooth, as a part of the longest.
+const USUAL: f64 = 0.5;
+/// Every so many teeth are drawn; the tips of all are joined.
+const DRAWN: usize = 3;
 /// Radius of the ring around an inflection \[mm\].
 const RING: f64 = 1.1;
+/// Sides of the head of an arrow \[mm\].
+const HEAD: f64 = 1.6;
 
 /// The scale of the combs of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CombScale {
     /// Curvature of a tooth of [`STATED`] millimetres \[1/m\].
     curvature: f64,
-    /// The longest tooth \[mm\]; longer ones are cut there.
+    /// The longest tooth \[mm\].
     longest: f64,
 }
 
@@ -34,34 +39,38 @@ pub(super) struct CombPens {
 }
 
 impl CombScale {
-    /// The scale at which most teeth of `combs` are short enough for the drawing.
-    pub(super) fn fitting(combs: &[Comb]) -> Self {
-        Self::within(combs, LONGEST)
+    /// The scale at which the part `share` of the teeth of `combs` is short.
+    pub(super) fn fitting<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> Self {
+        Self { curvature: sheet_scale(usual(combs, share), USUAL * LONGEST) * STATED, longest: LONGEST }
     }
 
-    /// The scale for teeth of `longest` at most \[mm\].
-    pub(super) fn within<'a>(combs: impl IntoIterator<Item = &'a Comb>, longest: f64) -> Self {
-        let lengths = combs.into_iter().flat_map(|comb| &comb.teeth).map(|tooth| norm(tooth.tooth));
-        let mut lengths: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
-        lengths.sort_by(f64::total_cmp);
-        let usual = lengths.get((QUANTILE * lengths.len() as f64) as usize).copied().unwrap_or(0.0);
-        Self { curvature: sheet_scale(usual, USUAL * longest) * STATED, longest }
+    /// This scale for teeth of `longest` at most \[mm\], or a smaller one where most teeth of `combs` would be longer.
+    pub(super) fn lowered<'a>(self, combs: impl IntoIterator<Item = &'a Comb>, longest: f64) -> Self {
+        let needed = sheet_scale(usual(combs, MOST), longest) * STATED;
+        Self { curvature: self.curvature.max(needed), longest }
     }
 
-    /// For the sheet: `10 mm = 0.02 1/m, teeth cut at 22 mm`.
+    /// For the sheet: `10 mm = 0.02 1/m`.
     pub(super) fn words(&self) -> String {
         let digits = (0..12).find(|&d| {
             let scaled = self.curvature * 10f64.powi(d);
             (scaled - scaled.round()).abs() < 1e-6 * scaled
         });
-        let curvature = format!("{:.*}", digits.unwrap_or(6) as usize, self.curvature);
-        format!("{STATED:.0} mm = {curvature} 1/m, teeth cut at {:.0} mm", self.longest)
+        format!("{STATED:.0} mm = {:.*} 1/m", digits.unwrap_or(6) as usize, self.curvature)
     }
 
-    /// Draws a comb; `at` takes points of the ship to the sheet.
-    pub(super) fn draw(&self, canvas: &mut Canvas, comb: &Comb, at: impl Fn([f64; 3]) -> [f64; 2], pens: &CombPens) {
+    /// Draws a comb; `at` takes points of the ship to the sheet. Whether a part of it had to be left out.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        comb: &Comb,
+        at: impl Fn([f64; 3]) -> [f64; 2],
+        pens: &CombPens,
+    ) -> bool {
         let feet: Vec<[f64; 2]> = comb.teeth.iter().map(|tooth| at(tooth.at)).collect();
-        let mut tips = Vec::with_capacity(feet.len());
+        let mut tips: Vec<[f64; 2]> = Vec::with_capacity(feet.len());
+        let mut longest: Option<(f64, [[f64; 2]; 2])> = None;
+        let mut left_out = false;
         for (k, tooth) in comb.teeth.iter().enumerate() {
             let (a, b) = (feet[k.saturating_sub(1)], feet[(k + 1).min(feet.len() - 1)]);
             let along = [b[0] - a[0], b[1] - a[1]];
@@ -73,12 +82,29 @@ impl CombScale {
             // The drawing may be stretched: it tells the side, the ship the length.
             let far = at(std::array::from_fn(|d| tooth.at[d] + tooth.tooth[d]));
             let outward = (far[0] - feet[k][0]) * normal[0] + (far[1] - feet[k][1]) * normal[1];
-            let size = (norm(tooth.tooth) / self.curvature * STATED).min(self.longest).copysign(outward);
-            let tip = [feet[k][0] + size * normal[0], feet[k][1] + size * normal[1]];
-            canvas.line(feet[k], tip, &pens.teeth);
-            tips.push(tip);
+            let size = norm(tooth.tooth) / self.curvature * STATED;
+            let tip = |size: f64| [0, 1].map(|d| feet[k][d] + size.copysign(outward) * normal[d]);
+            if size > self.longest {
+                left_out = true;
+                canvas.polyline(&std::mem::take(&mut tips), &pens.tips);
+                if longest.is_none_or(|(most, _)| size > most) {
+                    longest = Some((size, [feet[k], tip(self.longest)]));
+                }
+                continue;
+            }
+            if let Some((_, ends)) = longest.take() {
+                arrow(canvas, ends, &pens.tips);
+            }
+            if k % DRAWN == 0 {
+                canvas.line(feet[k], tip(size), &pens.teeth);
+            }
+            tips.push(tip(size));
         }
         canvas.polyline(&tips, &pens.tips);
+        if let Some((_, ends)) = longest {
+            arrow(canvas, ends, &pens.tips);
+        }
+        left_out
     }
 
     /// Draws the rings around the inflections of a comb.
@@ -92,6 +118,23 @@ impl CombScale {
             canvas.polyline(&circle, &pens.ring);
         }
     }
+}
+
+/// An arrow for the teeth that are left out.
+fn arrow(canvas: &mut Canvas, [from, to]: [[f64; 2]; 2], pen: &Pen) {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]).max(1e-9);
+    let [x, y] = along.map(|c| HEAD * c / length);
+    canvas.line(from, to, pen);
+    canvas.polyline(&[[to[0] - x - 0.4 * y, to[1] - y + 0.4 * x], to, [to[0] - x + 0.4 * y, to[1] - y - 0.4 * x]], pen);
+}
+
+/// Curvature that the part `share` of the teeth does not pass \[1/m\].
+fn usual<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> f64 {
+    let lengths = combs.into_iter().flat_map(|comb| &comb.teeth).map(|tooth| norm(tooth.tooth));
+    let mut lengths: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get((share * lengths.len() as f64) as usize).copied().unwrap_or(0.0)
 }
 
 fn norm(v: [f64; 3]) -> f64 {

@@ -83,6 +83,6 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         });
     }
     chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, None)?;
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(Some(canvas))
 }

@@ -63,11 +63,26 @@ struct Curve {
     value: fn(&Hydrostatics) -> Option<f64>,
 }
 
+/// Dashes, dots and gaps \[mm\]: every curve has its own, so that they are told apart without colours.
 const FULL: &[f64] = &[];
-const LONG: &[f64] = &[4.0, 1.2];
-const SHORT: &[f64] = &[1.6, 1.0];
-const DOTTED: &[f64] = &[0.4, 0.8];
-const DASH_DOT: &[f64] = &[4.0, 1.0, 0.5, 1.0];
+const DASHES: [&[f64]; 16] = [
+    &[8.0, 1.2],
+    &[4.0, 1.2],
+    &[2.0, 1.2],
+    &[1.0, 0.8],
+    &[0.4, 0.9],
+    &[8.0, 1.0, 0.5, 1.0],
+    &[4.0, 1.0, 0.5, 1.0],
+    &[2.0, 0.8, 0.5, 0.8],
+    &[8.0, 1.0, 0.5, 1.0, 0.5, 1.0],
+    &[4.0, 1.0, 0.5, 1.0, 0.5, 1.0],
+    &[2.0, 0.8, 0.5, 0.8, 0.5, 0.8],
+    &[8.0, 1.0, 2.0, 1.0],
+    &[4.0, 1.0, 1.5, 1.0],
+    &[8.0, 1.0, 2.0, 1.0, 2.0, 1.0],
+    &[8.0, 1.0, 0.5, 1.0, 0.5, 1.0, 0.5, 1.0],
+    &[4.0, 3.0],
+];
 
 /// The curves in the order of the legend. Displacement volume has the scale of displacement mass.
 #[rustfmt::skip]
@@ -75,23 +90,23 @@ const CURVES: [Curve; 17] = {
     use Axis::{Aft, Fore, Midship, MidshipOfPosition};
     use ScaledBy::{Largest, LowestDraught};
     [
-        Curve { symbol: "KM_L", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(120.0), name_at: 0.5, colour: "#0072b2", dash: FULL, value: |r| r.km_longitudinal },
-        Curve { symbol: "A_WL", unit: "m²", axis: Aft, scaled_by: Largest, target: Some(100.0), name_at: 0.7, colour: "#d55e00", dash: FULL, value: |r| Some(r.waterplane_area) },
-        Curve { symbol: "KM_T", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(150.0), name_at: 0.4, colour: "#a8437f", dash: FULL, value: |r| r.km_transverse },
-        Curve { symbol: "KB", unit: "m", axis: Aft, scaled_by: Largest, target: Some(80.0), name_at: 0.35, colour: "#8a6100", dash: FULL, value: |r| r.kb },
-        Curve { symbol: "LCB", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.6, colour: "#007a59", dash: FULL, value: |r| r.lcb },
-        Curve { symbol: "LCF", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.8, colour: "#007a59", dash: LONG, value: |r| r.lcf },
-        Curve { symbol: "I_L", unit: "m⁴", axis: Aft, scaled_by: Largest, target: Some(180.0), name_at: 0.6, colour: "#0072b2", dash: LONG, value: |r| Some(r.longitudinal_inertia) },
-        Curve { symbol: "I_T", unit: "m⁴", axis: Aft, scaled_by: Largest, target: Some(150.0), name_at: 0.5, colour: "#a8437f", dash: LONG, value: |r| Some(r.transverse_inertia) },
-        Curve { symbol: "TPC", unit: "t/cm", axis: Aft, scaled_by: Largest, target: Some(100.0), name_at: 0.3, colour: "#d55e00", dash: SHORT, value: |r| Some(r.tonnes_per_centimetre) },
+        Curve { symbol: "KM_L", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(120.0), name_at: 0.5, colour: "#0072b2", dash: DASHES[0], value: |r| r.km_longitudinal },
+        Curve { symbol: "A_WL", unit: "m²", axis: Aft, scaled_by: Largest, target: Some(100.0), name_at: 0.7, colour: "#d55e00", dash: DASHES[1], value: |r| Some(r.waterplane_area) },
+        Curve { symbol: "KM_T", unit: "m", axis: Aft, scaled_by: LowestDraught, target: Some(150.0), name_at: 0.4, colour: "#a8437f", dash: DASHES[5], value: |r| r.km_transverse },
+        Curve { symbol: "KB", unit: "m", axis: Aft, scaled_by: Largest, target: Some(80.0), name_at: 0.35, colour: "#8a6100", dash: DASHES[6], value: |r| r.kb },
+        Curve { symbol: "LCB", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.6, colour: "#007a59", dash: DASHES[2], value: |r| r.lcb },
+        Curve { symbol: "LCF", unit: "m", axis: MidshipOfPosition, scaled_by: Largest, target: Some(50.0), name_at: 0.8, colour: "#007a59", dash: DASHES[8], value: |r| r.lcf },
+        Curve { symbol: "I_L", unit: "m⁴", axis: Aft, scaled_by: Largest, target: Some(180.0), name_at: 0.6, colour: "#0072b2", dash: DASHES[9], value: |r| Some(r.longitudinal_inertia) },
+        Curve { symbol: "I_T", unit: "m⁴", axis: Aft, scaled_by: Largest, target: Some(150.0), name_at: 0.5, colour: "#a8437f", dash: DASHES[3], value: |r| Some(r.transverse_inertia) },
+        Curve { symbol: "TPC", unit: "t/cm", axis: Aft, scaled_by: Largest, target: Some(100.0), name_at: 0.3, colour: "#d55e00", dash: DASHES[7], value: |r| Some(r.tonnes_per_centimetre) },
         Curve { symbol: "Δ", unit: "t", axis: Aft, scaled_by: Largest, target: Some(220.0), name_at: 0.45, colour: "#000000", dash: FULL, value: |r| Some(r.displacement_mass) },
-        Curve { symbol: "∇", unit: "m³", axis: Aft, scaled_by: Largest, target: Some(220.0), name_at: 0.65, colour: "#000000", dash: LONG, value: |r| Some(r.displacement_volume) },
-        Curve { symbol: "MTM", unit: "t·m/m", axis: Midship, scaled_by: Largest, target: Some(80.0), name_at: 0.75, colour: "#4a4a4a", dash: DASH_DOT, value: |r| r.moment_to_trim_metre },
-        Curve { symbol: "S", unit: "m²", axis: Aft, scaled_by: Largest, target: Some(200.0), name_at: 0.25, colour: "#8a6100", dash: DASH_DOT, value: |r| Some(r.wetted_surface) },
-        Curve { symbol: "C_WP", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.9, colour: "#0072b2", dash: SHORT, value: |r| r.waterplane_coefficient },
-        Curve { symbol: "C_B", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.8, colour: "#000000", dash: SHORT, value: |r| r.block_coefficient },
-        Curve { symbol: "C_P", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.7, colour: "#a8437f", dash: SHORT, value: |r| r.prismatic_coefficient },
-        Curve { symbol: "C_X", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.6, colour: "#d55e00", dash: DOTTED, value: |r| r.maximum_section_coefficient },
+        Curve { symbol: "∇", unit: "m³", axis: Aft, scaled_by: Largest, target: Some(220.0), name_at: 0.65, colour: "#000000", dash: DASHES[11], value: |r| Some(r.displacement_volume) },
+        Curve { symbol: "MTM", unit: "t·m/m", axis: Midship, scaled_by: Largest, target: Some(80.0), name_at: 0.75, colour: "#4a4a4a", dash: DASHES[12], value: |r| r.moment_to_trim_metre },
+        Curve { symbol: "S", unit: "m²", axis: Aft, scaled_by: Largest, target: Some(200.0), name_at: 0.25, colour: "#8a6100", dash: DASHES[13], value: |r| Some(r.wetted_surface) },
+        Curve { symbol: "C_WP", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.9, colour: "#0072b2", dash: DASHES[10], value: |r| r.waterplane_coefficient },
+        Curve { symbol: "C_B", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.8, colour: "#000000", dash: DASHES[14], value: |r| r.block_coefficient },
+        Curve { symbol: "C_P", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.7, colour: "#a8437f", dash: DASHES[15], value: |r| r.prismatic_coefficient },
+        Curve { symbol: "C_X", unit: "-", axis: Fore, scaled_by: Largest, target: None, name_at: 0.6, colour: "#d55e00", dash: DASHES[4], value: |r| r.maximum_section_coefficient },
     ]
 };
 
@@ -151,7 +166,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let draught = inputs.design.draught;
     let highest = rows.iter().map(|row| row.draught).fold(draught, f64::max);
     let draught_scale = draught_scale(highest / HEIGHT);
-    let mut canvas = Canvas::new(345.0, 228.0);
+    let mut canvas = Canvas::new(356.0, 228.0);
     let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + HEIGHT);
     let height = |draught: f64| frame.bottom - draught / draught_scale;
 
@@ -161,7 +176,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         &format!("DIAGRAM SHEET – {}", caption::plain(inputs.hull.name())),
         &title,
     );
-    canvas.text([frame.left + 0.5 * WIDTH, 15.0], &caption::conventions(inputs), &TextStyle::new(2.6, Anchor::Middle));
+    canvas.text([frame.left + 0.5 * WIDTH, 15.0], &caption::conventions(inputs), &TextStyle::new(2.8, Anchor::Middle));
     draw_grid(&mut canvas, &frame);
     let mut placer = LabelPlacer::default();
     draw_rulers(&mut canvas, &frame, draught_scale);
@@ -175,7 +190,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.add_curve(&points);
     }
     canvas.end_group();
-    draw_level(&mut canvas, &mut placer, &frame, height(draught), &format!("DWL {draught:.2} m"), 2.5);
+    draw_level(&mut canvas, &mut placer, &frame, height(draught), &caption::design_waterline(inputs), 2.7);
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
         placer.name_curve(
@@ -206,7 +221,7 @@ fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {
     canvas.rectangle(frame, &axis);
     canvas.line([frame.left + 0.5 * WIDTH, frame.top], [frame.left + 0.5 * WIDTH, frame.bottom], &axis);
     let style = TextStyle::new(3.0, Anchor::Middle);
-    let foot = TextStyle::new(2.3, Anchor::Middle);
+    let foot = TextStyle::new(2.7, Anchor::Middle);
     for (part, name, note) in [
         (0.0, "AP", "areas, volumes, heights, inertias: forward from here"),
         (0.5, "midship (L_PP / 2)", "LCB, LCF, MTM: from here, + forward"),
@@ -275,19 +290,19 @@ fn draw_rulers(canvas: &mut Canvas, frame: &Rectangle, draught_scale: f64) {
 
 fn draw_legend(canvas: &mut Canvas, frame: &Rectangle, scales: &[f64], draught_scale: f64) {
     let left = frame.right + 19.0;
-    let style = TextStyle::new(2.5, Anchor::Start);
+    let style = TextStyle::new(2.8, Anchor::Start);
     let mut y = frame.top + 2.0;
     canvas.text([left, y], &format!("T   1 mm = {draught_scale} m"), &style);
     for (curve, scale) in CURVES.iter().zip(scales) {
         y += 6.5;
-        canvas.line([left, y], [left + 11.0, y], &Pen::new(0.5, curve.colour).dashed(curve.dash));
+        canvas.line([left, y], [left + 17.0, y], &Pen::new(0.5, curve.colour).dashed(curve.dash));
         let unit = if curve.unit == "-" { String::new() } else { format!(" {}", curve.unit) };
-        canvas.text([left + 13.0, y], curve.symbol, &style.coloured(curve.colour));
-        canvas.text([left + 22.0, y], &format!("1 mm = {scale}{unit}"), &style);
+        canvas.text([left + 18.5, y], curve.symbol, &style.coloured(curve.colour));
+        canvas.text([left + 28.0, y], &format!("1 mm = {scale}{unit}"), &style);
     }
     y += 9.0;
     for line in ["Δ, ∇ moulded", "heights above base line"] {
-        canvas.text([left, y], line, &TextStyle::new(2.2, Anchor::Start));
+        canvas.text([left, y], line, &TextStyle::new(2.7, Anchor::Start));
         y += 4.0;
     }
 }

@@ -6,14 +6,15 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale};
+use super::fairing_combs::FairingCombs;
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
-use crate::fairing::inspect::{Comb, combs};
+use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
-use crate::hull::{Cut, Face, Hull};
+use crate::hull::{Cut, Face, Hull, OffsetStation};
 use crate::qp::Status;
 
 /// Room at the sides, above and below the drawing \[mm\].
@@ -22,10 +23,6 @@ const HEAD: f64 = 50.0;
 const FOOT: f64 = 34.0;
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
 const CHORD: f64 = 0.01;
-/// Teeth of a comb.
-const TEETH: usize = 121;
-/// Most lines of a plan that bear combs; beyond it every second, third, ... does, and the last.
-const MOST_COMBS: usize = 12;
 
 pub(super) const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
 pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
@@ -37,8 +34,11 @@ pub(super) const AFTER_COMB: CombPens =
 /// A plan: which lines, where points of the ship stand.
 pub(super) struct Plan<'a> {
     pub(super) record: &'a FairRecord,
+    pub(super) combs: &'a FairingCombs,
     pub(super) title: &'static str,
     pub(super) scale: String,
+    /// What the names of the other lines are.
+    pub(super) heights: &'static str,
     /// Width and height of the drawing \[mm\].
     pub(super) room: [f64; 2],
 }
@@ -47,16 +47,16 @@ pub(super) struct Plan<'a> {
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without stations.
-pub fn fairing_body_plan(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: body_plan(record, sheet)?.finish("fairing-body-plan") })
+pub fn fairing_body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg { text: body_plan(record, combs, sheet)?.finish("fairing-body-plan") })
 }
 
 /// Half-breadth plan before and after, bow on the right.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without waterlines.
-pub fn fairing_half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: half_breadth_plan(record, sheet)?.finish("fairing-half-breadth-plan") })
+pub fn fairing_half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg { text: half_breadth_plan(record, combs, sheet)?.finish("fairing-half-breadth-plan") })
 }
 
 /// The curves of a plane on the side of a hull.
@@ -64,6 +64,36 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     let section = hull.section(cut, 1e-6);
     let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
     side.map(|branch| branch.polyline(deviation)).collect()
+}
+
+/// The curves of a plane on the hull, in one piece where the hull is one: diagonals run on over the flat of bottom, a station at an end of
+/// the hull that goes in and out of its side is the edge there.
+pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
+    let side = curves(hull, cut, deviation);
+    match cut {
+        Cut::Station { x } if side.len() > 1 => end_curve(hull, x).map_or(side, |edge| vec![edge]),
+        Cut::Diagonal { .. } => {
+            let section = hull.section(cut, 1e-6);
+            section.branches.iter().map(|branch| branch.polyline(deviation)).collect()
+        }
+        _ => side,
+    }
+}
+
+/// The end of the surface beside the station at `x`, from the keel to the deck; none where no end is near.
+fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
+    const POINTS: usize = 400;
+    let surface = hull.surface();
+    let (ends, (v0, v1)) = (surface.u().domain(), surface.v().domain());
+    let near = END * hull.particulars().length_between_perpendiculars;
+    let edge = |u: f64| {
+        let points = (0..=POINTS).map(|k| surface.eval(u, v0 + (v1 - v0) * k as f64 / POINTS as f64));
+        points.filter(|p| (p[0] - x).abs() <= near && p[2] <= hull.deck_height(p[0])).collect::<Vec<_>>()
+    };
+    let xs = || surface.points().iter().map(|p| p[0]);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let end = if x - low <= near { ends.0 } else { Some(ends.1).filter(|_| high - x <= near)? };
+    Some(edge(end)).filter(|points| points.len() > 1)
 }
 
 /// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn there: an upright
@@ -115,7 +145,7 @@ pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
 }
 
-pub(super) fn body_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
@@ -123,7 +153,14 @@ pub(super) fn body_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, Plo
     let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
     let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
     let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan { record, title: "BODY PLAN", scale: format!("1:{n}"), room: paper };
+    let plan = Plan {
+        record,
+        combs,
+        title: "BODY PLAN",
+        scale: format!("1:{n}"),
+        heights: "waterlines by z [m] above the base line",
+        room: paper,
+    };
     let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
     let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
@@ -147,19 +184,19 @@ pub(super) fn body_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, Plo
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window);
-    let style = TextStyle::new(2.4, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
         let places = [[x - 2.0, y], [x - 9.0, y]];
         placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
     }
-    let words = TextStyle::new(3.0, Anchor::Middle);
+    let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 20.0], "AFT", &words);
     canvas.text([0.5 * paper[0] + 60.0, paper[1] - 20.0], "FORWARD", &words);
     Ok(canvas)
 }
 
-pub(super) fn half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
@@ -170,7 +207,14 @@ pub(super) fn half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Can
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, title: "HALF-BREADTH PLAN", scale, room: paper };
+    let plan = Plan {
+        record,
+        combs,
+        title: "HALF-BREADTH PLAN",
+        scale,
+        heights: "waterlines by z [m] above the base line",
+        room: paper,
+    };
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
     // What is left of the height stands above and below.
     let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
@@ -187,24 +231,27 @@ pub(super) fn half_breadth_plan(record: &FairRecord, sheet: Sheet) -> Result<Can
     let mut placer = drawn.placer();
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
-    let style = TextStyle::new(2.4, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     for station in &record.lines.stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_point(&mut canvas, &name, &style, &[[px, py + 3.0], [px, py + 6.4]], &window);
     }
-    let style = TextStyle::new(2.5, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     let count = record.lines.waterlines.len();
     for (k, z) in record.lines.waterlines.iter().enumerate() {
         let Some(curve) = drawn.curves.iter().position(|(cut, _)| *cut == k) else { continue };
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };
         let preferred = Preference { part, crossings: 3, beside: false };
-        placer.name_curve(&mut canvas, curve, &format!("z {z:.3}"), &style, preferred, &window);
+        let name = short(*z);
+        if !placer.name_curve(&mut canvas, curve, &name, &style, preferred, &window) {
+            placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
+        }
     }
-    let words = TextStyle::new(3.0, Anchor::Start);
+    let words = TextStyle::new(3.2, Anchor::Start);
     canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
-    canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     Ok(canvas)
 }
 
@@ -216,7 +263,7 @@ pub(super) fn name_stations(
     placer: &mut LabelPlacer,
     window: &Rectangle,
 ) {
-    let style = TextStyle::new(2.6, Anchor::Middle).halo();
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     let mut shifts: Vec<[f64; 2]> =
         (0..16).flat_map(|row| (-6..=6).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
     shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
@@ -236,9 +283,11 @@ pub(super) struct Drawn {
     pub(super) curves: Vec<(usize, Vec<[f64; 2]>)>,
     /// Inflections.
     rings: Vec<[f64; 2]>,
-    pub(super) scale: CombScale,
-    /// Every so many lines bear a comb.
-    stride: usize,
+    scale: CombScale,
+    /// Combs after fairing.
+    combs: usize,
+    /// Whether teeth had to be left out.
+    left_out: bool,
 }
 
 impl Drawn {
@@ -261,19 +310,18 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     deviation: f64,
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
-    let tolerance = plan.record.tolerance();
-    let stride = cuts.len().div_ceil(MOST_COMBS).max(1);
-    let last = cuts.len().saturating_sub(1);
-    let chosen: Vec<Cut> =
-        cuts.iter().enumerate().filter(|(k, _)| k % stride == 0 || *k == last).map(|(_, cut)| *cut).collect();
-    let [before, after] = [&plan.record.before, &plan.record.after].map(|hull| combs(hull, &chosen, TEETH, tolerance));
-    let scale = CombScale::fitting(&after);
-    before.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &BEFORE_COMB));
-    after.iter().for_each(|comb| scale.draw(canvas, comb, at(&comb.cut), &AFTER_COMB));
+    let [before, after] = plan.combs.on(cuts);
+    let scale = cuts.first().map_or(plan.combs.along, |cut| plan.combs.scale(cut));
+    let mut left_out = false;
+    for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
+        for comb in list {
+            left_out |= scale.draw(canvas, comb, at(&comb.cut), pens);
+        }
+    }
     let mut drawn = Vec::new();
     for (hull, pen, fair) in [(&plan.record.before, &BEFORE, false), (&plan.record.after, &AFTER, true)] {
         for (k, cut) in cuts.iter().enumerate() {
-            for line in curves(hull, *cut, deviation) {
+            for line in whole_curves(hull, *cut, deviation) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(at(cut)).collect();
                 canvas.polyline(&line, pen);
                 if fair {
@@ -285,8 +333,30 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     before.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &BEFORE_COMB));
     after.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &AFTER_COMB));
     let places = |comb: &Comb| comb.inflections.iter().map(|&place| at(&comb.cut)(place)).collect::<Vec<_>>();
-    let rings = before.iter().chain(&after).flat_map(places).collect();
-    Drawn { curves: drawn, rings, scale, stride }
+    let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
+    Drawn { curves: drawn, rings, scale, combs: after.len(), left_out }
+}
+
+/// What the names of the stations are: their x, or names of the table with the x of the first and the last.
+pub(super) fn station_words(record: &FairRecord) -> String {
+    let stations = &record.lines.stations;
+    let is_place = |station: &OffsetStation| station.name.parse::<f64>().is_ok_and(|x| (x - station.x).abs() < 5e-3);
+    match (stations.first(), stations.last()) {
+        (Some(a), Some(b)) if !stations.iter().all(is_place) => format!(
+            "stations by their names in the table, from {} at x = {:.2} m to {} at x = {:.2} m forward of AP",
+            caption::plain(&a.name),
+            a.x,
+            caption::plain(&b.name),
+            b.x
+        ),
+        _ => "stations by x [m] forward of AP".to_owned(),
+    }
+}
+
+/// A number to millimetres, as short as it can be written.
+pub(super) fn short(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Title, scales and key.
@@ -295,36 +365,40 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
     canvas.text([0.5 * plan.room[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, largest, _) = plan.record.moves();
-    let which = match drawn.stride {
-        1 => "combs on every line",
-        2 => "combs on every second line",
-        3 => "combs on every third line",
-        _ => "combs on some of the lines",
+    let combs = match (drawn.combs, drawn.left_out) {
+        (0, _) => "no combs".to_owned(),
+        (_, false) => format!("combs before and after: {}", drawn.scale.words()),
+        (_, true) => format!("combs before and after: {}, arrows: longer than there is room for", drawn.scale.words()),
     };
     let second = format!(
-        "scale {}    {which}, before and after at one scale: {}    moves {:.2} mm RMS, {:.2} mm at most",
+        "scale {}    {combs}    moves {:.2} mm RMS, {:.2} mm at most",
         plan.scale,
-        drawn.scale.words(),
         1000.0 * rms,
         1000.0 * largest
     );
-    canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
-    let y = plan.room[1] - 7.0;
-    let style = TextStyle::new(2.8, Anchor::Start);
-    let mut x = 14.0;
+    canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.2, Anchor::Middle));
+    let words = TextStyle::new(LETTERS, Anchor::Middle);
+    canvas.text(
+        [0.5 * plan.room[0], plan.room[1] - 12.5],
+        &format!("{}    {}", station_words(plan.record), plan.heights),
+        &words,
+    );
+    let y = plan.room[1] - 6.0;
+    let style = TextStyle::new(LETTERS, Anchor::Start);
+    let mut x = 10.0;
     for (pens, pen, word) in [(BEFORE_COMB, BEFORE, "before"), (AFTER_COMB, AFTER, "after")] {
         canvas.line([x, y], [x + 12.0, y], &pen);
-        canvas.text([x + 14.0, y], word, &style);
-        canvas.line([x + 30.0, y], [x + 42.0, y], &pens.tips);
-        canvas.text([x + 44.0, y], "tips of the comb", &style);
-        let at = [x + 74.0, y];
+        canvas.text([x + 13.0, y], word, &style);
+        canvas.line([x + 30.0, y], [x + 40.0, y], &pens.tips);
+        canvas.text([x + 41.5, y], "tips of the comb", &style);
+        let at = [x + 78.0, y];
         let ring = Comb { cut: Cut::Waterline { z: 0.0 }, teeth: Vec::new(), inflections: vec![[at[0], at[1], 0.0]] };
         CombScale::rings(canvas, &ring, |p| [p[0], p[1]], &pens);
-        canvas.text([x + 77.0, y], "inflection", &style);
-        x += 108.0;
+        canvas.text([x + 81.0, y], "inflection", &style);
+        x += 112.0;
     }
     if plan.record.status != Status::Optimal {
         canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
     }
-    canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
 }

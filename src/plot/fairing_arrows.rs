@@ -2,10 +2,10 @@
 //! sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship, name_stations, station_cut};
+use super::fairing::{extent, midship, name_stations, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
@@ -46,7 +46,7 @@ pub(super) fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], wo
     canvas.text([0.5 * paper[0], 9.0], &format!("WHERE THE OFFSETS MOVED – {name}"), &middle);
     let (rms, largest, _) = record.moves();
     let words = format!("{words}    moves {:.2} mm RMS, {:.2} mm at most", 1000.0 * rms, 1000.0 * largest);
-    canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.0, Anchor::Middle));
+    canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.2, Anchor::Middle));
 }
 
 pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
@@ -64,7 +64,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         [0.5 * paper[0] + side(x) * millimetres * y, floor - millimetres * (height - z[0])]
     };
     let mut canvas = Canvas::new(paper[0], paper[1]);
-    let names = TextStyle::new(2.4, Anchor::End);
+    let names = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [aft, fore] = [-1.0, 1.0].map(|s| [0.5 * paper[0] + s * millimetres * breadth, at(x[0], 0.0, height)[1]]);
         canvas.line(aft, fore, &GRID);
@@ -81,7 +81,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
         drawn.clear();
         for (k, station) in record.lines.stations.iter().enumerate() {
-            for line in curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
+            for line in whole_curves(hull, station_cut(record, station.x), 0.01 / millimetres) {
                 let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
                 canvas.polyline(&line, pen);
                 drawn.push((k, line));
@@ -104,7 +104,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     let window = Rectangle::new(8.0, 20.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn, &mut placer, &window);
     head(&mut canvas, record, paper, &format!("scale 1:{n}    arrows {times:.0} times as long as the moves"));
-    let words = TextStyle::new(3.0, Anchor::Middle);
+    let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 18.0], "AFT", &words);
     canvas.text([0.5 * paper[0] + 60.0, paper[1] - 18.0], "FORWARD", &words);
     key(&mut canvas, paper, ["outward", "inward"], record.changes.iter().any(|change| change.suspect));
@@ -141,7 +141,7 @@ pub(super) fn ring(canvas: &mut Canvas, at: [f64; 2]) {
 /// The key at the foot of the sheet; `signs` are the words for the two colours of arrows.
 pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspects: bool) {
     let y = paper[1] - 7.0;
-    let style = TextStyle::new(2.8, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut x = 14.0;
     let mut add = |canvas: &mut Canvas, word: &str| {
         let place = [x + 14.0, y];
@@ -163,5 +163,5 @@ pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspec
         let from = add(canvas, "left out as a suspect");
         ring(canvas, [from + 8.0, y]);
     }
-    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
 }

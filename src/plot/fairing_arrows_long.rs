@@ -10,7 +10,7 @@ use super::fairing::{curves, extent};
 use super::fairing_arrows::{AFTER, BEFORE, arrow, exaggeration, head, key, ring};
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Planes;
@@ -126,7 +126,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         for station in &record.lines.stations {
             let foot = view.at([station.x, 0.0, low[2]]);
             canvas.line(foot, view.at([station.x, top[1], top[2]]), &GRID);
-            let style = TextStyle::new(2.4, Anchor::Middle);
+            let style = TextStyle::new(LETTERS, Anchor::Middle);
             let name: String = caption::plain(&station.name).chars().take(9).collect();
             let window = Rectangle::new(4.0, 18.0, paper[0] - 4.0, paper[1] - 12.0);
             let places = [[foot[0], foot[1] + 3.0], [foot[0], foot[1] + 6.4]];
@@ -168,13 +168,13 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         placer.name_curve(
             &mut canvas,
             curve,
-            &format!("y {y:.2}"),
-            &TextStyle::new(2.4, Anchor::Middle),
+            &format!("y {y:.2} m"),
+            &TextStyle::new(LETTERS, Anchor::Middle),
             preferred,
             &window,
         );
     }
-    let style = TextStyle::new(3.0, Anchor::Start);
+    let style = TextStyle::new(3.2, Anchor::Start);
     let words = [
         format!(
             "PROFILE    buttocks; no height moves: arrows show how far buttocks rise or fall with the half-breadths, {:.0} times as long, \
@@ -189,7 +189,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     head(&mut canvas, record, paper, &format!("scale 1:{n}, breadths and heights x {stretch:.0}, moves with them"));
     let y = paper[1] - 14.0;
     canvas.text([14.0, y], "AFT", &style);
-    canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);
     Ok(canvas)

@@ -7,8 +7,9 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
 use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
+use super::fairing_combs::{FairingCombs, TEETH};
 use super::scale::{decimals, multiples, nice_step};
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{Comb, combs};
 use crate::fairing::job::Change;
@@ -29,8 +30,7 @@ const WORDS: f64 = 6.0;
 const STRIP: f64 = 0.34;
 const AXIS: f64 = 8.0;
 /// Longest tooth of a comb \[mm\].
-const LONGEST: f64 = 9.0;
-const TEETH: usize = 121;
+const LONGEST: f64 = 7.0;
 /// Offsets of a line that is shown, at least.
 const LEAST: usize = 4;
 const BAR: Pen = Pen::new(0.35, "#9c9c9c");
@@ -41,16 +41,16 @@ const LIGHT: Pen = Pen::new(0.08, "#c8c8c8");
 ///
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
-pub fn fairing_waterlines(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
+pub fn fairing_waterlines(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, combs, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
 }
 
 /// The stations that moved most.
 ///
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
-pub fn fairing_stations(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
+pub fn fairing_stations(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
+    Ok(compose(record, combs, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
 }
 
 /// What the lines run along.
@@ -129,7 +129,7 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option<Canvas> {
+pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, along: Along) -> Option<Canvas> {
     let lines = chosen(record, along);
     if lines.is_empty() {
         return None;
@@ -138,18 +138,18 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option
     let cuts: Vec<Cut> = lines.iter().map(|line| line.cut).collect();
     let tolerance = record.tolerance();
     let [before, after] = [&record.before, &record.after].map(|hull| combs(hull, &cuts, TEETH, tolerance));
-    let scale = CombScale::within(before.iter().chain(&after), LONGEST);
+    let scale = cuts.first().map_or(shared.along, |cut| shared.scale(cut));
+    let scale = scale.lowered(before.iter().chain(&after), LONGEST);
     let mut canvas = Canvas::new(paper[0], paper[1]);
     let [title, plural, axis] = along.words();
     let name: String = caption::plain(&record.name).chars().take(60).collect();
     let middle = TextStyle::new(4.5, Anchor::Middle);
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
-        "combs before and after at one scale: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the \
-         table",
+        "combs before and after: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
         scale.words()
     );
-    canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(2.8, Anchor::Middle));
+    canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let size = [
         (paper[0] - GAP * (GRID[0] + 1) as f64) / GRID[0] as f64,
         (paper[1] - HEAD - FOOT - GAP * (GRID[1] - 1) as f64) / GRID[1] as f64,
@@ -162,9 +162,9 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet, along: Along) -> Option
         panel(&mut canvas, record, (along, line), [&of(&before), &of(&after)], scale, &place, axis);
     }
     let y = paper[1] - 5.0;
-    let style = TextStyle::new(2.6, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     canvas.text([GAP, y], &format!("{} {plural} of the table, by the RMS of their moves", lines.len()), &style);
-    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Some(canvas)
 }
 
@@ -200,7 +200,7 @@ fn panel(
         line.offsets.iter().filter_map(|c| c.tolerance.filter(|t| *t > 0.0).map(|t| (c.after - c.before).abs() / t));
     let used = used.fold(0.0, f64::max);
     let words = format!(
-        "{}    moves {:.2} mm RMS, {:.2} mm at most    {:.0} % of a tolerance used at most    inflections {} → {}",
+        "{}    moves {:.2} mm RMS, {:.2} mm at most    {:.0} % of tolerance    inflections {} → {}",
         line.name,
         1e3 * line.moves[0],
         1e3 * line.moves[1],
@@ -208,18 +208,21 @@ fn panel(
         turns(before),
         turns(after)
     );
-    canvas.text([place.left, place.top + 2.0], &words, &TextStyle::new(2.6, Anchor::Start));
+    canvas.text([place.left - NAMES + 6.0, place.top + 1.6], &words, &TextStyle::new(LETTERS, Anchor::Start));
     let strip_top = place.bottom - AXIS - STRIP * place.height();
     let upper = Rectangle::new(place.left, place.top + WORDS, place.right, strip_top - 2.0);
     let strip = Rectangle::new(place.left, strip_top, place.right, place.bottom - AXIS);
     let drawn = [&record.before, &record.after].map(|hull| curves(hull, line.cut, 1e-4 * breadth_of(hull)));
     let k = along.axis();
     let all = || drawn.iter().flatten().flatten();
-    let across = Range::of(all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))), 0.03);
+    let across = Range::of(
+        all().map(|p| p[k]).chain(line.offsets.iter().map(|c| along.place(c))),
+        (LONGEST + 1.0) / (upper.width() - 2.0 * LONGEST - 2.0),
+    );
     let heights = Range::of(all().map(|p| p[1]).chain(line.offsets.iter().map(|c| c.before)), 0.02);
-    // Combs stand on the convex side of the line: they need room above it, and under hollows.
+    // Combs stand on the convex side of the line: they need room above it, and as much under hollows.
     let room = (LONGEST + 1.0).min(0.3 * upper.height());
-    let below = 0.5 * room;
+    let below = room;
     let on = |p: [f64; 3]| {
         [
             upper.left + across.share(p[k]) * upper.width(),
@@ -227,8 +230,11 @@ fn panel(
         ]
     };
     canvas.begin_clip(&upper);
-    before.iter().for_each(|comb| scale.draw(canvas, comb, on, &BEFORE_COMB));
-    after.iter().for_each(|comb| scale.draw(canvas, comb, on, &AFTER_COMB));
+    for (list, pens) in [(before, &BEFORE_COMB), (after, &AFTER_COMB)] {
+        for comb in list {
+            scale.draw(canvas, comb, on, pens);
+        }
+    }
     for (lines, pen) in drawn.iter().zip([&BEFORE, &AFTER]) {
         for curve in lines {
             canvas.polyline(&curve.iter().map(|&p| on(p)).collect::<Vec<_>>(), pen);
@@ -245,7 +251,7 @@ fn panel(
     figures(canvas, &inner, &heights, "y [m]");
     canvas.rectangle(&upper, &FRAME);
     deviations(canvas, record, (along, line), &strip, &across);
-    let style = TextStyle::new(2.2, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     let step = nice_step(across.high - across.low, 10.0);
     for value in multiples(step, across.low, across.high) {
         let x = strip.left + across.share(value) * strip.width();
@@ -266,14 +272,14 @@ fn square([x, y]: [f64; 2], half: f64) -> [[f64; 2]; 4] {
 /// Figures at the left side of a frame.
 fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
     let step = nice_step(range.high - range.low, 5.0);
-    let style = TextStyle::new(2.2, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     for value in multiples(step, range.low, range.high) {
         let y = frame.bottom - range.share(value) * frame.height();
         canvas.line([frame.left, y], [frame.right, y], &LIGHT);
         canvas.text([frame.left - 1.0, y], &format!("{:.*}", decimals(step), value + 0.0), &style);
     }
     let middle = [frame.left - 13.0, 0.5 * (frame.top + frame.bottom)];
-    canvas.text(middle, name, &TextStyle::new(2.2, Anchor::Middle).upward());
+    canvas.text(middle, name, &TextStyle::new(LETTERS, Anchor::Middle).upward());
 }
 
 /// The strip of offsets less the fair line \[mm\].
@@ -293,7 +299,7 @@ fn deviations(
     let on = |at: f64, by: f64| {
         [strip.left + across.share(at) * strip.width(), strip.bottom - range.share(by) * strip.height()]
     };
-    figures(canvas, strip, &range, "mm");
+    figures(canvas, strip, &range, "moves [mm]");
     canvas.begin_clip(strip);
     for change in kept() {
         if let Some(tolerance) = change.tolerance {

@@ -4,12 +4,12 @@
 
 use super::canvas::{Anchor, Canvas, TextStyle};
 use super::fairing::{Plan, curves, draw, extent, title};
+use super::fairing_combs::FairingCombs;
 use super::label::Preference;
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
-use crate::fairing::inspect::Planes;
 use crate::fairing::record::FairRecord;
 use crate::hull::Cut;
 
@@ -25,40 +25,43 @@ type Project = fn(&Cut, [f64; 3]) -> [f64; 2];
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without buttocks.
-pub fn fairing_buttocks(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    let cuts = Planes::with_defaults(&record.after).buttocks.into_iter().map(|y| Cut::Buttock { y }).collect();
-    Ok(Svg { text: compose(record, sheet, "BUTTOCKS", cuts, |_, p| [p[0], p[2]])?.finish("fairing-buttocks") })
+pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg {
+        text: compose(record, combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]])?
+            .finish("fairing-buttocks"),
+    })
 }
 
 /// Diagonals in their true shape, before and after.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without diagonals.
-pub fn fairing_diagonals(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    let planes = Planes::with_defaults(&record.after);
-    let angle = planes.diagonal_angle;
-    let cuts = planes.diagonals.into_iter().map(|height| Cut::Diagonal { height, angle }).collect();
+pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
     let expanded: Project = |cut, p| match cut {
         Cut::Diagonal { height, .. } => [p[0], p[1].hypot(p[2] - height)],
         _ => [p[0], p[1]],
     };
-    Ok(Svg { text: compose(record, sheet, "DIAGONALS IN TRUE SHAPE", cuts, expanded)?.finish("fairing-diagonals") })
+    Ok(Svg {
+        text: compose(record, combs, sheet, "DIAGONALS IN TRUE SHAPE", &combs.diagonals, expanded)?
+            .finish("fairing-diagonals"),
+    })
 }
 
 /// Name of a plane: its distance or height.
 fn name(cut: &Cut) -> String {
     match cut {
-        Cut::Buttock { y } => format!("y {y:.2}"),
-        Cut::Diagonal { height, .. } => format!("from {height:.2} m"),
+        Cut::Buttock { y } => format!("y {y:.2} m"),
+        Cut::Diagonal { height, .. } => format!("from z {height:.2} m"),
         _ => String::new(),
     }
 }
 
 pub(super) fn compose(
     record: &FairRecord,
+    combs: &FairingCombs,
     sheet: Sheet,
     words: &'static str,
-    cuts: Vec<Cut>,
+    cuts: &[Cut],
     project: Project,
 ) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
@@ -80,9 +83,14 @@ pub(super) fn compose(
     let millimetres = 1000.0 / f64::from(n);
     let buttocks = matches!(cuts.first(), Some(Cut::Buttock { .. }));
     let across = if buttocks { "heights" } else { "distances" };
+    let heights = if buttocks {
+        "buttocks by y [m] from the centreplane"
+    } else {
+        "diagonals by z [m] at the centreplane; girths in their planes"
+    };
     let stretch = (room[1] / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, title: words, scale, room: paper };
+    let plan = Plan { record, combs, title: words, scale, heights, room: paper };
     let left = 0.5 * (paper[0] - millimetres * (high - low));
     let floor = paper[1] - FOOT - 0.5 * (room[1] - stretch * millimetres * (top - bottom)).max(0.0);
     let place = move |p: [f64; 2]| [left + millimetres * (p[0] - low), floor - stretch * millimetres * (p[1] - bottom)];
@@ -95,23 +103,23 @@ pub(super) fn compose(
         let cut = *cut;
         move |p: [f64; 3]| place(project(&cut, p))
     };
-    let drawn = draw(&mut canvas, &plan, &cuts, 0.01 / (stretch * millimetres), &at);
+    let drawn = draw(&mut canvas, &plan, cuts, 0.01 / (stretch * millimetres), &at);
     title(&mut canvas, &plan, &drawn);
     let mut placer = drawn.placer();
     let window = super::canvas::Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    let style = TextStyle::new(2.4, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     for station in &record.lines.stations {
         let [px, py] = place([station.x, bottom]);
         let word: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_point(&mut canvas, &word, &style, &[[px, py + 12.0], [px, py + 15.4]], &window);
     }
-    let style = TextStyle::new(2.5, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
     for (k, cut) in cuts.iter().enumerate() {
         let Some(curve) = drawn.curves.iter().position(|(other, _)| *other == k) else { continue };
         let preferred = Preference { part: 0.3 + 0.12 * ((k % 3) as f64), crossings: 3, beside: false };
         placer.name_curve(&mut canvas, curve, &name(cut), &style, preferred, &window);
     }
-    canvas.text([14.0, paper[1] - 16.0], "AFT", &TextStyle::new(3.0, Anchor::Start));
-    canvas.text([paper[0] - 14.0, paper[1] - 16.0], "FORWARD", &TextStyle::new(3.0, Anchor::End));
+    canvas.text([14.0, paper[1] - 16.0], "AFT", &TextStyle::new(3.2, Anchor::Start));
+    canvas.text([paper[0] - 14.0, paper[1] - 16.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     Ok(canvas)
 }

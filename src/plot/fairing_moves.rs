@@ -7,7 +7,8 @@
 //! tangent line (hollow).
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::sheet::ROOM;
+use super::fairing::station_words;
+use super::sheet::{LETTERS, ROOM};
 use super::{PlotError, Svg, caption};
 use crate::fairing::job::Change;
 use crate::fairing::record::{Crossing, FairRecord};
@@ -27,8 +28,6 @@ const FOOT: f64 = 44.0;
 const NAMES: f64 = 18.0;
 /// Largest width and height of a cell \[mm\].
 const LARGEST: [f64; 2] = [15.0, 8.0];
-/// Least width of a cell with a number \[mm\].
-const LEAST: f64 = 4.2;
 /// Colour of the full move outward and inward.
 const OUTWARD: [f64; 3] = [179.0, 88.0, 6.0];
 const INWARD: [f64; 3] = [33.0, 102.0, 172.0];
@@ -161,7 +160,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
     draw_crossings(&mut canvas, record, &map);
     head(&mut canvas, record, unit);
     key(&mut canvas, &map, bottom + 26.0);
-    canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)
 }
 
@@ -178,12 +177,12 @@ fn draw_cells(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
     }
     canvas.rectangle(frame, &Pen::new(0.25, "#000000"));
     let longest = record.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
-    let size = (map.cell[0] / (0.68 * longest as f64)).min(2.6);
+    let size = (map.cell[0] / (0.62 * longest as f64)).min(3.4);
     let (_, _, largest) = record.moves();
     for change in &record.changes {
         let place = map.place(change);
         let middle = [0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)];
-        if map.cell[0] >= LEAST {
+        if size >= LETTERS {
             canvas.text(middle, &map.number(change), &TextStyle::new(size, Anchor::Middle));
         }
         marks(canvas, change, &place);
@@ -216,7 +215,7 @@ fn marks(canvas: &mut Canvas, change: &Change, place: &Rectangle) {
 
 fn draw_names(canvas: &mut Canvas, record: &FairRecord, deck: bool, map: &Map) {
     let frame = &map.frame;
-    let style = TextStyle::new(2.5, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     let names: Vec<String> = if map.points.is_empty() {
         record.lines.waterlines.iter().map(|z| format!("{z:.3}")).collect()
     } else {
@@ -229,22 +228,20 @@ fn draw_names(canvas: &mut Canvas, record: &FairRecord, deck: bool, map: &Map) {
     if deck {
         canvas.text([frame.left - 1.5, frame.top + 0.5 * map.cell[1]], "deck", &style);
     }
-    let size = (0.7 * map.cell[0]).clamp(1.5, 2.5);
+    let size = LETTERS;
     let stride = (1.3 * size / map.cell[0]).ceil().max(1.0) as usize;
     for (i, station) in record.lines.stations.iter().enumerate().step_by(stride) {
         let name: String = caption::plain(&station.name).chars().take(9).collect();
         let x = frame.left + map.cell[0] * (i as f64 + 0.5);
         canvas.text([x, frame.bottom + 1.5], &name, &TextStyle::new(size, Anchor::End).upward());
     }
-    canvas.text(
-        [frame.left, frame.top - 3.0],
-        if map.points.is_empty() {
-            "waterline [m] over station, aft on the left"
-        } else {
-            "point of the section, from the keel up, over station, aft on the left"
-        },
-        &TextStyle::new(2.6, Anchor::Start),
-    );
+    let rows = if map.points.is_empty() {
+        "waterline [m] over station, aft on the left"
+    } else {
+        "point of the section, from the keel up, over station, aft on the left"
+    };
+    let words = format!("{rows}    {}", station_words(record));
+    canvas.text([frame.left, frame.top - 3.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
 }
 
 /// A diamond at each crossing of a station with a knuckle or a tangent line.
@@ -281,11 +278,11 @@ fn head(canvas: &mut Canvas, record: &FairRecord, unit: Unit) {
         unit.words[1],
         called.unwrap_or_default()
     );
-    canvas.text([0.5 * WIDTH, 16.0], &second, &TextStyle::new(3.0, Anchor::Middle));
+    canvas.text([0.5 * WIDTH, 16.0], &second, &TextStyle::new(3.2, Anchor::Middle));
 }
 
 fn key(canvas: &mut Canvas, map: &Map, y: f64) {
-    let style = TextStyle::new(2.6, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut x = MARGIN + NAMES;
     for share in [-1.0, -0.5, -0.1, 0.0, 0.1, 0.5, 1.0] {
         let place = Rectangle::new(x, y - 3.0, x + 12.0, y + 3.0);
@@ -293,7 +290,7 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
         canvas.rectangle(&place, &Pen::new(0.08, "#b0b0b0"));
         let text = format!("{:+.*}", map.digits + 1, share * map.full / map.unit.length);
         let text = if share.abs() > 0.0 { text } else { "0".to_owned() };
-        canvas.text([x + 6.0, y], &text, &TextStyle::new(2.2, Anchor::Middle));
+        canvas.text([x + 6.0, y], &text, &TextStyle::new(LETTERS, Anchor::Middle));
         x += 12.0;
     }
     canvas.text([x + 2.0, y], map.unit.words[1], &style);

@@ -4,10 +4,10 @@
 //! them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{curves, extent, midship, station_cut};
+use super::fairing::{extent, midship, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::suspects::{Expected, small_plot};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
@@ -26,11 +26,11 @@ const ROW: f64 = 4.6;
 const COLUMNS: [(f64, &str); 7] = [
     (1.0, "mark"),
     (11.0, "station"),
-    (28.0, "waterline [m]"),
-    (49.0, "given"),
-    (68.0, "proposed"),
-    (87.0, "noises off"),
-    (104.0, "what it may be"),
+    (27.0, "waterline [m]"),
+    (52.0, "given"),
+    (70.0, "proposed"),
+    (88.0, "noises off"),
+    (107.0, "what it may be"),
 ];
 /// Height of a row of small plots \[mm\], most rows, and stations and waterlines on each side that they show.
 const PLOTS: f64 = 48.0;
@@ -83,7 +83,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
     let mut placer = LabelPlacer::default();
     for (k, station) in record.lines.stations.iter().enumerate() {
         let own = record.doubts.iter().any(|doubt| doubt.station == k);
-        for line in curves(&record.after, station_cut(record, station.x), 0.01 / millimetres) {
+        for line in whole_curves(&record.after, station_cut(record, station.x), 0.01 / millimetres) {
             let line: Vec<[f64; 2]> = line.into_iter().map(|p| at(station.x, p[1], p[2])).collect();
             canvas.polyline(&line, if own { &OWN } else { &QUIET });
             placer.add_curve(&line);
@@ -98,7 +98,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
         placer.take(Rectangle::new(given[0] - 1.6, given[1] - 1.6, given[0] + 1.6, given[1] + 1.6));
     }
     let window = Rectangle::new(4.0, 22.0, paper[0] - LIST - SIDE, paper[1] - 14.0);
-    let style = TextStyle::new(2.8, Anchor::Middle).halo();
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     for doubt in &record.doubts {
         let Some(given) = place(doubt, doubt.value) else { continue };
         let shifts = [4.0, 6.5, 9.0, 12.0, 16.0].into_iter().flat_map(|r| {
@@ -121,7 +121,7 @@ fn list(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2]) -> f64 {
     let plots = record.doubts.len().min(2) as f64 * PLOTS;
     let room = ((paper[1] - HEAD - FOOT - plots) / ROW) as usize - 1;
     let shown = record.doubts.len().min(room);
-    let style = TextStyle::new(2.4, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     let rule = Pen::new(0.13, "#000000");
     let notation = record.lines.notation;
     let words = format!("given and proposed in {}", notation.as_str());
@@ -176,7 +176,7 @@ fn plots(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], top: f64) {
         let frame = |k: f64| {
             Rectangle::new(left + 0.5 * LIST * k + 11.0, y + 5.0, left + 0.5 * LIST * (k + 1.0) - 2.0, y + PLOTS - 12.0)
         };
-        canvas.text([left, y], &doubt.id, &TextStyle::new(2.8, Anchor::Start));
+        canvas.text([left, y], &doubt.id, &TextStyle::new(LETTERS, Anchor::Start));
         let reading = Expected { value: doubt.value, expected: doubt.proposed, band: 0.0 };
         // The neighbours on both sides, but for what is doubted itself.
         let around = |mut all: Vec<[f64; 2]>, place: f64| {
@@ -203,9 +203,9 @@ fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], n: u32) {
         record.doubts.len(),
         record.changes.len()
     );
-    canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.0, Anchor::Middle));
+    canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.2, Anchor::Middle));
     let y = paper[1] - 7.0;
-    let style = TextStyle::new(2.8, Anchor::Start);
+    let style = TextStyle::new(LETTERS, Anchor::Start);
     canvas.polyline(&circle([18.0, y], 1.3), &GIVEN);
     canvas.text([22.0, y], "as the table has it", &style);
     canvas.line([62.0, y], [70.0, y], &PROPOSED);
@@ -214,8 +214,8 @@ fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], n: u32) {
     canvas.line([100.0, y], [108.0, y], &OWN);
     canvas.text([110.0, y], "its station", &style);
     canvas.text([140.0, y], "S: its neighbours contradict it    N: the net of all others does", &style);
-    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(2.2, Anchor::End));
-    let words = TextStyle::new(3.0, Anchor::Middle);
+    canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
+    let words = TextStyle::new(3.2, Anchor::Middle);
     let centre = SIDE + 0.5 * (paper[0] - LIST - 3.0 * SIDE);
     canvas.text([centre - 50.0, paper[1] - 18.0], "AFT", &words);
     canvas.text([centre + 50.0, paper[1] - 18.0], "FORWARD", &words);

@@ -5,6 +5,7 @@ use super::sheet::Sheet;
 use super::{diagram_sheet, hydrostatics, lines, png, sectional_area, sections};
 use crate::hull::Hull;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
+use std::sync::OnceLock;
 
 /// Why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,6 +50,10 @@ pub struct FigureInputs<'a> {
     pub design: &'a Hydrostatics,
     /// Hydrostatics over the draughts of interest: their range and conventions.
     pub curves: &'a CurvesOfForm,
+    /// What the hull was read from, for title blocks: name of the file and the first digits of its SHA-256.
+    pub source: Option<&'a str>,
+    /// Where hydrostatics at many draughts are kept for all figures of the same inputs.
+    pub dense: Option<&'a OnceLock<Vec<Hydrostatics>>>,
 }
 
 impl FigureInputs<'_> {
@@ -61,7 +66,8 @@ impl FigureInputs<'_> {
             return Err(PlotError::TooFewDraughts(self.curves.rows.len().min(1)));
         }
         let draughts: Vec<f64> = (0..ROWS).map(|k| low + (high - low) * k as f64 / (ROWS - 1) as f64).collect();
-        Ok(CurvesOfForm::new(self.hull, &draughts, &self.curves.conventions).rows)
+        let rows = || CurvesOfForm::new(self.hull, &draughts, &self.curves.conventions).rows;
+        Ok(self.dense.map_or_else(rows, |kept| kept.get_or_init(rows).clone()))
     }
 }
 
@@ -143,7 +149,7 @@ impl Figure {
     /// let conventions = Conventions::default();
     /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
     /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
-    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves };
+    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves, source: None, dense: None };
     /// let lines = Figure::Lines.draw(&inputs)?;
     /// assert!(lines.as_str().starts_with("<svg"));
     /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));

@@ -121,8 +121,8 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             text_size: TEXT,
         };
         let mut placer = LabelPlacer::default();
-        chart.draw(&mut canvas, &mut placer, &series, Some((draught, &format!("DWL {draught:.2} m"))))?;
+        chart.draw(&mut canvas, &mut placer, &series, Some((draught, &caption::design_waterline(inputs))))?;
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)
 }

@@ -14,8 +14,8 @@ use super::{FigureInputs, PlotError, body_plan, profile};
 const GAP: f64 = 5.0;
 /// Height of the name of a view [mm].
 const VIEW_TITLE: f64 = 6.0;
-/// Size of the text at the grid [mm]; its capitals are 2.2 mm high.
-const TEXT: f64 = 3.0;
+/// Size of the text at the grid [mm]; its capitals are 2.5 mm high.
+const TEXT: f64 = 3.5;
 /// Narrowest column that a body plan is set in beside the long views [mm].
 const BODY_COLUMN: f64 = 128.0;
 /// Deviation of chords from their curves on paper [mm].
@@ -54,11 +54,11 @@ impl Extents {
     }
 
     /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that neither
-    /// grows at the cost of the other; a tenth of it when the table does not fit.
+    /// grows at the cost of the other; a third of it when the table does not fit.
     fn merit(&self, layout: &Layout) -> f64 {
         let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
         let table = layout.table.width() >= self.table[0] && layout.table.height() >= self.table[1];
-        long * long * body * if table { 1.0 } else { 0.1 }
+        long * long * body * if table { 1.0 } else { 0.35 }
     }
 
     /// Height of the body plan with its names at 1 : `scale` [mm].
@@ -155,6 +155,8 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
         let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
         let top = lower.bottom + gap;
         // The table stands over the title block, or else between it and the body plan.
+        let wide = column.min(inner.right - extents.table[0] - 0.5 * GAP);
+        let column = wide.max(inner.left + extents.body_width(body_scale) + GAP).min(column);
         let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
         let beside = column - extents.table[0] - GAP;
         let between = over.height() < extents.table[1] && beside - GAP - inner.left >= extents.body_width(body_scale);
@@ -191,7 +193,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let before = inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale)));
     let mut canvas = Canvas::new(sheet.size()[0], sheet.size()[1]);
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
-    let title = TextStyle::new(3.0, Anchor::Start);
+    let title = TextStyle::new(3.5, Anchor::Start);
 
     let style = LongStyle { text_size: TEXT, narrow: layout.side_room < profile::SIDE_ROOM };
     let millimetres = 1000.0 / f64::from(layout.scale);
@@ -205,7 +207,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     if let Some(before) = &before {
         draw_before(&mut canvas, &view, &before.buttocks, |p, _| [p[0], p[2]]);
     }
-    profile::draw_profile(&mut canvas, hull, &grid, &view, style);
+    profile::draw_profile(&mut canvas, inputs, &grid, &view, style);
 
     name(&mut canvas, &layout.half_breadths, "HALF-BREADTH PLAN, diagonals in true shape below", layout.scale);
     let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
@@ -237,7 +239,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
         let side = |plane: &GridPlane| if plane.at < midship { -1.0 } else { 1.0 };
         draw_before(&mut canvas, &view, &before.stations, |p, plane| [side(plane) * p[1], p[2]]);
     }
-    body_plan::draw(&mut canvas, hull, &grid, &view, TEXT);
+    body_plan::draw(&mut canvas, inputs, &grid, &view, TEXT);
 
     let corner = [frame.right, frame.bottom];
     let scales = Scales { long: layout.scale, body: body_scale, sheet };

@@ -2,12 +2,14 @@
 
 use super::outline;
 use super::scale::{decimals, multiples, nice_step};
-use crate::hull::{Cut, Face, Hull};
+use crate::hull::{Cut, Face, Hull, default_buttocks};
 
 /// Intervals between the perpendiculars.
 const INTERVALS: i32 = 20;
 /// Stations closer than this to the perpendiculars stand at half intervals [intervals].
 const HALF_STATIONS: i32 = 2;
+/// How near a station is to an end of the hull that it stands at, in lengths of the hull.
+const INSIDE: f64 = 1e-4;
 /// Deviation of a section from surface and plane [m].
 const TOLERANCE: f64 = 1e-6;
 
@@ -85,6 +87,19 @@ fn station_numbers(aft: f64, fore: f64) -> Vec<i32> {
         .collect()
 }
 
+/// A station at an end of the hull that is a plane at its waterlines alone goes in and out of that plane: its longest piece stays.
+fn in_one_piece(mut plane: GridPlane) -> GridPlane {
+    if plane.on_side > 1 {
+        let length =
+            |curve: &Vec<[f64; 3]>| curve.windows(2).map(|w| (w[1][1] - w[0][1]).hypot(w[1][2] - w[0][2])).sum::<f64>();
+        plane.curves.truncate(plane.on_side);
+        plane.curves.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        plane.curves.truncate(1);
+        plane.on_side = 1;
+    }
+    plane
+}
+
 impl LinesGrid {
     /// Cuts the hull; chords of the curves stay within `deviation` [m] of them.
     pub(super) fn new(hull: &Hull, deviation: f64) -> Self {
@@ -105,7 +120,9 @@ impl LinesGrid {
             .into_iter()
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
-                plane(x, numeral(halves), Cut::Station { x })
+                let found = plane(x, numeral(halves), Cut::Station { x });
+                let ended = length.iter().any(|end| (x - end).abs() <= INSIDE * (length[1] - length[0]));
+                if ended { in_one_piece(found) } else { found }
             })
             .collect();
         let waterline_spacing = nice_step(p.draught, 8.0);
@@ -125,12 +142,11 @@ impl LinesGrid {
             .chain(&deck)
             .map(|point| point[1])
             .fold(0.0, f64::max);
-        let buttock_spacing = nice_step(0.5 * p.breadth, 7.0);
-        let buttocks = multiples(buttock_spacing, buttock_spacing, 0.995 * half_breadth)
-            .into_iter()
-            .enumerate()
-            .map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y }))
-            .collect();
+        // Those of the tables of heights.
+        let distances = default_buttocks(hull);
+        let buttock_spacing = distances.first().copied().unwrap_or(0.5 * p.breadth);
+        let buttocks =
+            distances.into_iter().enumerate().map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y })).collect();
         let diagonal_angle = p.draught.atan2(0.5 * p.breadth);
         let diagonals = [0.7, 1.0, 1.3]
             .into_iter()

@@ -109,6 +109,6 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             .collect();
         placer.name_clear(&mut canvas, name, &style, &places, &chart.frame);
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(Some(canvas))
 }

@@ -1,7 +1,7 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give the same bytes.
 
 use super::figure::Svg;
-use super::sheet::{ROOM, Sheet, Titles, framed};
+use super::sheet::{ROOM, Sheet, Titles, footed, framed};
 use super::{PlotError, caption, png};
 use krilla::geom::{Size, Transform};
 use krilla::metadata::Metadata;
@@ -40,10 +40,21 @@ fn place(surface: &mut Surface<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), Plo
 pub struct Page<'a> {
     /// What the title block calls it.
     pub title: &'a str,
-    /// What to look for; two lines of the title block.
+    /// What to look for; three lines of the title block.
     pub caption: &'a str,
     /// The drawing.
     pub svg: &'a Svg,
+}
+
+/// What all title blocks of a document say.
+#[derive(Debug, Clone, Copy)]
+pub struct Heading<'a> {
+    /// Name of the ship.
+    pub ship: &'a str,
+    /// What the drawings were made from, with its hash.
+    pub source: &'a str,
+    /// The date, as it was given.
+    pub date: Option<&'a str>,
 }
 
 /// A figure that was read, with its size \[mm\] and its number.
@@ -58,9 +69,14 @@ impl Read<'_> {
         self.size[0] <= room[0] + 0.1 && self.size[1] <= room[1] + 0.1
     }
 
-    /// The frame of `sheet` with its upper left corner at `corner` \[mm\], and the figure in the middle of it.
-    fn draw_framed(&self, surface: &mut Surface<'_>, sheet: Sheet, corner: [f64; 2]) -> Result<(), PlotError> {
-        let frame = framed(sheet, &self.titles);
+    /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of it.
+    fn draw_framed(
+        &self,
+        surface: &mut Surface<'_>,
+        [sheet, paper]: [Sheet; 2],
+        corner: [f64; 2],
+    ) -> Result<(), PlotError> {
+        let frame = framed(sheet, paper, &self.titles);
         place(surface, &png::tree(frame.as_str())?, corner)?;
         let [width, height] = self.size;
         // A figure covers what is under it: it stays off the frame.
@@ -93,14 +109,15 @@ fn page(
 ///
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
-pub fn write_pdf<'a>(ship: &'a str, figures: &[Page<'a>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
+pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
     let mut document = Document::new_with(SerializeSettings::default());
-    let metadata = Metadata::new().title(ship.to_owned()).creator(caption::program()).language("en".to_owned());
+    let metadata = Metadata::new().title(heading.ship.to_owned()).creator(caption::program()).language("en".to_owned());
     document.set_metadata(metadata);
     let read = |(k, figure): (usize, &Page<'a>)| -> Result<Read<'a>, PlotError> {
         let tree = png::tree(figure.svg.as_str())?;
         let number = [k + 1, figures.len()];
-        let titles = Titles { ship, title: figure.title, caption: figure.caption, number };
+        let Heading { ship, source, date } = *heading;
+        let titles = Titles { ship, title: figure.title, caption: figure.caption, number, source, date };
         Ok(Read { titles, size: size(&tree), tree })
     };
     let mut all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -112,7 +129,7 @@ pub fn write_pdf<'a>(ship: &'a str, figures: &[Page<'a>], sheet: Sheet) -> Resul
                 let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
                 for (k, figure) in four.iter().enumerate() {
                     let corner = [spare[0] + wide * (k % 2) as f64, spare[1] + high * (k / 2) as f64];
-                    figure.draw_framed(surface, Sheet::A3, corner)?;
+                    figure.draw_framed(surface, [Sheet::A3, sheet], corner)?;
                 }
                 Ok(())
             })?;
@@ -122,7 +139,11 @@ pub fn write_pdf<'a>(ship: &'a str, figures: &[Page<'a>], sheet: Sheet) -> Resul
     for figure in &all {
         let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
         page(&mut document, paper, |surface| {
-            if fits { figure.draw_framed(surface, sheet, [0.0, 0.0]) } else { place(surface, &figure.tree, [0.0, 0.0]) }
+            if fits {
+                return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0]);
+            }
+            place(surface, &figure.tree, [0.0, 0.0])?;
+            place(surface, &png::tree(footed(sheet, &figure.titles).as_str())?, [0.0, 0.0])
         })?;
     }
     document.finish().map_err(|found| error(format!("{found:?}")))

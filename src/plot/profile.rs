@@ -3,8 +3,8 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::outline;
 use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
+use super::{FigureInputs, caption, outline};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
@@ -87,8 +87,34 @@ fn draw_level(
     names.name_point(canvas, name, &right, &[[frame.right + 1.0, y]], &room);
 }
 
+/// Under the name of the design waterline at both ends, whether the draught was assumed.
+pub(super) fn name_assumed(
+    canvas: &mut Canvas,
+    inputs: &FigureInputs,
+    names: &mut LabelPlacer,
+    frame: &Rectangle,
+    y: f64,
+    text_size: f64,
+) {
+    let (text, room) = (caption::assumed(inputs).trim(), frame.grown(SIDE_ROOM + BEYOND));
+    let below = y + 1.15 * text_size;
+    if !text.is_empty() {
+        let style = TextStyle::new(text_size, Anchor::End);
+        names.name_point(canvas, text, &style, &[[frame.left - 1.0, below]], &room);
+        let right = TextStyle { anchor: Anchor::Start, ..style };
+        names.name_point(canvas, text, &right, &[[frame.right + 1.0, below]], &room);
+    }
+}
+
 /// The profile, bow to the right; the origin of `view` is AP on the base line.
-pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
+pub(super) fn draw_profile(
+    canvas: &mut Canvas,
+    inputs: &FigureInputs,
+    grid: &LinesGrid,
+    view: &View,
+    style: LongStyle,
+) {
+    let hull = inputs.hull;
     let text_size = style.text_size;
     let frame = frame(grid, view, grid.height[0], grid.height[1]);
     canvas.begin_group("profile");
@@ -106,6 +132,9 @@ pub(super) fn draw_profile(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, v
         let y = view.at([0.0, plane.at])[1];
         let name = if style.narrow { plane.name.clone() } else { grid.waterline_label(plane) };
         draw_level(canvas, &mut names, &frame, y, pen, &name, text_size);
+        if plane.name == design.name && !style.narrow {
+            name_assumed(canvas, inputs, &mut names, &frame, y, text_size);
+        }
     }
     let mut placer = LabelPlacer::default();
     let mut owners = Vec::new();

@@ -1,17 +1,17 @@
 //! The figures of reports: text keeps apart and on the sheet, and they fit into the frame of A3.
 
 use super::canvas::Canvas;
+use super::fairing_combs::FairingCombs;
 use super::fairing_curves::Along;
 use super::sheet::{ROOM, Sheet};
-use super::surface_map::{self, SurfaceMapKind};
+use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
     FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves, fairing_long,
     fairing_moves, fairing_suspects, pareto,
 };
-use crate::fairing::inspect::Planes;
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
-use crate::hull::{Cut, Entry, Hull, OffsetStation, OffsetTable};
+use crate::hull::{Entry, Hull, OffsetStation, OffsetTable};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
@@ -64,13 +64,21 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
     let mut found = Vec::new();
     let start = wigley();
     for (hull, before) in [(wigley(), Some(&start)), (frigate(), None)] {
+        let maps = SurfaceMaps::new(&hull, before);
         for kind in SurfaceMapKind::ALL {
-            let canvas = surface_map::compose(&hull, before, kind).unwrap();
+            let canvas = surface_map::compose(&maps, kind).unwrap();
             found.extend(faults(&format!("{} {}", hull.name(), kind.key()), &canvas));
         }
         let draught = hull.particulars().draught;
         let table = CurvesOfForm::new(&hull, &[draught], &Conventions::default());
-        let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table };
+        let inputs = FigureInputs {
+            hull: &hull,
+            before: None,
+            design: &table.rows[0],
+            curves: &table,
+            source: None,
+            dense: None,
+        };
         found.extend(faults(&format!("{} bonjean", hull.name()), &bonjean::compose(&inputs).unwrap()));
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
@@ -101,20 +109,21 @@ fn record() -> FairRecord {
 fn figures_of_faired_tables_keep_their_text_apart() {
     let record = record();
     assert_eq!(record.doubts.len(), 2);
-    let planes = Planes::with_defaults(&record.after);
-    let buttocks: Vec<Cut> = planes.buttocks.iter().map(|&y| Cut::Buttock { y }).collect();
+    let combs = FairingCombs::new(&record, &[]);
     let mut found = Vec::new();
     for sheet in Sheet::ALL {
-        let buttocks = buttocks.clone();
         let figures = [
             ("arrows", fairing_arrows::compose(&record, sheet)),
             ("long arrows", fairing_arrows_long::compose(&record, sheet)),
-            ("body plan", fairing::body_plan(&record, sheet)),
-            ("half-breadth plan", fairing::half_breadth_plan(&record, sheet)),
-            ("buttocks", fairing_long::compose(&record, sheet, "BUTTOCKS", buttocks, |_, p| [p[0], p[2]])),
+            ("body plan", fairing::body_plan(&record, &combs, sheet)),
+            ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
+            (
+                "buttocks",
+                fairing_long::compose(&record, &combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]]),
+            ),
             ("suspects", fairing_suspects::compose(&record, sheet).map(Option::unwrap)),
-            ("waterlines", Ok(fairing_curves::compose(&record, sheet, Along::Ship).unwrap())),
-            ("stations", Ok(fairing_curves::compose(&record, sheet, Along::Height).unwrap())),
+            ("waterlines", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap())),
+            ("stations", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap())),
         ];
         for (name, canvas) in figures {
             let name = format!("{name} on {}", sheet.as_str());

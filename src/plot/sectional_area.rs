@@ -36,7 +36,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         frame,
         right: Some(left.divided("A / A_X [-]", largest, 0.1)),
         left,
-        top: Some(Axis::exact("station", (low - room) / interval, (high + room) / interval, 1.0)),
+        top: Some(Axis::exact("station, L_PP / 20 from AP", (low - room) / interval, (high + room) / interval, 1.0)),
         bottom: Axis::exact("x forward of AP [m]", low - room, high + room, nice_step(high - low, 12.0)),
         text_size: 2.8,
     };
@@ -81,7 +81,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     }
     chart.draw(&mut canvas, &mut placer, &series, None)?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)
 }
 
@@ -132,7 +132,7 @@ fn mark_centre(
 /// What the curve amounts to, in one line.
 fn coefficients(inputs: &FigureInputs) -> String {
     let design = inputs.design;
-    let mut parts = vec![format!("T {:.2} m", design.draught), format!("∇ {:.1} m³", design.displacement_volume)];
+    let mut parts = vec![caption::draught(inputs), format!("∇ {:.1} m³", design.displacement_volume)];
     parts.push(match design.maximum_section_position {
         Some(x) => format!("A_X {:.2} m² at x {x:.2} m", design.maximum_section_area),
         None => format!("A_X {:.2} m²", design.maximum_section_area),

@@ -4,7 +4,7 @@ use super::body_plan::{self, BOTTOM_ROOM, SIDE_ROOM, TOP_ROOM};
 use super::canvas::{Anchor, Canvas, TextStyle};
 use super::lines_grid::LinesGrid;
 use super::scale::drawing_scale;
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::view::View;
 use super::{FigureInputs, PlotError, caption};
 
@@ -25,18 +25,29 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let scale = drawing_scale(extent[0], paper[0] - rooms[0]).max(drawing_scale(extent[1], paper[1] - rooms[1]));
     let millimetres = 1000.0 / f64::from(scale);
     let grid = LinesGrid::new(hull, DEVIATION / millimetres);
-    let size = [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]];
+    // What fits to rounding does not grow by a millimetre.
+    let size =
+        [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]].map(|side| side - 1e-6);
     let mut canvas = Canvas::new(size[0].ceil(), size[1].ceil());
     let centre = 0.5 * size[0].ceil();
+    let letters = LETTERS * size[0].ceil() / Sheet::A3.size()[0];
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
-        "1 : {scale}   L_PP {:.2} m   B {:.2} m   T {:.2} m   D {:.2} m   stations {:.3} m from AP   moulded",
-        p.length_between_perpendiculars, p.breadth, p.draught, p.depth, grid.station_spacing
+        "1 : {scale}   L_PP {:.2} m   B {:.2} m   {}   D {:.2} m   stations L_PP / 20 = {:.3} m from AP   moulded",
+        p.length_between_perpendiculars,
+        p.breadth,
+        caption::draught(inputs),
+        p.depth,
+        grid.station_spacing
     );
-    canvas.text([centre, 15.0], &line, &TextStyle::new(2.6, Anchor::Middle));
+    canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));
     let view = View::new([centre, size[1].ceil() - BOTTOM_ROOM - 6.0], scale);
-    body_plan::draw(&mut canvas, hull, &grid, &view, 2.2);
-    canvas.text([size[0].ceil() - 4.0, size[1].ceil() - 2.8], &caption::program(), &TextStyle::new(1.9, Anchor::End));
+    body_plan::draw(&mut canvas, inputs, &grid, &view, (letters / 0.9).max(2.4));
+    canvas.text(
+        [size[0].ceil() - 4.0, size[1].ceil() - 2.8],
+        &caption::program(),
+        &TextStyle::new(letters, Anchor::End),
+    );
     Ok(canvas)
 }

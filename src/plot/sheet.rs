@@ -7,9 +7,12 @@ use super::{caption, title_block};
 /// Margin of the frame \[mm\].
 const MARGIN: f64 = 8.0;
 /// Height of the title block under a figure \[mm\].
-const STRIP: f64 = 16.0;
+const STRIP: f64 = 18.0;
 /// What the frame leaves of A3 to a figure \[mm\].
 pub(super) const ROOM: [f64; 2] = Sheet::A3.room();
+
+/// Least size of letters on a drawing as wide as A3: nine pixels where the drawing is 1200 pixels wide \[mm\].
+pub(super) const LETTERS: f64 = 3.15;
 
 /// A sheet, landscape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -57,6 +60,9 @@ impl Sheet {
     }
 }
 
+/// Most lines of the caption in a title block.
+const LINES: usize = 3;
+
 /// What a title block says of its drawing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Titles<'a> {
@@ -66,10 +72,14 @@ pub(super) struct Titles<'a> {
     pub(super) caption: &'a str,
     /// Number of the drawing, and how many there are.
     pub(super) number: [usize; 2],
+    /// What the drawing was made from.
+    pub(super) source: &'a str,
+    /// Its date, as it was given.
+    pub(super) date: Option<&'a str>,
 }
 
-/// The frame of a drawing on a sheet: name of the ship, title and caption of the figure, check bar.
-pub(super) fn framed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
+/// The frame of a drawing as large as `sheet` on a paper of that size or larger: name of the ship, title and caption of the figure, check bar.
+pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
     let frame = sheet.frame();
@@ -77,7 +87,7 @@ pub(super) fn framed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
     let top = frame.bottom - STRIP;
     let rule = Pen::new(0.25, "#000000");
     canvas.line([frame.left, top], [frame.right, top], &rule);
-    let columns = [frame.left + 112.0, frame.right - 66.0];
+    let columns = [frame.left + 112.0, frame.right - 96.0];
     for x in columns {
         canvas.line([x, top], [x, frame.bottom], &rule);
     }
@@ -88,16 +98,40 @@ pub(super) fn framed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
     let heading = format!("{} – {}", caption::plain(titles.ship), titles.title);
     let size = 3.8 * (room / wide(&heading, 3.8).max(1.0)).min(1.0);
     canvas.text([columns[0] + 4.0, top + 4.2], &heading, &TextStyle::new(size, Anchor::Start));
-    let small = TextStyle::new(2.1, Anchor::Start);
-    for (k, line) in wrapped(titles.caption, |line| wide(line, small.size) <= room).iter().take(2).enumerate() {
-        canvas.text([columns[0] + 4.0, top + 9.2 + 3.4 * k as f64], line, &small);
+    let small = TextStyle::new(LETTERS, Anchor::Start);
+    for (k, line) in wrapped(titles.caption, |line| wide(line, small.size) <= room).iter().take(LINES).enumerate() {
+        canvas.text([columns[0] + 4.0, top + 8.6 + 3.7 * k as f64], line, &small);
     }
-    let style = TextStyle::new(2.8, Anchor::Start);
-    let [number, count] = titles.number;
-    let words = format!("drawing {number} of {count}   {}, true size", sheet.as_str());
-    canvas.text([columns[1] + 4.0, top + 5.0], &words, &style);
-    canvas.text([columns[1] + 4.0, top + 11.5], &caption::program(), &style);
+    let lines = [numbered(titles, paper), titles.source.to_owned(), stamped(titles)];
+    for (k, line) in lines.iter().enumerate() {
+        let fitted = ((frame.right - columns[1] - 6.0) / wide(line, LETTERS).max(1.0)).min(1.0);
+        canvas.text(
+            [columns[1] + 3.0, top + 4.0 + 5.0 * k as f64],
+            line,
+            &TextStyle { size: LETTERS * fitted, ..small },
+        );
+    }
     Svg { text: canvas.finish(titles.title) }
+}
+
+/// `drawing 3 of 24   A3, true size`.
+fn numbered(titles: &Titles<'_>, sheet: Sheet) -> String {
+    let [number, count] = titles.number;
+    format!("drawing {number} of {count}   {}, true size", sheet.as_str())
+}
+
+/// The program and the date.
+fn stamped(titles: &Titles<'_>) -> String {
+    titles.date.map_or_else(caption::program, |date| format!("{}   {date}", caption::program()))
+}
+
+/// For a drawing that is a sheet with its own frame: a line under the frame that says which drawing it is.
+pub(super) fn footed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
+    let [width, height] = sheet.size();
+    let mut canvas = Canvas::new(width, height);
+    let line = format!("{}   {}   {}", numbered(titles, sheet), titles.source, stamped(titles));
+    canvas.text([width - MARGIN, height - 0.5 * MARGIN], &line, &TextStyle::new(LETTERS, Anchor::End));
+    Svg { text: canvas.finish_clear(titles.title) }
 }
 
 /// Words in lines that fit.
@@ -125,7 +159,7 @@ mod tests {
 
     #[test]
     fn the_frame_leaves_the_room_that_figures_have() {
-        for (found, expected) in [(ROOM, [402.0, 263.0]), (Sheet::A1.room(), [823.0, 560.0])] {
+        for (found, expected) in [(ROOM, [402.0, 261.0]), (Sheet::A1.room(), [823.0, 558.0])] {
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
         }
     }

@@ -80,6 +80,6 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
         placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(Some(Svg { text: canvas.finish("lcurve") }))
 }

@@ -1,10 +1,12 @@
 //! Curvature of the side of a hull, developed: position along the ship by girth from the keel.
 //!
-//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is developable, orange where it is convex both ways and blue where it is a saddle; the
-//! mean map orange where it is convex outward and blue where it is hollow; on both, black lines mark zero. Colours are steps of the
-//! square root of the curvature, full at a size that nineteen twentieths of the surface do not pass. Zebra stripes are the reflections of
-//! lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous, have kinks where only
-//! the tangent plane is, and break at knuckles.
+//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is developable, orange where
+//! it is convex both ways and blue where it is a saddle; the mean map orange where it is convex outward and blue where it is hollow; on both,
+//! black lines mark zero. Colours are steps of the square root of the curvature, full at a size that nineteen twentieths of the side do not
+//! pass. Zebra stripes are the reflections of lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous,
+//! have kinks where only the tangent plane is, and break at knuckles. Both sides of a knot line of the surface are looked at: where curvature
+//! jumps by a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so that what the surface is made with
+//! is not taken for a bump. Between the points of the map the curvature, or the angle of the reflection, is linear.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart};
@@ -13,11 +15,13 @@ use super::scale::{decimals, nice_step};
 use super::sheet::ROOM;
 use super::zero_lines::zero_lines;
 use super::{PlotError, Svg, caption};
-use crate::fairing::inspect::{MapPoint, SurfaceMap};
+use crate::fairing::inspect::{KnotLine, MapPoint, SurfaceMap};
 use crate::hull::Hull;
+use std::f64::consts::PI;
+use std::thread;
 
-/// Columns and rows of the grid.
-const GRID: [usize; 2] = [161, 49];
+/// Columns and rows of the grid, about.
+const GRID: [usize; 2] = [221, 91];
 /// Steps of colour on each side of white.
 const STEPS: i32 = 7;
 /// Part of the surface that the full colours hold.
@@ -30,10 +34,18 @@ const HEIGHT: f64 = 78.0;
 const PITCH: f64 = 104.0;
 /// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step of colour.
 const ZERO: f64 = 0.25 / (STEPS * STEPS) as f64;
+/// Size of the text, and width of a field of the legend \[mm\].
+const TEXT: f64 = 3.1;
+const SWATCH: f64 = 14.0;
 /// Distance of the signs of curvature on the sheet \[mm\].
 const SIGNS: f64 = 9.0;
 /// Dark stripes to a turn of the reflected ray.
 const STRIPES: f64 = 16.0;
+/// Least angle between the tangent planes of the two sides of a line that is a knuckle \[rad\].
+const KNUCKLE: f64 = 0.005;
+/// Lines across which curvature jumps, and knuckles.
+const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
+const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
 
 /// What is mapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,30 +87,42 @@ impl SurfaceMapKind {
         }
     }
 
-    /// What is compared with the levels: a curvature, or the brightness of the reflection from -1 to 1, which is 1 on upright sides
-    /// and on flat bottoms; none where there is no tangent plane.
+    /// What is compared with the levels: a curvature, or the phase of the reflection, of which stripes from even to odd numbers are dark;
+    /// upright sides and flat bottoms are bright. None where there is no tangent plane.
     fn value(self, point: &MapPoint) -> Option<f64> {
         match self {
             Self::Zebra => {
                 // The ray from abeam, reflected: r = 2 (n . v) n - v with v to port.
                 let [_, y, z] = point.normal?;
                 let angle = (2.0 * y * z).atan2(2.0 * y * y - 1.0);
-                Some((STRIPES * angle).cos())
+                Some(STRIPES / PI * angle - 0.5)
             }
             Self::Gaussian => Some(point.curvature?[0]),
             Self::Mean => Some(point.curvature?[1]),
         }
     }
 
-    /// Levels with the colours beyond them, in the order in which they are painted; below a negative level, above others.
-    fn levels(self, full: f64) -> Vec<(f64, String)> {
+    /// What is painted one over the other: a colour with the ranges of values, of those between `low` and `high`, that have it.
+    fn layers(self, full: f64) -> Vec<(String, Ranges)> {
         if self == Self::Zebra {
-            // All of it bright, and then what is dark.
-            return vec![(f64::NEG_INFINITY, self.colour(1)), (-f64::MIN_POSITIVE, self.colour(0))];
+            let all: Ranges = Box::new(|_, _| vec![[f64::NEG_INFINITY, f64::INFINITY]]);
+            let dark: Ranges = Box::new(|low, high| {
+                let first = (0.5 * (low - 1.0)).ceil() as i64;
+                (first..)
+                    .map(|m| 2.0 * m as f64)
+                    .take_while(|from| *from <= high)
+                    .map(|from| [from, from + 1.0])
+                    .collect()
+            });
+            return vec![(self.colour(1), all), (self.colour(0), dark)];
         }
         let level = |k: i32| full * ((f64::from(k) - 0.5) / f64::from(STEPS)).powi(2);
-        let steps = (1..=STEPS).flat_map(|k| [(level(k), k), (-level(k), -k)]);
-        if full > 0.0 { steps.map(|(at, k)| (at, self.colour(k))).collect() } else { Vec::new() }
+        let beyond = |k: i32| -> Ranges {
+            let range = if k > 0 { [level(k), f64::INFINITY] } else { [f64::NEG_INFINITY, -level(-k)] };
+            Box::new(move |_, _| vec![range])
+        };
+        let steps = (1..=STEPS).flat_map(|k| [k, -k]).map(|k| (self.colour(k), beyond(k)));
+        if full > 0.0 { steps.collect() } else { Vec::new() }
     }
 
     fn colour(self, step: i32) -> String {
@@ -112,37 +136,69 @@ impl SurfaceMapKind {
     }
 }
 
+/// The ranges of values that have a colour, of those between two values.
+type Ranges = Box<dyn Fn(f64, f64) -> Vec<[f64; 2]>>;
+
 /// A hull with its heading.
-struct Side {
+struct Side<'a> {
     heading: &'static str,
-    map: SurfaceMap,
+    map: &'a SurfaceMap,
+}
+
+/// The maps that the figures are drawn from: of a hull, and of that before fairing where there is one.
+#[derive(Debug, Clone)]
+pub struct SurfaceMaps {
+    name: String,
+    breadth: f64,
+    after: SurfaceMap,
+    before: Option<SurfaceMap>,
+}
+
+impl SurfaceMaps {
+    /// Looks at the surfaces.
+    #[must_use]
+    pub fn new(hull: &Hull, before: Option<&Hull>) -> Self {
+        let map = |hull: &Hull| SurfaceMap::at_stations(hull, GRID[0], GRID[1]);
+        let (after, before) = match before {
+            Some(before) => thread::scope(|scope| {
+                let other = scope.spawn(|| map(before));
+                (map(hull), other.join().ok())
+            }),
+            None => (map(hull), None),
+        };
+        Self { name: hull.name().to_owned(), breadth: hull.particulars().breadth, after, before }
+    }
 }
 
 /// Draws the map of a hull, over that of the hull before fairing where there is one; both have one scale of colours.
 ///
 /// # Errors
 /// [`PlotError::Chart`] when the chart cannot be drawn.
-pub fn surface_map(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(hull, before, kind)?.finish(kind.key()) })
+pub fn surface_map(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Svg, PlotError> {
+    Ok(Svg { text: compose(maps, kind)?.finish(kind.key()) })
 }
 
-pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) -> Result<Canvas, PlotError> {
-    let side = |heading, hull: &Hull| Side { heading, map: SurfaceMap::at_stations(hull, GRID[0], GRID[1]) };
-    let mut sides: Vec<Side> = before.map(|before| side("before fairing", before)).into_iter().collect();
-    sides.push(side(if before.is_some() { "after fairing" } else { "" }, hull));
+pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas, PlotError> {
+    let before = maps.before.as_ref();
+    let mut sides: Vec<Side> = before.map(|map| Side { heading: "before fairing", map }).into_iter().collect();
+    sides.push(Side { heading: if before.is_some() { "after fairing" } else { "" }, map: &maps.after });
+    let full = |which: usize| {
+        let full = sides.iter().map(|side| side.map.size(which, SHARE)).fold(0.0, f64::max);
+        // What is rounding on a hull of this size is flat.
+        if full > FLAT / maps.breadth.powi(2 - which as i32) { full } else { 0.0 }
+    };
     let which = usize::from(kind == SurfaceMapKind::Mean);
-    let full = sides.iter().map(|side| side.map.size(which, SHARE)).fold(0.0, f64::max);
-    // What is rounding on a hull of this size is flat.
-    let rounding = FLAT / hull.particulars().breadth.powi(2 - which as i32);
-    let full = if full > rounding { full } else { 0.0 };
+    // The jumps of a zebra map are those of the mean curvature.
+    let jumps = if kind == SurfaceMapKind::Zebra { 1 } else { which };
+    let (full, jump) = (full(which), full(jumps));
     let points = || sides.iter().flat_map(|side| &side.map.points);
     let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.at[0]), b.max(p.at[0])));
     let girth = points().map(|p| p.girth).fold(0.0, f64::max);
-    let mut canvas = Canvas::new(ROOM[0], 22.0 + PITCH * sides.len() as f64 + 14.0);
-    let title = format!("{} – {}", kind.title(), caption::plain(hull.name()));
+    let mut canvas = Canvas::new(ROOM[0], 22.0 + PITCH * sides.len() as f64 + 20.0);
+    let title = format!("{} – {}", kind.title(), caption::plain(&maps.name));
     canvas.text([0.5 * ROOM[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let words = "the side developed: girth of each station from the centreplane";
-    canvas.text([0.5 * ROOM[0], 15.0], words, &TextStyle::new(2.8, Anchor::Middle));
+    canvas.text([0.5 * ROOM[0], 15.0], words, &TextStyle::new(TEXT, Anchor::Middle));
     for (k, side) in sides.iter().enumerate() {
         let top = 28.0 + PITCH * k as f64;
         let chart = Chart {
@@ -151,16 +207,17 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
             left: Axis::new("girth [m]", 0.0, girth, 8.0),
             top: None,
             right: None,
-            text_size: 2.8,
+            text_size: TEXT,
         };
-        draw_cells(&mut canvas, &chart, &side.map, kind, full);
+        draw_cells(&mut canvas, &chart, side.map, kind, full);
         if kind != SurfaceMapKind::Zebra && full > 0.0 {
             let place = |at: [f64; 2]| chart.place(at);
-            draw_signs(&mut canvas, &chart, &side.map, which, ZERO * full);
-            for line in zero_lines(&side.map, which, ZERO * full, &place) {
+            draw_signs(&mut canvas, &chart, side.map, which, ZERO * full);
+            for line in zero_lines(side.map, which, ZERO * full, &place) {
                 canvas.polyline(&line, &Pen::new(0.3, "#000000"));
             }
         }
+        draw_breaks(&mut canvas, &chart, side.map, jumps, jump);
         let columns = side.map.columns();
         for row in [0, side.map.rows - 1] {
             let edge = (0..columns).map(|i| side.map.point(i, row));
@@ -171,36 +228,53 @@ pub(super) fn compose(hull: &Hull, before: Option<&Hull>, kind: SurfaceMapKind) 
         let style = TextStyle::new(3.2, Anchor::Start);
         canvas.text([26.0, top - 3.4], side.heading, &style);
     }
-    legend(&mut canvas, kind, full, 22.0 + PITCH * sides.len() as f64 + 2.0);
-    let corner = [ROOM[0] - 6.0, 22.0 + PITCH * sides.len() as f64 + 10.0];
-    canvas.text(corner, &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    let more = sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0);
+    legend(&mut canvas, kind, full, more, 22.0 + PITCH * sides.len() as f64 + 2.0);
+    let corner = [ROOM[0] - 6.0, 22.0 + PITCH * sides.len() as f64 + 16.0];
+    canvas.text(corner, &caption::program(), &TextStyle::new(TEXT, Anchor::End));
     Ok(canvas)
 }
 
-/// What lies beyond the levels, one over the other; cells that lie there as a whole are joined along a row.
+/// A corner of a cell: its place on the sheet and its value.
+type Corner = ([f64; 2], f64);
+
+/// The values at the corners of a cell; angles are taken on the turn of the first.
+fn turned(values: [f64; 4], kind: SurfaceMapKind) -> [f64; 4] {
+    let turn = 2.0 * STRIPES;
+    if kind == SurfaceMapKind::Zebra { values.map(|v| v - turn * ((v - values[0]) / turn).round()) } else { values }
+}
+
+/// The colours, one over the other; cells that have one as a whole are joined along a row.
 fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: SurfaceMapKind, full: f64) {
     let columns = map.columns();
     let values: Vec<Option<f64>> = map.points.iter().map(|point| kind.value(point)).collect();
     let places: Vec<[f64; 2]> = map.points.iter().map(|p| chart.place([p.at[0], p.girth])).collect();
-    let corners = |i: usize, j: usize| [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| i * map.rows + j);
-    for (level, colour) in kind.levels(full) {
-        let beyond = |value: f64| match level {
-            f64::NEG_INFINITY => 1.0,
-            level if level < 0.0 => level - value,
-            level => value - level,
-        };
+    let high = |i: usize, j: usize| map.point(i, j + 1).girth > map.point(i, j).girth;
+    // The two sides of a line of the surface stand at one place.
+    let cell = |i: usize, j: usize| {
+        let wide = i + 1 < columns && map.point(i + 1, j).at[0] > map.point(i, j).at[0];
+        let ks = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| i * map.rows + j);
+        let there = wide && (high(i, j) || high(i + 1, j)) && ks.iter().all(|&k| values[k].is_some());
+        there.then(|| {
+            let found = turned(ks.map(|k| values[k].unwrap_or_default()), kind);
+            std::array::from_fn::<Corner, 4, _>(|n| (places[ks[n]], found[n]))
+        })
+    };
+    for (colour, ranges) in kind.layers(full) {
         let mut areas: Vec<Vec<[f64; 2]>> = Vec::new();
         for j in 0..map.rows - 1 {
             let mut run: Option<usize> = None;
             for i in 0..columns {
-                // The two sides of a line of the surface stand at one place.
-                let high = |i: usize| map.point(i, j + 1).girth > map.point(i, j).girth;
-                let cell = (i + 1 < columns && (high(i) || high(i + 1))).then(|| corners(i, j));
-                let signs = cell.and_then(|cell| {
-                    let [a, b, c, d] = cell.map(|k| values[k].map(&beyond));
-                    Some([a?, b?, c?, d?])
-                });
-                let whole = signs.is_some_and(|signs| signs.iter().all(|s| *s >= 0.0));
+                let corners = cell(i, j);
+                let (mut whole, mut parts) = (false, Vec::new());
+                if let Some(corners) = corners {
+                    let (low, top) =
+                        corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(c.1), b.max(c.1)));
+                    let ranges = ranges(low, top);
+                    whole = ranges.iter().any(|[from, to]| *from <= low && top <= *to);
+                    parts =
+                        if whole { Vec::new() } else { ranges.iter().map(|range| clipped(&corners, *range)).collect() };
+                }
                 if whole {
                     run.get_or_insert(i);
                     continue;
@@ -210,34 +284,60 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
                     let above = (from..=i).rev().map(|i| places[i * map.rows + j + 1]);
                     areas.push(below.chain(above).collect());
                 }
-                if let (Some(cell), Some(signs)) = (cell, signs) {
-                    let part = clipped(cell.map(|k| places[k]), signs);
-                    if part.len() > 2 {
-                        areas.push(part);
-                    }
-                }
+                areas.extend(parts.into_iter().filter(|part| part.len() > 2));
             }
         }
         canvas.edged_areas(&areas, &colour);
     }
 }
 
-/// The part of a cell in which what is linear between its corners is not negative.
-fn clipped(corners: [[f64; 2]; 4], signs: [f64; 4]) -> Vec<[f64; 2]> {
-    let mut part = Vec::new();
-    for k in 0..4 {
-        let next = (k + 1) % 4;
-        let (a, b) = (signs[k], signs[next]);
+/// The part of a cell in which what is linear between its corners lies in a range.
+fn clipped(corners: &[Corner], [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
+    let above = half(corners, |value| value - low);
+    half(&above, |value| high - value).into_iter().map(|(place, _)| place).collect()
+}
+
+/// The part of a polygon in which a function of what is linear between its corners is not negative.
+fn half(corners: &[Corner], sign: impl Fn(f64) -> f64) -> Vec<Corner> {
+    let mut part = Vec::with_capacity(corners.len() + 1);
+    for (k, &(p, value)) in corners.iter().enumerate() {
+        let (q, other) = corners[(k + 1) % corners.len()];
+        let (a, b) = (sign(value), sign(other));
         if a >= 0.0 {
-            part.push(corners[k]);
+            part.push((p, value));
         }
         if (a < 0.0) != (b < 0.0) {
             let t = a / (a - b);
-            let [p, q] = [corners[k], corners[next]];
-            part.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
+            part.push(([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])], value + t * (other - value)));
         }
     }
     part
+}
+
+/// The knot lines of the surface where curvature `which` jumps by a step of colour, or the tangent plane breaks.
+fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, full: f64) {
+    let step = |value: f64| (value.abs() / full).min(1.0).sqrt().copysign(value) * f64::from(STEPS);
+    for found in &map.breaks {
+        let mut runs: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
+        for [a, b] in map.across(found) {
+            let jump = full > 0.0
+                && a.curvature.zip(b.curvature).is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= 1.0);
+            let angle =
+                a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
+            let knuckle = found.line == KnotLine::Knuckle && angle >= KNUCKLE;
+            let place = chart.place([a.at[0], a.girth]);
+            for (run, (here, pen)) in runs.iter_mut().zip([(jump && !knuckle, &JUMP), (knuckle, &KNUCKLE_LINE)]) {
+                if here {
+                    run.push(place);
+                } else {
+                    canvas.polyline(&std::mem::take(run), pen);
+                }
+            }
+        }
+        let [jumps, knuckles] = runs;
+        canvas.polyline(&jumps, &JUMP);
+        canvas.polyline(&knuckles, &KNUCKLE_LINE);
+    }
 }
 
 /// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature is positive and
@@ -273,34 +373,49 @@ fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize
     }
 }
 
-fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, y: f64) {
-    let style = TextStyle::new(2.8, Anchor::Start);
+fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, more: usize, y: f64) {
+    let style = TextStyle::new(TEXT, Anchor::Start);
+    let lower = y + 7.0;
     let mut x = 26.0;
+    let jumps = if more > 0 {
+        format!("curvature may jump at {more} more lines of the surface")
+    } else {
+        "curvature jumps across a line of the surface".to_owned()
+    };
+    for (pen, words) in [(&JUMP, jumps.as_str()), (&KNUCKLE_LINE, "knuckle")] {
+        canvas.line([x, lower], [x + 11.0, lower], pen);
+        canvas.text([x + 13.0, lower], words, &style);
+        x += 17.0 + Canvas::text_place([0.0, 0.0], words, &style).width();
+    }
     if kind == SurfaceMapKind::Zebra {
         let words = "reflections of lamps along the ship, seen from abeam: a kink is a break of curvature, a step a break of the tangent plane";
-        canvas.text([x, y], words, &style);
+        canvas.text([26.0, y], words, &style);
         return;
     }
+    let share = format!("full colours: the size that {:.0} % of the side do not pass", 100.0 * SHARE);
+    canvas.text([x + 8.0, lower], &share, &style);
     if full <= 0.0 {
-        canvas.text([x, y], "0 all over the side", &style);
+        canvas.text([26.0, y], "0 all over the side", &style);
         return;
     }
+    x = 26.0;
+    let digits = decimals(nice_step(full.max(f64::MIN_POSITIVE), 20.0));
     for step in -STEPS..=STEPS {
-        let place = Rectangle::new(x, y - 3.0, x + 13.0, y + 3.0);
+        let place = Rectangle::new(x, y - 3.0, x + SWATCH, y + 3.0);
         canvas.fill(&place, &kind.colour(step));
         canvas.rectangle(&place, &Pen::new(0.08, "#808080"));
         let value = full * (f64::from(step) / f64::from(STEPS)).powi(2).copysign(f64::from(step));
-        let digits = decimals(nice_step(full.max(f64::MIN_POSITIVE), 50.0));
         let text = if step == 0 { "0".to_owned() } else { format!("{value:+.digits$}") };
         let ink = if step.abs() > 5 { "#ffffff" } else { "#000000" };
-        if step.abs() % 2 == 1 || step == 0 {
-            canvas.text([x + 6.5, y], &text, &TextStyle::new(2.2, Anchor::Middle).coloured(ink));
+        // The smallest steps have no figures of their own.
+        if step == 0 || step.abs() % 2 == 1 && step.abs() > 2 {
+            canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle::new(TEXT, Anchor::Middle).coloured(ink));
         }
-        x += 13.0;
+        x += SWATCH;
     }
     let words = match kind {
-        SurfaceMapKind::Gaussian => "orange, +: convex both ways; white: developable; blue, -: saddle; black line: 0",
-        _ => "orange, +: convex outward; blue, -: hollow; black line: 0",
+        SurfaceMapKind::Gaussian => "+ orange: convex both ways; white: developable; - blue: saddle; black: 0",
+        _ => "+ orange: convex outward; - blue: hollow; black: 0",
     };
     canvas.text([x + 3.0, y], &format!("{}   {words}", kind.unit()), &style);
 }

@@ -9,6 +9,7 @@ mod points;
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step};
+use super::sheet::LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::{Suspect, Suspects, height_grid};
 use crate::hull::OffsetTable;
@@ -114,7 +115,7 @@ pub(super) fn compose(table: &OffsetTable, result: &Suspects, words: &Words) -> 
         let more = format!("{} further suspects are in the list", result.suspects.len() - shown);
         canvas.text([MARGIN, height - 4.0], &more, &TextStyle::new(2.6, Anchor::Start));
     }
-    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)
 }
 
@@ -171,7 +172,7 @@ fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, words: 
         canvas.line([map.left, z], [map.right, z], &thin);
     }
     canvas.rectangle(map, &Pen::new(0.25, "#000000"));
-    let size = (0.62 * cell).clamp(1.3, 2.4);
+    let size = (0.62 * cell).clamp(2.3, 2.4);
     // Names stand at every line where there is room, else at every second, third ...
     let stride = |room: f64, needed: f64| (needed / room).ceil().max(1.0) as usize;
     let style = TextStyle::new(size, Anchor::End);
@@ -207,7 +208,7 @@ fn draw_rings(
         canvas.polyline(&circle([x, y], radius), &Pen::new(0.45, "#000000"));
         taken.push(Rectangle::new(x - radius, y - radius, x + radius, y + radius));
     }
-    let style = TextStyle::new((0.75 * cell).clamp(2.0, 3.4), Anchor::Middle).halo();
+    let style = TextStyle::new((0.75 * cell).clamp(2.4, 3.4), Anchor::Middle).halo();
     let field = map.grown(5.0);
     for suspect in &result.suspects {
         let [x, y] = centre(suspect.station, suspect.waterline);
@@ -371,7 +372,9 @@ pub(super) fn small_plot(
 }
 
 fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [[f64; 2]; 2]) {
-    let style = TextStyle::new(2.1, Anchor::Middle);
+    // Nine pixels where the sheet is 1200 wide.
+    let size = (0.0076 * canvas.sheet().width()).clamp(2.4, LETTERS);
+    let style = TextStyle::new(size, Anchor::Middle);
     let thin = Pen::new(0.08, "#c8c8c8");
     for (axis, [low, high]) in ranges.into_iter().enumerate() {
         let step = nice_step(high - low, 4.0);
@@ -381,17 +384,17 @@ fn draw_axes(canvas: &mut Canvas, frame: &Rectangle, names: [&str; 2], ranges: [
             if axis == 0 {
                 let x = frame.left + share * frame.width();
                 canvas.line([x, frame.top], [x, frame.bottom], &thin);
-                canvas.text([x, frame.bottom + 2.2], &text, &style);
+                canvas.text([x, frame.bottom + 0.4 + 0.8 * size], &text, &style);
             } else {
                 let y = frame.bottom - share * frame.height();
                 canvas.line([frame.left, y], [frame.right, y], &thin);
-                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(2.1, Anchor::End));
+                canvas.text([frame.left - 0.8, y], &text, &TextStyle::new(size, Anchor::End));
             }
         }
     }
     canvas.rectangle(frame, &Pen::new(0.18, "#000000"));
-    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 5.2], names[0], &style);
-    canvas.text([frame.left, frame.top - 1.8], names[1], &TextStyle::new(2.1, Anchor::Middle));
+    canvas.text([0.5 * (frame.left + frame.right), frame.bottom + 0.4 + 2.0 * size], names[0], &style);
+    canvas.text([frame.left, frame.top - 0.7 * size], names[1], &TextStyle::new(size, Anchor::Middle));
 }
 
 #[cfg(test)]

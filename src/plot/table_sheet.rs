@@ -1,17 +1,19 @@
 //! A table on a sheet of its own, for pages on paper.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::sheet::ROOM;
+use super::sheet::{LETTERS, ROOM};
 use super::{Svg, caption, font};
 
 /// Largest height of a row \[mm\].
 const ROW: f64 = 6.4;
 /// Size of the text, as a part of the height of a row.
-const TEXT: f64 = 0.5;
+const TEXT: f64 = 0.74;
+/// Largest size of the text \[mm\].
+const LARGEST: f64 = 3.6;
 /// Room between columns, in sizes of the text.
 const GAP: f64 = 2.0;
 /// Room above and below the table \[mm\].
-const HEAD: f64 = 26.0;
+const HEAD: f64 = 21.0;
 const FOOT: f64 = 10.0;
 
 /// Words over a table, the heads of its columns, its rows; the first `words` columns are text. Rows become lower and text
@@ -25,14 +27,13 @@ pub fn table_figure(title: &str, note: &str, heads: &[&str], words: usize, rows:
     let widths: Vec<f64> = (0..heads.len()).map(widest).collect();
     let whole: f64 = widths.iter().sum::<f64>() + GAP * heads.len() as f64;
     let height = ((ROOM[1] - HEAD - FOOT) / (rows.len() + 1) as f64).min(ROW);
-    let size = (TEXT * height).min((ROOM[0] - 20.0) / whole);
-    let height = height.min(size / TEXT);
+    let size = (TEXT * height).min((ROOM[0] - 10.0) / whole).min(LARGEST);
     let width = size * whole;
     let left = 0.5 * (ROOM[0] - width);
     let bottom = HEAD + height * (rows.len() + 1) as f64;
     let mut canvas = Canvas::new(ROOM[0], bottom + FOOT);
     canvas.text([0.5 * ROOM[0], 8.0], title, &TextStyle::new(4.5, Anchor::Middle));
-    canvas.text([0.5 * ROOM[0], 15.0], note, &TextStyle::new(2.8, Anchor::Middle));
+    canvas.text([0.5 * ROOM[0], 15.0], note, &TextStyle::new(LETTERS, Anchor::Middle));
     let rule = Pen::new(0.13, "#000000");
     let mut x = left;
     for (column, wide) in widths.iter().enumerate() {
@@ -56,6 +57,6 @@ pub fn table_figure(title: &str, note: &str, heads: &[&str], words: usize, rows:
         canvas.line([left, y], [left + width, y], &rule);
     }
     canvas.rectangle(&Rectangle::new(left, HEAD, left + width, bottom), &Pen::new(0.35, "#000000"));
-    canvas.text([ROOM[0] - 6.0, bottom + FOOT - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([ROOM[0] - 6.0, bottom + FOOT - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Svg { text: canvas.finish("table") }
 }

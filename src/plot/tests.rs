@@ -50,7 +50,7 @@ fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
     let conventions = Conventions::default();
     let design = CurvesOfForm::new(hull, &[p.draught], &conventions);
     let curves = CurvesOfForm::new(hull, &[0.2 * p.draught, p.draught, p.depth], &conventions);
-    draw(&FigureInputs { hull, before: None, design: &design.rows[0], curves: &curves })
+    draw(&FigureInputs { hull, before: None, design: &design.rows[0], curves: &curves, source: None, dense: None })
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn figures_bear_the_names_of_their_lines() {
                 "FP",
                 "DWL  4.40 m",
                 "WL 1  1.00 m",
-                "VI",
+                "III",
                 "D1",
                 "½",
                 "19½",
@@ -151,7 +151,13 @@ fn figures_bear_the_names_of_their_lines() {
         (Figure::Sections, &["BODY PLAN – frigate", "CL", "DWL  4.40 m", "WL ½  0.50 m", "D2", "17", "4"]),
         (
             Figure::SectionalArea,
-            &["SECTIONAL-AREA CURVE – frigate", "A(x)", "section area A [m²]", "A / A_X [-]", "station"],
+            &[
+                "SECTIONAL-AREA CURVE – frigate",
+                "A(x)",
+                "section area A [m²]",
+                "A / A_X [-]",
+                "station, L_PP / 20 from AP",
+            ],
         ),
         (
             Figure::Hydrostatics,
@@ -235,7 +241,8 @@ fn a_picture_has_a_size() {
 fn curves_need_two_draughts() {
     let hull = wigley();
     let table = CurvesOfForm::new(&hull, &[6.25], &Conventions::default());
-    let inputs = FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table };
+    let inputs =
+        FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
     for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
         assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
     }

@@ -2,11 +2,13 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::{FigureInputs, caption};
 
 /// Size of the title block [mm].
-pub(super) const SIZE: [f64; 2] = [128.0, 56.0];
+pub(super) const SIZE: [f64; 2] = [138.0, 57.0];
+/// Where its second column begins, as a part of its width.
+const SPLIT: f64 = 0.59;
 const FRAME: Pen = Pen::new(0.35, "#000000");
 const RULE: Pen = Pen::new(0.13, "#000000");
 
@@ -39,30 +41,40 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     let left_column = [
         format!("scale 1 : {}{body}", scales.long),
         format!("L_OA {:.2} m    L_PP {:.2} m", grid.length[1] - grid.length[0], p.length_between_perpendiculars),
-        format!("B {:.2} m    T {:.2} m    D {:.2} m", p.breadth, p.draught, p.depth),
+        format!("B {:.2} m    D {:.2} m", p.breadth, p.depth),
+        format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
         format!(
             "{}    {}",
             coefficient("C_B", design.block_coefficient),
             coefficient("C_P", design.prismatic_coefficient)
         ),
-        format!("∇ {:.1} m³    Δ {:.1} t", design.displacement_volume, design.displacement_mass),
-        format!("ρ {:.3} t/m³    L_WL {:.2} m", inputs.curves.conventions.density, design.waterline_length),
+        format!(
+            "∇ {:.1} m³    Δ {:.1} t    ρ {:.3} t/m³",
+            design.displacement_volume, design.displacement_mass, inputs.curves.conventions.density
+        ),
     ];
     let right_column = [
-        format!("sheet {}", scales.sheet.as_str()),
+        format!("sheet {}, moulded, metres", scales.sheet.as_str()),
         format!("stations {:.3} m, 0 at AP", grid.station_spacing),
         format!("waterlines {:.2} m", grid.waterline_spacing),
         format!("buttocks {:.2} m", grid.buttock_spacing),
-        "moulded dimensions, metres".to_owned(),
+        inputs.source.unwrap_or_default().to_owned(),
         caption::program(),
     ];
-    let style = TextStyle::new(2.5, Anchor::Start);
-    for (column, x) in [(&left_column, left), (&right_column, block.left + 0.6 * SIZE[0])] {
+    let style = TextStyle::new(LETTERS, Anchor::Start);
+    let columns = [
+        (&left_column, left, SPLIT * SIZE[0] - 4.0),
+        (&right_column, block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0),
+    ];
+    for (column, x, room) in columns {
         for (row, text) in column.iter().enumerate() {
-            canvas.text([x, block.top + 13.5 + 4.9 * row as f64], text, &style);
+            // Long names of files are set smaller rather than over the edge.
+            let fitted = room / Canvas::text_place([0.0, 0.0], text, &style).width().max(1.0);
+            let style = TextStyle { size: style.size * fitted.min(1.0), ..style };
+            canvas.text([x, block.top + 13.7 + 5.2 * row as f64], text, &style);
         }
     }
-    draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.0]);
+    draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.4]);
 }
 
 /// A bar of 100 mm, to check the scale of a print.
@@ -73,23 +85,29 @@ pub(super) fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
         let length = if k % 5 == 0 { 2.0 } else { 1.2 };
         canvas.line([x, at[1]], [x, at[1] - length], &FRAME);
     }
-    let style = TextStyle::new(1.9, Anchor::Middle);
-    canvas.text([at[0] + 50.0, at[1] + 2.6], "100 mm on paper", &style);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    canvas.text([at[0] + 50.0, at[1] + 3.2], "100 mm on paper", &style);
 }
 
 /// Height of a row of the table [mm].
-const ROW: f64 = 3.5;
-/// Width of a column of the table [mm].
-const COLUMN: f64 = 8.6;
+const ROW: f64 = 4.4;
+/// Room between the columns of the table [mm].
+const APART: f64 = 1.8;
 /// Waterlines past which a table may leave out every second of them.
-const MANY: usize = 10;
+const MANY: usize = 8;
 /// Width of its first column [mm].
-const FIRST_COLUMN: f64 = 22.0;
+const FIRST_COLUMN: f64 = 29.0;
 
 /// Width with every second station, and height with every second waterline where there are many [mm].
 pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
     let rows = if grid.waterlines.len() > MANY { thinned(grid).len() } else { waterlines(grid).len() };
-    [FIRST_COLUMN + COLUMN * every_second(grid).len() as f64, table_height(rows)]
+    [FIRST_COLUMN + column(grid) * every_second(grid).len() as f64, table_height(rows)]
+}
+
+/// Width of a column of the table [mm].
+fn column(grid: &LinesGrid) -> f64 {
+    let widest = format!("{:.3}", grid.half_breadth);
+    Canvas::text_place([0.0, 0.0], &widest, &TextStyle::new(LETTERS, Anchor::End)).width() + APART
 }
 
 /// Height of the table with so many waterlines [mm].
@@ -114,16 +132,16 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
     let Some(planes) = [waterlines(grid), thinned(grid)].into_iter().find(fits) else { return };
     let height = table_height(planes.len());
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
-    let width = |count: usize| FIRST_COLUMN + COLUMN * count as f64;
+    let width = |count: usize| FIRST_COLUMN + column(grid) * count as f64;
     let stations = [all, whole_stations(grid), every_second(grid)]
         .into_iter()
         .find(|list| width(list.len()) <= room.width() + 1e-9);
     let Some(stations) = stations else { return };
     let (left, top) = (room.left, room.bottom - height + 4.0);
     let right = left + width(stations.len());
-    let style = TextStyle::new(2.0, Anchor::End);
+    let style = TextStyle::new(LETTERS, Anchor::End);
     let head = TextStyle { anchor: Anchor::Start, ..style };
-    canvas.text([left, top - 2.4], "HALF-BREADTHS [m]", &TextStyle { size: 2.5, ..head });
+    canvas.text([left, top - 2.8], "HALF-BREADTHS [m]", &TextStyle { size: 3.5, ..head });
     let row_at = |row: usize| top + ROW * (row as f64 + 0.5);
     canvas.text([left + 1.0, row_at(0)], "station", &head);
     for (column, station) in stations.iter().enumerate() {

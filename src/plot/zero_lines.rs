@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use crate::fairing::inspect::SurfaceMap;
 
 /// How near both signs stand, in cells.
-const NEAR: usize = 2;
+const NEAR: usize = 3;
 /// Most pieces of a gap that is filled.
 const GAP: usize = 6;
 /// Least length of a line [mm].

@@ -131,7 +131,8 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     };
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);
-    let conventions = Conventions { density, ..Conventions::default() };
+    let draught_assumed = !table.stated.states_draught();
+    let conventions = Conventions { density, draught_assumed, ..Conventions::default() };
     Ok(FairJob { table, job, reading, conventions, table_file, beside, rules: said.rules, inputs, files })
 }
 

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde_json::{Value, json};
 
@@ -10,6 +11,7 @@ use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
+use super::result_files::source_words;
 use super::sanity;
 use super::source::{read_bytes, read_table_file, ship_name, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
@@ -237,7 +239,8 @@ fn summary(
 /// figure cannot be made.
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
-    let conventions = Conventions::default();
+    let draught_assumed = !job.table.stated.states_draught();
+    let conventions = Conventions { draught_assumed, ..Conventions::default() };
     let particulars = fitted.hull.particulars();
     // All draughts in one pass over the surface.
     let mut draughts = default_draughts(particulars.draught, particulars.depth);
@@ -258,10 +261,10 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
         json_file("fit.json", &summary)?,
     ];
-    files.extend(figure_files(
-        &FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table },
-        figures,
-    )?);
+    let (source, dense) = (job.inputs.first().map(source_words), OnceLock::new());
+    let (source, dense) = (source.as_deref(), Some(&dense));
+    let inputs = FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table, source, dense };
+    files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
     let manifest = manifest_file(input, &files)?;

@@ -1,10 +1,12 @@
 //! The main job: a design in, every file about it out. Nothing is written here.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::markdown::markdown_page;
+use super::result_files::source_words;
 use super::source::build;
 use crate::config::{Design, Diagnostic, Severity};
 use crate::exchange::{
@@ -129,7 +131,9 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         OutputFile::text("hydrostatics.csv", hydrostatics_csv(&table)),
         json_file("summary.json", &summary)?,
     ];
-    let inputs = FigureInputs { hull: &hull, before: None, design: &design_row, curves: &table };
+    let (source, dense) = (source_words(&manifest_entry(input.0, input.1)), OnceLock::new());
+    let (source, dense) = (Some(source.as_str()), Some(&dense));
+    let inputs = FigureInputs { hull: &hull, before: None, design: &design_row, curves: &table, source, dense };
     files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };

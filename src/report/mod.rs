@@ -1,6 +1,7 @@
 //! Whole jobs: from a design or a table to the files about it, and what is printed of them.
 
 mod check;
+mod comb_lines;
 mod convert;
 mod export;
 mod failure;
@@ -25,6 +26,7 @@ mod sanity;
 mod self_test;
 mod source;
 mod validate;
+mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use convert::{Converted, convert_file, convert_table};

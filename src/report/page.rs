@@ -75,7 +75,8 @@ pub(super) fn conventions_line(c: &Conventions) -> String {
         None => "MTC from BML".to_owned(),
     };
     let lcb = c.lcb_reference.statement();
-    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}.", c.density)
+    let draught = if c.draught_assumed { "; the design draught is assumed, none is stated" } else { "" };
+    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}{draught}.", c.density)
 }
 
 /// The summary of the main job: at most 24 lines of 80 columns.

@@ -9,7 +9,8 @@ use super::failure::{Failure, problem};
 use super::generate::manifest_entry;
 use super::source::{read_bytes, utf8};
 use crate::exchange::{
-    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_outputs,
+    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_input,
+    read_manifest_outputs,
 };
 use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
@@ -32,6 +33,8 @@ pub struct JobResult {
     pub notes: Vec<String>,
     /// The files that were read.
     pub inputs: Vec<ManifestEntry>,
+    /// The file that the run was made from, as its manifest has it.
+    pub origin: Option<ManifestEntry>,
     /// The folder of the result, where it is one.
     pub folder: Option<PathBuf>,
 }
@@ -157,6 +160,7 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
         changes: None,
         notes: Vec::new(),
         inputs,
+        origin: None,
         folder: None,
     }
 }
@@ -202,8 +206,9 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         Some(text) => first_column(&folder.join("hydrostatics.csv"), &text)?,
         None => default_draughts(p.draught, p.depth),
     };
-    let mut notes = Vec::new();
+    let (mut notes, mut origin) = (Vec::new(), None);
     if let Some(text) = reader.there("manifest.json")? {
+        origin = read_manifest_input(&text);
         let written = read_manifest_outputs(&text);
         let other =
             |entry: &&ManifestEntry| written.iter().any(|one| one.file == entry.file && one.sha256 != entry.sha256);
@@ -211,7 +216,15 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
         }));
     }
-    Ok(JobResult { draughts, fairing, changes, notes, folder: Some(folder), ..bare(hull, conventions, reader.inputs) })
+    Ok(JobResult {
+        draughts,
+        fairing,
+        changes,
+        notes,
+        origin,
+        folder: Some(folder),
+        ..bare(hull, conventions, reader.inputs)
+    })
 }
 
 /// The draughts of `hydrostatics.csv`.

@@ -1,23 +1,25 @@
 //! The figures of a report: what is drawn of a result, in the order of its pages, with captions that say what to look for.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use serde_json::Value;
 
+use super::comb_lines::comb_lines;
 use super::failure::Failure;
 use super::page::conventions_line;
 use super::result::JobResult;
 use super::result_files::ReportSettings;
-use super::result_page::{Table, condition, constraints, verdict};
+use super::result_page::{Table, condition, constraints};
+use super::verdict::verdict;
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::CurvesOfForm;
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
 use crate::plot::{
-    Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, Svg, bonjean_figure, convergence_figure, deviation_figure,
-    fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks, fairing_diagonals,
-    fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_waterlines, pareto_figure,
-    smoothing_figure, surface_map, table_figure,
+    CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
+    convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
+    fairing_diagonals, fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects,
+    fairing_waterlines, pareto_figure, smoothing_figure, surface_map, table_figure,
 };
 
 /// A figure of a report.
@@ -87,7 +89,12 @@ fn words(figure: Figure) -> [&'static str; 3] {
 }
 
 /// What is drawn of a faired table, before the hull.
-fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> {
+fn fairing_jobs<'a>(
+    record: &'a FairRecord,
+    fairing: &'a Value,
+    (combs, chosen): (&'a OnceLock<FairingCombs>, &'a [CombLine]),
+) -> Vec<Job<'a>> {
+    let combs = move || combs.get_or_init(|| FairingCombs::new(record, chosen));
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
@@ -145,7 +152,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Above the line with its combs, below the offsets less the fair line with the bars of their tolerances: the fair line, 0, \
                  leaves no bar. Dots that lie on one side over several stations are a change of form.",
             ],
-            Box::new(|sheet| fairing_waterlines(record, sheet)),
+            Box::new(move |sheet| fairing_waterlines(record, combs(), sheet)),
         ),
         scaled(
             [
@@ -153,7 +160,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Stations that moved most",
                 "The same for stations, laid on their side with the keel on the left.",
             ],
-            Box::new(|sheet| fairing_stations(record, sheet)),
+            Box::new(move |sheet| fairing_stations(record, combs(), sheet)),
         ),
         scaled(
             [
@@ -162,7 +169,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
                  mark inflections: those that are left should be meant.",
             ],
-            Box::new(|sheet| fairing_body_plan(record, sheet).map(Some)),
+            Box::new(move |sheet| fairing_body_plan(record, combs(), sheet).map(Some)),
         ),
         scaled(
             [
@@ -170,7 +177,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
             ],
-            Box::new(|sheet| fairing_half_breadth_plan(record, sheet).map(Some)),
+            Box::new(move |sheet| fairing_half_breadth_plan(record, combs(), sheet).map(Some)),
         ),
         scaled(
             [
@@ -178,7 +185,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Buttocks before and after",
                 "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
             ],
-            Box::new(|sheet| some(fairing_buttocks(record, sheet))),
+            Box::new(move |sheet| some(fairing_buttocks(record, combs(), sheet))),
         ),
         scaled(
             [
@@ -186,7 +193,7 @@ fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value) -> Vec<Job<'a>> 
                 "Diagonals before and after",
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
             ],
-            Box::new(|sheet| some(fairing_diagonals(record, sheet))),
+            Box::new(move |sheet| some(fairing_diagonals(record, combs(), sheet))),
         ),
         job(
             [
@@ -243,30 +250,70 @@ fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
     (!rows.is_empty()).then(|| table_figure(title, note, &heads, table.words, &rows))
 }
 
+/// Most letters of a line of the verdict.
+const LINE: usize = 165;
+
+/// Words in lines of at most [`LINE`] letters where they have spaces, the second and all further ones set in.
+fn lines(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < LINE => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            Some(_) => lines.push(format!("      {word}")),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// What the fairing came to, in sentences; none of other results.
-fn verdict_figure(result: &JobResult) -> Option<Svg> {
-    let rows = verdict(result).into_iter().map(|(bad, line)| (bad, vec![line])).collect();
-    let table = Table { heads: vec![result.hull.name().to_owned()], words: 1, rows };
+fn verdict_figure(result: &JobResult, inputs: &FigureInputs) -> Option<Svg> {
+    let before = condition_before(inputs);
+    let found = verdict(result, [before.as_ref(), Some(inputs.design)]);
+    let rows = found.iter().flat_map(|(bad, text)| lines(text).into_iter().map(|line| (*bad, vec![line]))).collect();
+    let table = Table { heads: vec![result.hull.name().replace('_', " ")], words: 1, rows };
     sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
+}
+
+/// The design condition before fairing.
+fn condition_before(inputs: &FigureInputs) -> Option<Hydrostatics> {
+    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
+    inputs.before.and_then(rows)
 }
 
 /// The design condition, that before fairing beside it.
 fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
-    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
-    let before = inputs.before.and_then(rows);
+    let before = condition_before(inputs);
     sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
 }
 
+/// What several figures are drawn from, made when the first of them asks for it.
+#[derive(Default)]
+struct Shared {
+    maps: OnceLock<SurfaceMaps>,
+    combs: OnceLock<FairingCombs>,
+}
+
 /// What is drawn of a result.
-fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>> {
+fn jobs<'a>(
+    result: &'a JobResult,
+    inputs: &'a FigureInputs<'a>,
+    shared: &'a Shared,
+    chosen: &'a [CombLine],
+) -> Vec<Job<'a>> {
+    let Shared { maps, combs } = shared;
+    let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
     let mut jobs: Vec<Job<'a>> =
-        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing)).collect();
+        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing, (combs, chosen))).collect();
     let came = [
         "verdict",
         "What the fairing came to",
         "Moves, inflections and prices in one look; the sheets that follow prove them.",
     ];
-    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result))), scaled: false });
+    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result, inputs))), scaled: false });
     let standard = |figure: Figure| Job {
         words: words(figure),
         draw: Box::new(move |sheet| figure.draw_on(inputs, sheet).map(Some)) as Draw<'a>,
@@ -293,20 +340,23 @@ fn jobs<'a>(result: &'a JobResult, inputs: &'a FigureInputs<'a>) -> Vec<Job<'a>>
             SurfaceMapKind::Gaussian => [
                 kind.key(),
                 "Gaussian curvature",
-                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable. Black lines are 0.",
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0. Steps of \
+                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
             ],
             SurfaceMapKind::Mean => [
                 kind.key(),
                 "Mean curvature",
-                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0.",
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0. Steps of \
+                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
             ],
             SurfaceMapKind::Zebra => [
                 kind.key(),
                 "Zebra stripes",
-                "Stripes swing evenly over a fair surface. A kink is a break of curvature, a step a break of the tangent plane.",
+                "Stripes swing evenly over a fair surface. A kink is a break of curvature: where the surface is made with one its line is dashed. A \
+                 step is a break of the tangent plane: a knuckle, its line heavy.",
             ],
         };
-        let draw: Draw<'a> = Box::new(move |_| surface_map(inputs.hull, inputs.before, kind).map(Some));
+        let draw: Draw<'a> = Box::new(move |_| surface_map(maps(), kind).map(Some));
         Job { words, draw, scaled: false }
     }));
     jobs
@@ -321,7 +371,9 @@ pub(super) fn report_figures(
     inputs: &FigureInputs<'_>,
     settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
-    let jobs = jobs(result, inputs);
+    let shared = Shared::default();
+    let chosen = comb_lines(result, settings)?;
+    let jobs = jobs(result, inputs, &shared, &chosen);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
     let work = || {

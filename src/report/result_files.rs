@@ -1,5 +1,6 @@
 //! The job of `report`: a result in, its figures and pages out. Nothing is written here.
 
+use std::sync::OnceLock;
 use std::thread;
 
 use super::failure::Failure;
@@ -9,16 +10,30 @@ use super::result::JobResult;
 use super::result_figures::report_figures;
 use super::result_page::report_page;
 use super::result_tables::report_tables;
+use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
-use crate::plot::{FigureInputs, Page, PlotError, Sheet, write_pdf};
+use crate::plot::{FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReportSettings {
     /// Resolution of the pictures \[dots per inch\].
     pub dots_per_inch: f64,
     /// Sheet of the PDF; drawings that have a scale are made as large as it lets them be.
     pub sheet: Sheet,
+    /// Lines that bear combs, as `waterline 2.0, station 5`; empty: some of all.
+    pub combs: String,
+    /// Date for the title blocks, as it is to stand there; none is taken from the clock.
+    pub date: Option<String>,
+}
+
+/// Digits of a hash in title blocks.
+const HASH: usize = 8;
+
+/// A file for title blocks: its name and the first digits of its SHA-256.
+pub(super) fn source_words(entry: &ManifestEntry) -> String {
+    let hash: String = entry.sha256.chars().take(HASH).collect();
+    format!("{}  sha256 {hash}", entry.file)
 }
 
 /// The files of a report, in the order of their names; the manifest is the last.
@@ -32,7 +47,16 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
-    let inputs = FigureInputs { hull, before: start, design: &design, curves: &curves };
+    let (source, dense) =
+        (result.origin.as_ref().or(result.inputs.first()).map_or(String::new(), source_words), OnceLock::new());
+    let inputs = FigureInputs {
+        hull,
+        before: start,
+        design: &design,
+        curves: &curves,
+        source: Some(&source),
+        dense: Some(&dense),
+    };
     let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing
@@ -46,9 +70,11 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
             Page { title: figure.title, caption: figure.caption, svg }
         })
         .collect();
+    let pages = &pages;
     // The PDF takes as long as page and tables together.
     let (pdf, page, tables) = thread::scope(|scope| {
-        let pdf = scope.spawn(|| write_pdf(hull.name(), &pages, settings.sheet));
+        let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
+        let pdf = scope.spawn(move || write_pdf(&heading, pages, settings.sheet));
         let page = report_page(result, &design, before.as_ref(), &curves, &figures);
         (pdf.join(), page, report_tables(result, &curves))
     });

@@ -7,6 +7,7 @@ use serde_json::Value;
 use super::page::{fixed, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
+use super::verdict::{assumed, verdict};
 use crate::exchange::scene_json;
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
@@ -107,7 +108,7 @@ pub(super) fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) ->
     table
 }
 
-fn text(value: &Value) -> String {
+pub(super) fn text(value: &Value) -> String {
     value.as_str().unwrap_or_default().to_owned()
 }
 
@@ -135,7 +136,7 @@ fn millimetres(value: &Value, decimals: usize) -> String {
     value.as_f64().map_or(String::new(), |metres| fixed(1e3 * metres, decimals))
 }
 
-fn list(value: &Value) -> impl Iterator<Item = &Value> {
+pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
 
@@ -242,60 +243,6 @@ fn changes(result: &JobResult) -> Option<Table> {
         ));
     }
     Some(table)
-}
-
-/// What the fairing came to, in sentences.
-pub(super) fn verdict(result: &JobResult) -> Vec<(bool, String)> {
-    let Some((record, fairing)) = &result.fairing else { return Vec::new() };
-    let (rms, largest, _) = record.moves();
-    let left_out = record.changes.iter().filter(|change| change.suspect).count();
-    let mut lines = vec![match fairing["status"].as_str() {
-        Some("optimal") => (
-            false,
-            "All targets, tolerances and locks are held; of all nets that do so this one is proved to be the best."
-                .to_owned(),
-        ),
-        Some(word) => (true, format!("Status {word}: not all wishes are held. What is shown is a compromise.")),
-        None => (true, "The status is not known.".to_owned()),
-    }];
-    lines.push((
-        false,
-        format!(
-            "{} offsets moved {} mm RMS and {} mm at most; the noise of the table is {} mm. {left_out} left out as suspects.",
-            record.changes.len(),
-            fixed(1e3 * rms, 2),
-            fixed(1e3 * largest, 2),
-            fixed(1e3 * record.sigma, 2)
-        ),
-    ));
-    let sum = |key: &str, when: &str| list(&fairing["inflections"][key]).filter_map(|l| l[when].as_u64()).sum::<u64>();
-    let counts: Vec<String> = ["waterlines", "stations", "buttocks", "diagonals"]
-        .iter()
-        .map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after")))
-        .collect();
-    lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
-    let all = || {
-        ["waterlines", "stations", "buttocks", "diagonals"].iter().flat_map(|key| list(&fairing["inflections"][key]))
-    };
-    let more_than = |than: &str| {
-        all()
-            .filter(|line| line["after"].as_u64().zip(line[than].as_u64()).is_some_and(|(after, most)| after > most))
-            .count()
-    };
-    let (worse, beyond) = (more_than("before"), more_than("allowed"));
-    if worse > 0 {
-        lines.push((true, format!("{worse} lines bend more often after than before.")));
-    }
-    if beyond > 0 {
-        let text = "lines bend more often than was asked of them, between the places where their signs were imposed or within the dead band \
-                    about no curvature: compare the columns after and allowed.";
-        lines.push((true, format!("{beyond} {text}")));
-    }
-    let prices: Vec<String> = list(&fairing["constraints"]).map(|held| text(&held["words"])).collect();
-    if !prices.is_empty() {
-        lines.push((false, format!("Prices: {}.", prices.join("; "))));
-    }
-    lines
 }
 
 fn box_of(id: &str, word: &str, checked: bool) -> String {
@@ -406,16 +353,17 @@ pub(super) fn report_page(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
          <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
          {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
-         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m{} &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
          from AP, z up from the base line</p>\n",
         STANDARD.encode(FONT),
         p.length_between_perpendiculars,
         p.breadth,
         p.draught,
+        assumed(&result.conventions),
         p.depth,
         result.conventions.density
     );
-    for (bad, line) in verdict(result) {
+    for (bad, line) in verdict(result, [before, Some(design)]) {
         html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, escape(&line)));
     }
     for note in &result.notes {

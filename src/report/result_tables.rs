@@ -48,7 +48,7 @@ fn conventions(result: &JobResult) -> Vec<(String, String)> {
         line("ship", result.hull.name().to_owned()),
         line("Lpp [m]", format!("{}", p.length_between_perpendiculars)),
         line("B [m]", format!("{}", p.breadth)),
-        line("T [m]", format!("{}", p.draught)),
+        line(if result.conventions.draught_assumed { "T [m] (assumed)" } else { "T [m]" }, format!("{}", p.draught)),
         line("D [m]", format!("{}", p.depth)),
         line("frame", "x forward from AP, y to port, z up from the moulded base line; moulded".to_owned()),
         line("in short", conventions_line(&result.conventions)),

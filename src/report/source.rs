@@ -257,7 +257,8 @@ fn fitted(path: &Path, bytes: &[u8], said: &Said) -> Result<Source, Failure> {
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
     let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
-    Ok(Source { hull: fitted.hull, conventions: Conventions::default(), notes })
+    let conventions = Conventions { draught_assumed: !table.stated.states_draught(), ..Conventions::default() };
+    Ok(Source { hull: fitted.hull, conventions, notes })
 }
 
 /// The most cells of one table of offsets.

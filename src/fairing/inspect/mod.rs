@@ -20,10 +20,11 @@ mod curvature;
 mod map;
 mod polygon;
 mod profile;
+mod stations;
 
 pub use comb::{Comb, Tooth, combs};
 pub use curvature::{CurvatureAt, CurvatureRange, SurfaceMeasures};
-pub use map::{MapPoint, SurfaceMap};
+pub use map::{KnotLine, MapBreak, MapPoint, SurfaceMap};
 pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, net_signs, polygon_signs};
 pub use profile::{Findings, Local, Place, Profile, Stretch};
 
