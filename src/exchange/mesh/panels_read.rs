@@ -1,11 +1,10 @@
 //! Reading of panels, in the units and axes of their files: GDF (WAMIT), PNL (HAMS), meshes of NEMOH. Numbers are read as words whatever
-//! the lines; a panel of four different corners becomes two triangles along its shorter diagonal. Where the file names a plane of symmetry,
+//! the lines; a panel of four different corners becomes two triangles from its first. Where the file names a plane of symmetry,
 //! the half that is given is read: whoever reads bodies mirrors it.
 
 use super::super::fault::{Faults, RecordFault};
 use super::MOST_TRIANGLES;
 use crate::hull::TriangleMesh;
-use crate::spline::{length, minus};
 
 /// The words of a text with their lines; what follows `!` or `#` in a line is a comment.
 struct Words<'a> {
@@ -71,9 +70,9 @@ impl<'a> Words<'a> {
     }
 }
 
-/// The triangles of a panel with corners in turn.
+/// The triangles of a panel with corners in turn, from the first of these, as its volume is reckoned on the page of `export`.
 fn triangles([a, b, c, d]: [[f64; 3]; 4]) -> [[[f64; 3]; 3]; 2] {
-    if length(minus(a, c)) <= length(minus(b, d)) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }
+    [[a, b, c], [a, c, d]]
 }
 
 fn body(mut faults: Faults, corners: Vec<[[f64; 3]; 3]>) -> Result<TriangleMesh, Vec<RecordFault>> {
