@@ -27,7 +27,7 @@ const CENTREPLANE: f64 = 1e-9;
 const SITES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Most parts of a span.
-const MOST_PARTS: usize = 400;
+const MOST_PARTS: usize = 20_000;
 
 /// Part of the height of the lowest deck below which rows are not moved to the deck.
 const UNMOVED: f64 = 0.75;
