@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use loftsman::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
-use loftsman::hull::{FitMethod, Hull};
+use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, TriangleMesh};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
 
@@ -49,6 +49,54 @@ fn files(hull: &Hull, name: &str, formats: &[ExportFormat]) -> Vec<PathBuf> {
 }
 
 const MESHES: [ExportFormat; 3] = [ExportFormat::Stl, ExportFormat::StlAscii, ExportFormat::Obj];
+
+const PANELS: [ExportFormat; 3] = [ExportFormat::Gdf, ExportFormat::Nemoh, ExportFormat::Pnl];
+
+#[test]
+fn panels_and_scenes_are_read_back() {
+    let hull = config("seed002-frigate");
+    let draught = hull.particulars().draught;
+    let settings = PanelSettings {
+        draught,
+        size: hull.particulars().length_between_perpendiculars / 50.0,
+        flatness: ExportSettings::default().flatness,
+    };
+    let wanted = PanelMesh::new(&hull, &settings).unwrap().report();
+    let enclosed = |mesh: &TriangleMesh| {
+        let of = |[a, b, c]: [[f64; 3]; 3]| {
+            let normal = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
+            normal * (a[1] + b[1] + c[1]) / 6.0
+        };
+        mesh.corners().map(of).sum::<f64>()
+    };
+    for file in export(&hull, "frigate", &PANELS, &ExportSettings::default()).unwrap().files {
+        let body = read_body(&file.name, &file.contents, None).unwrap().unwrap();
+        let volume = enclosed(&body.meshes[0]);
+        assert!((volume / wanted.volume - 1.0).abs() < 1e-9, "{}: {volume} for {}", file.name, wanted.volume);
+        let [least, greatest] = body.meshes[0].bounds().unwrap();
+        assert!(
+            (least[2] + draught).abs() < 0.02 && greatest[2].abs() < 1e-12 && (least[1] + greatest[1]).abs() < 1e-12
+        );
+    }
+    let formats = [ExportFormat::Obj, ExportFormat::Glb];
+    let files = export(&hull, "frigate", &formats, &ExportSettings::default()).unwrap().files;
+    let volumes = files.iter().map(|file| {
+        let said = [("frigate.toml", if file.name.ends_with("glb") { "[table]\nup = 'y'\n" } else { "" })];
+        enclosed(&read_body(&file.name, &file.contents, said).unwrap().unwrap().meshes[0])
+    });
+    let volumes: Vec<f64> = volumes.collect();
+    assert!((volumes[0] / volumes[1] - 1.0).abs() < 1e-6, "{volumes:?}");
+    // Faults name their record.
+    for (name, text, said) in [
+        ("a.gdf", "title\n1 9.8 ULEN GRAV\n0 1 ISX ISY\n2\n0 0 0 1 0 0 1 1 0 0 1\n", "a corner of panel 1 of 2"),
+        ("a.mar", "2 1\n1 0 0 0\n0 0 0 0\n1 2 3 4\n", "no node; there are 1"),
+        ("a.pnl", "1 1 0 1\n1 0 0 x\n", "expected node 1 of 1"),
+        ("a.glb", "glTF", "expected a scene of glTF 2.0"),
+    ] {
+        let list = read_body(name, text.as_bytes(), None).unwrap().unwrap_err();
+        assert!(list.iter().any(|p| p.to_string().contains(said)), "{name}: {list:?}");
+    }
+}
 
 fn main_quantities(row: &Hydrostatics) -> [f64; 9] {
     [
@@ -170,7 +218,8 @@ fn the_commands_take_meshes() {
 fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     let hull = config("box");
     let settings = ExportSettings { across: 1, ..ExportSettings::default() };
-    let formats = [&MESHES[..], &[ExportFormat::Step, ExportFormat::Iges, ExportFormat::Ftm]].concat();
+    let others = [ExportFormat::Step, ExportFormat::Iges, ExportFormat::Ftm, ExportFormat::Glb];
+    let formats = [&MESHES[..], &others, &PANELS].concat();
     let exported = export(&hull, "box", &formats, &settings).unwrap();
     let mut random = Random(7);
     for file in &exported.files {
@@ -197,7 +246,7 @@ fn damaged_meshes_and_random_bytes_never_stop_the_program() {
     }
     for length in [0, 1, 83, 84, 85, 134, 500, 5000] {
         let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
-        for name in ["a.stl", "a.obj", "a.igs", "a.step", "a.ftm", "a.fbm"] {
+        for name in ["a.stl", "a.obj", "a.igs", "a.step", "a.ftm", "a.fbm", "a.glb", "a.gdf", "a.pnl", "a.mar"] {
             sound(name, &bytes);
         }
     }

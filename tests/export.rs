@@ -125,6 +125,28 @@ fn panels_of_an_immersed_deck_are_refused() {
 }
 
 #[test]
+fn what_cannot_be_meant_is_refused() {
+    let hull = config("box.toml").display().to_string();
+    for (arguments, said) in [
+        (["-f", "step,obj,step", "--datum", "0"], "--format names step twice"),
+        (["-f", "step", "--datum", "1e300"], "expected at most 1000 m from the base line"),
+        (["-f", "dxf", "--deviation", "1e-9"], "a millionth of the breadth"),
+    ] {
+        let refused = program(&[&["export", hull.as_str()], &arguments[..]].concat());
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            String::from_utf8_lossy(&refused.stderr).contains(said),
+            "{}",
+            String::from_utf8_lossy(&refused.stderr)
+        );
+    }
+    let ellipsoid = config("ellipsoid.toml").display().to_string();
+    let refused = program(&["export", &ellipsoid, "-f", "stl", "--deviation", "0.00003"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("triangles, expected at most 4000000"));
+}
+
+#[test]
 fn sections_and_tables_are_read_back_as_the_hull() {
     for (name, allowed) in [("bulk-carrier", 2e-3_f64), ("seed002-frigate", 2e-3), ("yacht", 3e-3)] {
         let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;

@@ -4,7 +4,8 @@
 use libfuzzer_sys::fuzz_target;
 use loftsman::exchange::{read_body, read_subdivision, write_ftm};
 
-const NAMES: [&str; 6] = ["a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm"];
+const NAMES: [&str; 10] =
+    ["a.stl", "a.obj", "a.igs", "a.step", "a.fbm", "a.ftm", "a.glb", "a.gdf", "a.pnl", "a.mar"];
 
 fuzz_target!(|data: &[u8]| {
     let Some((first, bytes)) = data.split_first() else { return };

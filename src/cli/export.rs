@@ -28,13 +28,14 @@ pub(super) struct Arguments {
     /// Version of DXF files: r12 or r2000
     #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
     dxf: DxfVersion,
-    /// What meshes, polylines and sections leave the surface by at most; without it a thousandth of the breadth
+    /// What meshes, polylines and sections leave the surface by at most, no less than a millionth of the breadth; without it a
+    /// thousandth of it
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     deviation: Option<f64>,
     /// Cells of a mesh across deck, bottom and transom
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
     across: u16,
-    /// Height above the base line that is z = 0 in the files: a length, or `waterline` for the design draught
+    /// Height above the base line that is z = 0 in the files: a length up to a hundred depths, or `waterline` for the design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
     /// Draught of panels, and of the offsets for Michlet, above the base line [default: of the hull]

@@ -34,7 +34,7 @@ Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlin
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
-Bodies: meshes as STL (binary, ASCII) and OBJ, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
+Bodies: meshes as STL (binary, ASCII), OBJ and GLB, panels as GDF, NEMOH (.mar) and PNL, closed or without deck, transom and flat bow; the B-spline surfaces of IGES and STEP \
 files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 

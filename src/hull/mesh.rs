@@ -27,10 +27,24 @@ const CENTREPLANE: f64 = 1e-9;
 const SITES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Most parts of a span.
-const MOST_PARTS: usize = 400;
+const MOST_PARTS: usize = 20_000;
 
 /// Part of the height of the lowest deck below which rows are not moved to the deck.
 const UNMOVED: f64 = 0.75;
+
+/// Most triangles of a mesh.
+const MOST_TRIANGLES: usize = 4_000_000;
+
+/// Why there is no mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum MeshError {
+    /// The tolerance is too small for the hull.
+    #[error("the mesh would have {count} triangles, expected at most {MOST_TRIANGLES}")]
+    TooMany {
+        /// The triangles that there would be on the hull.
+        count: usize,
+    },
+}
 
 /// Which face of the body a triangle belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -210,10 +224,18 @@ impl HullMesh {
     /// it, at least one.
     ///
     /// Mirrored exactly: for each vertex (x, y, z) there is (x, -y, z).
-    #[must_use]
-    pub fn new(hull: &Hull, deviation: f64, across: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`MeshError::TooMany`] when it would have more than [`MOST_TRIANGLES`]; nothing of that size is laid out.
+    pub fn new(hull: &Hull, deviation: f64, across: usize) -> Result<Self, MeshError> {
         let surface = hull.surface();
         let [us, vs] = lines(hull, deviation);
+        let across = across.max(1);
+        let strips = 4 * across * (us.len() + vs.len());
+        let count = 4 * (us.len() - 1) * (vs.len() - 1) + strips;
+        if count > MOST_TRIANGLES {
+            return Err(MeshError::TooMany { count });
+        }
         let tops: Vec<f64> = us.iter().map(|&u| deck_parameter(hull, u)).collect();
         let (from, to) = surface.v().domain();
         let lowest = tops.iter().copied().fold(to, f64::min);
@@ -232,7 +254,7 @@ impl HullMesh {
                 along.collect()
             })
             .collect();
-        let (m, n, across) = (us.len(), vs.len(), across.max(1));
+        let (m, n) = (us.len(), vs.len());
         let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
         let mut builder = Builder::default();
         for i in 0..m - 1 {
@@ -253,7 +275,7 @@ impl HullMesh {
         builder.strip(Region::Transom, &column(0), across);
         builder.strip(Region::Bow, &reversed(column(m - 1)), across);
         builder.strip(Region::Deck, &row(n - 1), across);
-        builder.mesh
+        Ok(builder.mesh)
     }
 
     /// Checks closure and measures.

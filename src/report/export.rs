@@ -216,6 +216,12 @@ pub struct Exported {
 /// Deviation of meshes, polylines and sections over the breadth.
 const DEVIATION: f64 = 1e-3;
 
+/// The least deviation over the breadth.
+const LEAST_DEVIATION: f64 = 1e-6;
+
+/// The farthest that z = 0 of the files may be from the base line, over the depth.
+const FARTHEST_DATUM: f64 = 100.0;
+
 /// Stations, and waterlines, for Michlet.
 const MICHLET: usize = 41;
 
@@ -288,28 +294,55 @@ fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(Strin
     Ok((write_michlet(&table, title, row.displacement_volume), line))
 }
 
+/// Whether formats and settings are such as can be meant.
+fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) -> Result<(), Failure> {
+    if let Some((_, twice)) = formats.iter().enumerate().find(|(k, format)| formats[..*k].contains(format)) {
+        return Err(Failure::Usage(format!("--format names {} twice, expected each format once", twice.name())));
+    }
+    let (breadth, depth) = (hull.particulars().breadth, hull.particulars().depth);
+    let least = LEAST_DEVIATION * breadth;
+    if let Some(deviation) = settings.deviation.filter(|deviation| *deviation < least) {
+        return Err(Failure::Usage(format!(
+            "--deviation {deviation} m: expected at least {least:.1e} m, a millionth of the breadth; step and iges have the surface itself"
+        )));
+    }
+    let most = FARTHEST_DATUM * depth;
+    if settings.datum.is_nan() || settings.datum.abs() > most {
+        return Err(Failure::Usage(format!(
+            "--datum {} m: expected at most {most} m from the base line, {FARTHEST_DATUM} times the depth",
+            settings.datum
+        )));
+    }
+    Ok(())
+}
+
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the draught.
+/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the draught, a format is named
+/// twice, the deviation is less than a millionth of the breadth or asks for too many triangles, or the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,
     name: &str,
     formats: &[ExportFormat],
     settings: &ExportSettings,
 ) -> Result<Exported, Failure> {
+    sensible(hull, formats, settings)?;
     let deviation = settings.deviation.unwrap_or(DEVIATION * hull.particulars().breadth);
     let draught = settings.draught.unwrap_or(hull.particulars().draught);
     let volume = whole_volume(hull);
     let (mut files, mut page) = (Vec::new(), Vec::new());
     let title = if hull.name().is_empty() { name } else { hull.name() };
-    let mesh = formats.iter().any(|format| format.is_mesh()).then(|| {
-        let mut mesh = HullMesh::new(hull, deviation, settings.across);
+    let mesh = if formats.iter().any(|format| format.is_mesh()) {
+        let mut mesh = HullMesh::new(hull, deviation, settings.across)
+            .map_err(|error| Failure::Usage(format!("--deviation {deviation} m: {error}; take a larger one")))?;
         let report = mesh.report();
         page.push(mesh_line(&mesh, &report, volume));
         lowered(&mut mesh.vertices, settings.datum);
-        mesh
-    });
+        Some(mesh)
+    } else {
+        None
+    };
     let solid = if formats.iter().any(|format| matches!(format, ExportFormat::Step | ExportFormat::Iges)) {
         let solid = Solid::new(hull).map_err(|error| Failure::Internal(format!("solid of the hull: {error}")))?;
         if !solid.is_closed() {

@@ -1,17 +1,20 @@
-//! Meshes for other programs: triangles as STL, OBJ, GLB; panels below a draught as GDF, NEMOH, PNL.
+//! Meshes for other programs: triangles as STL, OBJ, GLB; panels below a draught as GDF, NEMOH, PNL. All of them are read too.
 
 mod gdf;
 mod glb;
 mod nemoh;
 mod obj;
+mod panels_read;
 mod pnl;
 mod stl;
 
 pub use gdf::write_gdf;
 pub use glb::write_glb;
+pub(super) use glb::{is_glb, read_glb};
 pub use nemoh::write_nemoh;
 pub use obj::write_obj;
 pub(super) use obj::{is_obj, read_obj};
+pub(super) use panels_read::{read_gdf, read_nemoh, read_pnl};
 pub use pnl::write_pnl;
 pub(super) use stl::{is_stl, read_stl};
 pub use stl::{write_stl, write_stl_ascii};

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use super::super::cad::{CadSurfaces, is_iges, is_step, read_iges, read_step};
 use super::super::fault::RecordFault;
-use super::super::mesh::{is_obj, is_stl, read_obj, read_stl};
+use super::super::mesh::{is_glb, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl};
 use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
 use super::problem::{Place, Problems};
@@ -87,6 +87,14 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
         Some(("IGES", |bytes| read_iges(bytes).map(Shape::Surfaces)))
     } else if ends(&[".stl"]) || is_stl(bytes) {
         Some(("STL", |bytes| read_stl(bytes).map(Shape::Triangles)))
+    } else if is_glb(bytes) || ends(&[".glb"]) {
+        Some(("GLB", |bytes| read_glb(bytes).map(Shape::Triangles)))
+    } else if ends(&[".gdf"]) {
+        Some(("GDF", |bytes| read_gdf(bytes).map(Shape::Triangles)))
+    } else if ends(&[".pnl"]) {
+        Some(("PNL", |bytes| read_pnl(bytes).map(Shape::Triangles)))
+    } else if ends(&[".mar"]) {
+        Some(("NEMOH", |bytes| read_nemoh(bytes).map(Shape::Triangles)))
     } else if ends(&[".obj"]) || is_obj(bytes) {
         Some(("OBJ", |bytes| read_obj(bytes).map(Shape::Triangles)))
     } else {
@@ -94,7 +102,7 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
     }
 }
 
-/// Reads a body: triangles (STL, OBJ), the surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its
+/// Reads a body: triangles (STL, OBJ, GLB), panels (GDF, PNL, NEMOH), the surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its
 /// name, with the conventions of the TOML beside it, given by its name and its text, and of others, each over those before it; none
 /// when it is no such file.
 pub fn read_body<'a>(

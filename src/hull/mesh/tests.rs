@@ -28,7 +28,7 @@ fn a_mesh_is_closed_mirrored_and_of_the_right_volume() {
     assert!((whole_volume(&hull) / exact - 1.0).abs() < 1e-12);
     let mut last = f64::NAN;
     for deviation in [0.1, 0.025, 0.00625] {
-        let mesh = HullMesh::new(&hull, deviation, 4);
+        let mesh = HullMesh::new(&hull, deviation, 4).unwrap();
         let report = mesh.report();
         assert!(report.closed && report.open_edges == 0, "{report:?}");
         let error = (report.volume / exact - 1.0).abs();
@@ -47,7 +47,7 @@ fn a_mesh_is_closed_mirrored_and_of_the_right_volume() {
 fn no_triangle_leaves_the_surface_by_more_than_the_deviation() {
     let hull = parabolic(0.0);
     for deviation in [0.05, 0.005] {
-        let mesh = HullMesh::new(&hull, deviation, 1);
+        let mesh = HullMesh::new(&hull, deviation, 1).unwrap();
         let mut worst = 0.0_f64;
         for (region, corners) in &mesh.triangles {
             if *region != Region::Hull {
@@ -65,7 +65,7 @@ fn no_triangle_leaves_the_surface_by_more_than_the_deviation() {
 fn the_deck_cuts_the_surface() {
     let hull = parabolic(1.0);
     let exact = whole_volume(&hull);
-    let mesh = HullMesh::new(&hull, 1e-4, 6);
+    let mesh = HullMesh::new(&hull, 1e-4, 6).unwrap();
     let report = mesh.report();
     assert!(report.closed && report.open_edges == 0, "{report:?}");
     assert!((report.volume / exact - 1.0).abs() < 1e-4, "{} for {exact}", report.volume);
@@ -76,7 +76,7 @@ fn the_deck_cuts_the_surface() {
 #[test]
 fn regions_point_outward() {
     let hull = parabolic(0.0);
-    let mesh = HullMesh::new(&hull, 0.01, 3);
+    let mesh = HullMesh::new(&hull, 0.01, 3).unwrap();
     let normal = |wanted: Region| {
         let mut sum = [0.0; 3];
         for (region, corners) in mesh.triangles.iter().filter(|(region, _)| *region == wanted) {
@@ -93,4 +93,10 @@ fn regions_point_outward() {
     for none in [Region::Bottom, Region::Transom, Region::Bow] {
         assert!(mesh.triangles.iter().all(|(region, _)| *region != none), "{none:?}");
     }
+}
+
+#[test]
+fn a_mesh_that_nobody_can_hold_is_refused() {
+    let refused = HullMesh::new(&parabolic(0.0), 1e-12, 1).unwrap_err();
+    assert!(refused.to_string().contains("triangles, expected at most 4000000"), "{refused}");
 }

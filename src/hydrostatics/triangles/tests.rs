@@ -100,7 +100,7 @@ fn the_mesh_of_a_hull_has_its_hydrostatics() {
     let hull = parabolic();
     let draughts = [0.7, 2.0, 4.0, 5.5];
     let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
-    let found = rows(&mesh(&HullMesh::new(&hull, 1e-3, 2)), &draughts);
+    let found = rows(&mesh(&HullMesh::new(&hull, 1e-3, 2).unwrap()), &draughts);
     for (a, b) in found.iter().zip(&exact) {
         for (x, y) in [
             (a.displacement_volume, b.displacement_volume),
