@@ -226,7 +226,7 @@ impl HullMesh {
     /// Mirrored exactly: for each vertex (x, y, z) there is (x, -y, z).
     ///
     /// # Errors
-    /// [`MeshError::TooMany`] when it would have more than [`MOST_TRIANGLES`]; nothing of that size is laid out.
+    /// [`MeshError::TooMany`] when it would have more than 4,000,000 triangles; nothing of that size is laid out.
     pub fn new(hull: &Hull, deviation: f64, across: usize) -> Result<Self, MeshError> {
         let surface = hull.surface();
         let [us, vs] = lines(hull, deviation);
