@@ -380,8 +380,27 @@ impl Canvas {
                 number(0.35 * style.size)
             );
             write_element(&mut self.halos, at, pieces, style, &edge);
+            self.clear_gaps(at, pieces, style);
         }
         write_element(&mut self.letters, at, pieces, style, &format!("fill=\"{}\"", style.colour));
+    }
+
+    /// Clears the place of a text of several words or with a point: a line through a gap reads as a hyphen or a colon.
+    fn clear_gaps(&mut self, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle) {
+        let text: String =
+            pieces.iter().map(|(low, piece)| format!("{}{piece}", if *low { "_" } else { "" })).collect();
+        if !text.trim().contains([' ', '.', '\u{2013}']) {
+            return;
+        }
+        let place = Self::text_place(at, &text, style);
+        let _ = writeln!(
+            self.halos,
+            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>",
+            number(place.left),
+            number(place.top),
+            number(place.width()),
+            number(place.height())
+        );
     }
 
     /// Sets the text that waits: all white edges, then all letters.

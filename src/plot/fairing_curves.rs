@@ -299,7 +299,7 @@ fn deviations(
     let on = |at: f64, by: f64| {
         [strip.left + across.share(at) * strip.width(), strip.bottom - range.share(by) * strip.height()]
     };
-    figures(canvas, strip, &range, "moves [mm]");
+    figures(canvas, strip, &range, "offset - fair [mm]");
     canvas.begin_clip(strip);
     for change in kept() {
         if let Some(tolerance) = change.tolerance {

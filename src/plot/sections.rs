@@ -42,7 +42,9 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
         grid.station_spacing
     );
     canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));
-    let view = View::new([centre, size[1].ceil() - BOTTOM_ROOM - 6.0], scale);
+    // z = 0 stands as far above the lower room as the hull reaches below it.
+    let base = size[1].ceil() - BOTTOM_ROOM - 6.0 + coarse.height[0].min(0.0) * millimetres;
+    let view = View::new([centre, base], scale);
     body_plan::draw(&mut canvas, inputs, &grid, &view, (letters / 0.9).max(2.4));
     canvas.text(
         [size[0].ceil() - 4.0, size[1].ceil() - 2.8],

@@ -34,11 +34,13 @@ fn inline(figure: &ReportFigure) -> String {
     // The size is that of the column; the viewBox keeps the proportions.
     let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
     let shape = head.find("viewBox=").map_or("", |at| &head[at..]);
+    // Two styles are one too many: the second is not heard.
+    let shape = shape.replace(" style=\"white-space:pre\"", "");
     // Small charts do not fill the column.
     let wide = head.split("width=\"").nth(1).and_then(|rest| rest.split("mm").next()?.parse::<f64>().ok());
     let part = wide.map_or(100.0, |millimetres| (100.0 * millimetres / FULL).clamp(50.0, 100.0));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%\" {shape}{rest}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%;white-space:pre\" {shape}{rest}",
         escape(figure.title)
     )
 }
