@@ -149,7 +149,7 @@ fn panels_are_planar_and_small_enough_where_nothing_is_said() {
             let (p, q, r) = (minus(b, a), minus(c, a), minus(d, a));
             let (first, second) = (cross(p, q), cross(q, r));
             volume += first[1] * (a[1] + b[1] + c[1]) / 3.0 + second[1] * (a[1] + c[1] + d[1]) / 3.0;
-            if c != d {
+            if dot(minus(c, d), minus(c, d)) > 0.0 {
                 quadrilaterals += 1;
                 // Six times the volume of the tetrahedron of the corners, over the cube of a diagonal.
                 let long = dot(q, q).max(dot(minus(d, b), minus(d, b))).powf(1.5);

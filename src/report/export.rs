@@ -270,7 +270,7 @@ fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String),
     let mut size = settings.panel.unwrap_or(largest);
     let (mut mesh, mut report, mut off) = of_size(size)?;
     let mut left_off = "";
-    while settings.panel.is_none() && !(off.abs() <= PANEL_VOLUME) {
+    while settings.panel.is_none() && (off.is_nan() || off.abs() > PANEL_VOLUME) {
         if size <= smallest {
             left_off = " (take a smaller --panel)";
             break;
