@@ -100,7 +100,7 @@ fn panels_have_the_volume_of_the_hull_and_converge() {
         let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0);
         let mut last = [f64::NAN; 2];
         for parts in [25.0, 50.0, 100.0] {
-            let mesh = PanelMesh::new(&hull, &PanelSettings { draught, size: length / parts, flatness: 0.01 }).unwrap();
+            let mesh = PanelMesh::new(&hull, &PanelSettings { draught, size: length / parts, flatness: 0.0 }).unwrap();
             let report = mesh.report();
             let errors = [report.volume / exact.displacement_volume - 1.0, report.area / exact.wetted_surface - 1.0];
             let limit = 50.0 / (parts * parts);
@@ -111,6 +111,53 @@ fn panels_have_the_volume_of_the_hull_and_converge() {
             }
             last = errors.map(f64::abs);
         }
+    }
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The corners of the panels of a GDF file.
+fn corners_of(gdf: &[u8]) -> Vec<[[f64; 3]; 4]> {
+    let text = String::from_utf8_lossy(gdf);
+    let number = |word: &str| word.parse::<f64>().unwrap();
+    let points = text.lines().skip(4).map(|line| {
+        let values: Vec<f64> = line.split_whitespace().map(number).collect();
+        [values[0], values[1], values[2]]
+    });
+    points.collect::<Vec<_>>().chunks(4).map(|panel| [panel[0], panel[1], panel[2], panel[3]]).collect()
+}
+
+#[test]
+fn panels_are_planar_and_small_enough_where_nothing_is_said() {
+    for name in ["box", "bulk-carrier", "wigley", "yacht"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let draught = hull.particulars().draught;
+        let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0).displacement_volume;
+        let written = export(&hull, name, &[ExportFormat::Gdf], &ExportSettings::default()).unwrap();
+        let (mut volume, mut quadrilaterals) = (0.0, 0);
+        for [a, b, c, d] in corners_of(&written.files[0].contents) {
+            let (p, q, r) = (minus(b, a), minus(c, a), minus(d, a));
+            let (first, second) = (cross(p, q), cross(q, r));
+            volume += first[1] * (a[1] + b[1] + c[1]) / 3.0 + second[1] * (a[1] + c[1] + d[1]) / 3.0;
+            if dot(minus(c, d), minus(c, d)) > 0.0 {
+                quadrilaterals += 1;
+                // Six times the volume of the tetrahedron of the corners, over the cube of a diagonal.
+                let long = dot(q, q).max(dot(minus(d, b), minus(d, b))).powf(1.5);
+                assert!(dot(first, r).abs() < 1e-11 * long, "{name}: {a:?} {b:?} {c:?} {d:?}");
+            }
+        }
+        assert!((volume / exact - 1.0).abs() < 5e-3, "{name}: {volume} of {exact}");
+        assert!(quadrilaterals > 0, "{name}");
     }
 }
 

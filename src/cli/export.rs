@@ -41,11 +41,13 @@ pub(super) struct Arguments {
     /// Draught of panels, and of the offsets for Michlet, above the base line [default: of the hull]
     #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     draught: Option<f64>,
-    /// Length of the sides of panels; without it a fiftieth of Lpp
+    /// Length of the sides of panels; without it a fiftieth of Lpp, or as much less, down to a quarter of that, as brings the volume of the
+    /// panels within 0.5 % of the hull's
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     panel: Option<f64>,
-    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles
-    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.01, allow_hyphen_values = true)]
+    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles. With 0 all
+    /// panels are planar; 0.01 makes about half as many
+    #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.0, allow_hyphen_values = true)]
     flatness: f64,
     /// Overwrite files that are there already
     #[arg(long)]
@@ -64,7 +66,7 @@ plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
 and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
-the waterline, normals into the water, no lid. The page tells how even they are, and their volume and area against the hull's.
+the waterline, normals into the water, no lid; every panel is planar unless --flatness allows more. The page tells how even they are, and their volume and area against the hull's.
 gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
 stations as points within the deviation. ftm (FREE!ship, DELFTship): the control net of a subdivision surface through points of the \
 hull, with its knuckles as creases; michlet: half-breadths below --draught, from the bow aft, from the lowest point up. csv, xlsx, delftship (table of DELFTship): half-breadths over stations and waterlines, with the ends of the waterlines. These, in \

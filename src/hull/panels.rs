@@ -5,8 +5,8 @@
 //! (knots of multiplicity p) are lines of the panels, and so are the places where the waterline crosses one or leaves through the
 //! keel. The flat of bottom, the transom and a flat bow are strips from the centreplane to the side. There is no lid.
 //!
-//! A quadrilateral is kept while its corners leave their mean plane by at most a stated part of its longer diagonal; others become
-//! two triangles, cut along the shorter diagonal. The volume is
+//! A quadrilateral is kept while its corners leave their mean plane by at most a stated part of its longer diagonal, or by what rounding
+//! makes of it; others become two triangles, cut along the shorter diagonal. With a part of 0 every panel is planar. The volume is
 //!
 //! ```text
 //! V = 2 sum of the integrals of y n_y over the panels,
@@ -24,6 +24,9 @@ const CENTREPLANE: f64 = 1e-9;
 
 /// What is closer to the waterline than this part of the height of the hull lies on it.
 const AFLOAT: f64 = 1e-7;
+
+/// Corners within this part of the longer diagonal of their mean plane are in it but for rounding.
+const PLANAR: f64 = 1e-12;
 
 /// Intervals of each span in which lengths of arc are measured.
 const SAMPLES: usize = 12;
@@ -70,7 +73,7 @@ pub struct PanelSettings {
     pub draught: f64,
     /// Length of the sides of panels, at most about \[m\].
     pub size: f64,
-    /// What corners of a quadrilateral leave their mean plane by at most, over its longer diagonal.
+    /// What corners of a quadrilateral leave their mean plane by at most, over its longer diagonal; 0: they are in it to rounding.
     pub flatness: f64,
 }
 
@@ -342,7 +345,8 @@ impl PanelMesh {
             let parts = (length / size).ceil().max(1.0);
             if parts <= MOST_PANELS as f64 { Ok(parts as usize) } else { Err(PanelError::TooMany { size }) }
         };
-        let mut builder = Builder { mesh: Self::default(), known: Known::default(), flatness: settings.flatness };
+        let mut builder =
+            Builder { mesh: Self::default(), known: Known::default(), flatness: settings.flatness.max(PLANAR) };
         let (aft, fore) = surface.u().domain();
         for run in wetted.stretches() {
             let mut columns = Vec::new();

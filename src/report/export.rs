@@ -183,9 +183,10 @@ pub struct ExportSettings {
     pub datum: f64,
     /// Draught of panels above the base line \[m\]; none: that of the hull.
     pub draught: Option<f64>,
-    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars.
+    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a quarter of that, until
+    /// the volume of the panels is within half a per cent of the hull's.
     pub panel: Option<f64>,
-    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal.
+    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal; 0: all panels are planar.
     pub flatness: f64,
 }
 
@@ -199,7 +200,7 @@ impl Default for ExportSettings {
             datum: 0.0,
             draught: None,
             panel: None,
-            flatness: 0.01,
+            flatness: 0.0,
         }
     }
 }
@@ -225,8 +226,14 @@ const FARTHEST_DATUM: f64 = 100.0;
 /// Stations, and waterlines, for Michlet.
 const MICHLET: usize = 41;
 
-/// Panels over the length between perpendiculars.
+/// Panels over the length between perpendiculars, at least, where their size is not said.
 const PANELS: f64 = 50.0;
+
+/// Most panels over the length between perpendiculars where their size is not said.
+const MOST_ALONG: f64 = 200.0;
+
+/// What the volume of panels whose size is not said leaves that of the hull by, over it.
+const PANEL_VOLUME: f64 = 5e-3;
 
 fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
@@ -251,16 +258,34 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
 fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
     let particulars = hull.particulars();
     let draught = settings.draught.unwrap_or(particulars.draught);
-    let size = settings.panel.unwrap_or(particulars.length_between_perpendiculars / PANELS);
-    let asked = PanelSettings { draught, size, flatness: settings.flatness };
-    let mesh = PanelMesh::new(hull, &asked).map_err(|error| Failure::Usage(error.to_string()))?;
-    let PanelReport { panels, triangles, unevenness, longest, volume, area } = mesh.report();
     let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
+    let of_size = |size: f64| {
+        let asked = PanelSettings { draught, size, flatness: settings.flatness };
+        let mesh = PanelMesh::new(hull, &asked).map_err(|error| Failure::Usage(error.to_string()))?;
+        let report = mesh.report();
+        Ok::<_, Failure>((mesh, report, report.volume / row.displacement_volume - 1.0))
+    };
+    let long = particulars.length_between_perpendiculars;
+    let (largest, smallest) = (long / PANELS, long / MOST_ALONG);
+    let mut size = settings.panel.unwrap_or(largest);
+    let (mut mesh, mut report, mut off) = of_size(size)?;
+    let mut left_off = "";
+    while settings.panel.is_none() && (off.is_nan() || off.abs() > PANEL_VOLUME) {
+        if size <= smallest {
+            left_off = " (take a smaller --panel)";
+            break;
+        }
+        // The error is of second order in the size; a little less, to be there at once.
+        let share = (0.9 * PANEL_VOLUME / off.abs()).sqrt();
+        size = (size * if share.is_finite() { share.clamp(0.5, 0.95) } else { 0.5 }).max(smallest);
+        let Ok(finer) = of_size(size) else { break };
+        (mesh, report, off) = finer;
+    }
+    let PanelReport { panels, triangles, unevenness, longest, volume, area } = report;
     let line = format!(
-        "panels: {panels} on one side, {triangles} of them triangles, sides up to {longest:.3} m, corners within {unevenness:.2e} m of \
-         their planes; z = 0 at draught {draught:.3} m; volume {volume:.6e} m3, {:+.2e} of the hull's {:.6e} m3; area {area:.5e} m2, \
-         {:+.2e} of the wetted surface",
-        volume / row.displacement_volume - 1.0,
+        "panels: {panels} on one side, {triangles} of them triangles, sides of {size:.3} m, the longest {longest:.3} m, corners within \
+         {unevenness:.2e} m of their planes; z = 0 at draught {draught:.3} m; volume {volume:.6e} m3, {off:+.2e} of the hull's {:.6e} \
+         m3{left_off}; area {area:.5e} m2, {:+.2e} of the wetted surface",
         row.displacement_volume,
         area / row.wetted_surface - 1.0,
     );
@@ -351,10 +376,11 @@ pub fn export(
         let faces: Vec<&str> = solid.faces.iter().map(|face| face.name.as_str()).collect();
         let own = solid.volume();
         page.push(format!(
-            "solid: {} edges, faces {}; volume {own:.12e} m3, {:+.1e} of the hull's",
+            "solid: {} edges, faces {}; volume {own:.12e} m3, {:+.1e} of the hull's; area {:.10e} m2",
             solid.edges.len(),
             faces.join(", "),
-            own / volume - 1.0
+            own / volume - 1.0,
+            solid.area(),
         ));
         if solid.deviation > 0.0 {
             page.push(format!(
