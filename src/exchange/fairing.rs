@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
-use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
@@ -35,16 +34,6 @@ pub fn status_word(status: Status) -> &'static str {
         Status::Infeasible => "infeasible",
         Status::Unbounded => "unbounded",
         Status::Limit => "limit",
-    }
-}
-
-/// Name and unit of the target of a constraint: both sides of the certificate are in this unit.
-fn unit(held: &Held) -> &'static str {
-    match held.constraint.key() {
-        "displacement" => "m3",
-        "lcb" | "kb" | "lcf" | "km" | "gm" => "m",
-        "waterplane_area" | "section_area" | "wetted_surface" => "m2",
-        _ => "-",
     }
 }
 
@@ -210,7 +199,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .map(|held| {
             let target = held.constraint.target();
             json!({
-                "kind": held.constraint.key(), "name": held.constraint.words(), "unit": unit(held),
+                "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
                 "price": number(held.price), "words": priced(&held.constraint.words(), held.price),

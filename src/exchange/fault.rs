@@ -4,7 +4,7 @@
 const MOST_FAULTS: usize = 100;
 
 /// Coordinates larger than this are of no ship in any unit.
-const LARGEST: f64 = 1e8;
+pub(super) const LARGEST: f64 = 1e8;
 
 /// What is wrong with a record of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -52,15 +52,21 @@ pub(super) struct Answer {
 
 /// A factor on the tolerances that is tried.
 struct Widening {
-    /// The least that would do; none when none does.
-    least: Option<f64>,
+    /// The least that would do.
+    least: f64,
     /// Index of the room above it.
     room: usize,
 }
 
 impl Widening {
-    fn factor(&self) -> Option<f64> {
-        Some(self.least?.max(1.0) * (1.0 + ROOMS.get(self.room)?))
+    fn factor(&self) -> f64 {
+        self.least.max(1.0) * (1.0 + ROOMS[self.room])
+    }
+
+    /// The next that is tried, whose least is known now: more room where more limits do not ask for more; none when there is none.
+    fn next(before: Option<&Self>, least: f64) -> Option<Self> {
+        let room = before.filter(|before| least <= before.least * (1.0 + ROOMS[0])).map_or(0, |before| before.room + 1);
+        (room < ROOMS.len()).then_some(Self { least, room })
     }
 }
 
@@ -71,11 +77,14 @@ impl Basic<'_> {
     /// [`FairError::Problem`] when the numbers make no program.
     pub(super) fn solve(&self, wishes: &mut Wishes) -> Result<Answer, FairError> {
         let tolerance = self.typical_tolerance();
-        let (mut wider, mut factor): (Option<Widening>, f64) = (None, 1.0);
+        let mut wider: Option<Widening> = None;
+        // The least widening, once it has been asked for.
+        let mut contradiction: Option<Option<f64>> = None;
         let (mut programs, mut iterations, mut rounds) = (0, 0, 0);
         // A stall is looked into by the least widening, which proves more.
         let solver = Settings { proof: false, ..self.solver.clone() };
         let (program, solved) = loop {
+            let factor = wider.as_ref().map_or(1.0, Widening::factor);
             let program = self.program(wishes, factor);
             let mut solved = program.solve(self.model, self.smoother, self.lambda, &solver)?;
             programs += 1;
@@ -87,39 +96,31 @@ impl Basic<'_> {
                 }
                 break (program, solved);
             }
-            if wider.is_none() {
+            if contradiction.is_none() {
                 // Linear programs have no energy to keep them near.
                 wishes.breadths.extend(control_values(self.surface.start.len(), self.greatest));
             }
             let least = least_widening(&self.program(wishes, 1.0), self.solver)?;
             programs += 1;
-            let room = match &wider {
-                Some(before) if least.unwrap_or(0.0) <= before.least.unwrap_or(0.0) * (1.0 + ROOMS[0]) => {
-                    before.room + 1
-                }
-                _ => 0,
-            };
-            let next = Widening { least, room };
-            let taken = next.factor();
-            wider = Some(next);
-            let Some(taken) = taken else {
+            contradiction = Some(least);
+            wider = least.and_then(|least| Widening::next(wider.as_ref(), least));
+            if wider.is_none() {
                 // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
                 solved.net.clone_from(&self.surface.start);
                 solved.solution.x = self.smoother.reduced.free.iter().map(|&i| self.surface.start[i]).collect();
                 break (program, solved);
-            };
-            factor = taken;
+            }
         };
         let mut answer = Answer { program, solved, diagnosis: None, programs, iterations };
-        if let Some(wider) = wider {
+        if let Some(least) = contradiction {
             let plain = self.program(wishes, 1.0);
-            let (found, programs) = diagnose(plain, wider.least, self.solver, |x| {
+            let (found, programs) = diagnose(plain, least, self.solver, |x| {
                 let net = self.smoother.reduced.expand(x);
                 self.limit(wishes, &net, [tolerance, 1.0]).then(|| self.program(wishes, 1.0))
             })?;
             answer.programs += programs;
             answer.diagnosis = Some(found);
-            if wider.least.is_none_or(|least| least > 1.0) && !answer.solved.is_optimal() {
+            if least.is_none_or(|least| least > 1.0) && !answer.solved.is_optimal() {
                 answer.solved.solution.status = Status::Infeasible;
             }
         }

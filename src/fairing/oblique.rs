@@ -12,41 +12,37 @@
 //! tells of the plane's neighbour through that point, whose signs are those of the curve but where it turns.
 
 use super::bends::{Bend, kept, sites};
+use super::inspect::{motion_rates, swept};
 use super::model::{Limit, Row, value};
 use crate::hull::{Cut, Hull};
+use crate::numeric::bracketed_root;
 use crate::spline::{BsplineSurface, basis_row, cross, dot, length};
 
 type Point = [f64; 3];
 
-/// S_u, S_v, S_uu, S_uv, S_vv.
-type Jet = [Point; 5];
+/// The derivatives s\[i\]\[j\] of a surface, up to the second.
+type Jet = [[Point; 3]; 3];
 
-/// Orders of the derivatives of a jet.
+/// Orders of the derivatives on which F depends.
 const ORDERS: [[usize; 2]; 5] = [[1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
 
-/// Halvings that find a place of a curve.
-const HALVINGS: usize = 50;
+/// How near a place of a curve is found, in the range between two sites.
+const NEAR: f64 = 1e-14;
 
 /// P' and F.
 fn bending(jet: &Jet, n: Point) -> (Point, f64) {
-    let g = |k: usize| dot(n, jet[k]);
-    let (a, b) = (-g(1), g(0));
-    let (a1, b1) = (-(g(3) * a + g(4) * b), g(2) * a + g(3) * b);
-    let along = |weights: [f64; 5]| -> Point {
-        std::array::from_fn(|d| weights.iter().zip(jet).map(|(weight, derivative)| weight * derivative[d]).sum())
-    };
-    let first = along([a, b, 0.0, 0.0, 0.0]);
-    let second = along([a1, b1, a * a, 2.0 * a * b, b * b]);
+    let motion = [-dot(n, jet[0][1]), dot(n, jet[1][0])];
+    let [first, second] = swept(jet, motion, motion_rates(jet, n, motion));
     (first, dot(n, cross(first, second)))
 }
 
 /// dF by the derivatives of y: differences of four points, which are exact for cubics.
 fn gradient(jet: &Jet, n: Point) -> [f64; 5] {
-    std::array::from_fn(|k| {
-        let step = length(jet[k]).max(f64::MIN_POSITIVE);
+    ORDERS.map(|[i, j]| {
+        let step = length(jet[i][j]).max(f64::MIN_POSITIVE);
         let at = |steps: f64| {
             let mut moved = *jet;
-            moved[k][1] += steps * step;
+            moved[i][j][1] += steps * step;
             bending(&moved, n).1
         };
         (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step)
@@ -70,9 +66,8 @@ pub fn oblique_bends(surface: &BsplineSurface<3>, net: &[f64], cut: Cut) -> Vec<
     let mut bends: Vec<Bend> = places
         .into_iter()
         .filter_map(|at| {
-            let d = surface.derivatives::<3>(at[0], at[1]);
-            let jet: Jet = ORDERS.map(|[i, j]| d[i][j]);
-            if dot(n, jet[1]) <= 0.0 {
+            let jet: Jet = surface.derivatives::<3>(at[0], at[1]);
+            if dot(n, jet[0][1]) <= 0.0 {
                 return None;
             }
             let (first, bending) = bending(&jet, n);
@@ -85,7 +80,7 @@ pub fn oblique_bends(surface: &BsplineSurface<3>, net: &[f64], cut: Cut) -> Vec<
                 numerator.iter_mut().zip(row).for_each(|(sum, (_, value))| sum.1 += by * value);
             }
             let offset = bending - value(&numerator, net);
-            Some(Bend { numerator, offset, slope: Row::new(), along: length(first), at: d[0][0][0] })
+            Some(Bend { numerator, offset, slope: Row::new(), along: length(first), at: jet[0][0][0] })
         })
         .collect();
     bends.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -98,14 +93,7 @@ fn crossings(sites: &[f64], height: impl Fn(f64) -> f64) -> Vec<f64> {
     let pairs = sites.windows(2).zip(heights.windows(2));
     let changing = pairs.filter(|(_, ends)| (ends[0] < 0.0) != (ends[1] < 0.0));
     changing
-        .map(|(pair, ends)| {
-            let (mut low, mut high) = (pair[0], pair[1]);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if (height(middle) < 0.0) == (ends[0] < 0.0) { low = middle } else { high = middle }
-            }
-            0.5 * (low + high)
-        })
+        .filter_map(|(pair, _)| bracketed_root(&height, pair[0], pair[1], NEAR * (pair[1] - pair[0])).ok())
         .collect()
 }
 
@@ -144,16 +132,18 @@ mod tests {
 
     #[test]
     fn the_tangent_of_a_bend() {
-        let jet = [[9.0, 0.7, 0.2], [0.3, 2.0, 1.5], [0.1, -0.4, 0.05], [0.02, 0.6, -0.1], [0.4, -1.1, 0.3]];
+        let values = [[9.0, 0.7, 0.2], [0.3, 2.0, 1.5], [0.1, -0.4, 0.05], [0.02, 0.6, -0.1], [0.4, -1.1, 0.3]];
+        let mut jet = Jet::default();
+        ORDERS.into_iter().zip(values).for_each(|([i, j], value)| jet[i][j] = value);
         let n = [0.0, 0.6, 0.8];
-        for (k, by) in gradient(&jet, n).into_iter().enumerate() {
+        for ([i, j], by) in ORDERS.into_iter().zip(gradient(&jet, n)) {
             let at = |step: f64| {
                 let mut moved = jet;
-                moved[k][1] += step;
+                moved[i][j][1] += step;
                 bending(&moved, n).1
             };
             let expected = (at(1e-4) - at(-1e-4)) / 2e-4;
-            assert!((by - expected).abs() < 1e-6 * (1.0 + expected.abs()), "{k}: {by} {expected}");
+            assert!((by - expected).abs() < 1e-6 * (1.0 + expected.abs()), "{i} {j}: {by} {expected}");
         }
     }
 }

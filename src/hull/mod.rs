@@ -38,7 +38,9 @@ pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, MeshError, MeshReport, Region, whole_volume};
-pub use offsets::{OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines};
+pub use offsets::{
+    OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines, keel_height,
+};
 pub use outlines::section_stations;
 pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};
 pub use particulars::PrincipalParticulars;

@@ -168,7 +168,7 @@ fn lift(hull: &Hull, station: &OffsetStation, waterlines: &[f64], buttocks: &[f6
     let slack = 1e-12 * (hull.top() - hull.bottom());
     let half_breadths =
         waterlines.iter().map(|&z| Cell::from(if z <= deck + slack { breadth(hull, x, z) } else { None })).collect();
-    let keel_height = lowest(hull, x).filter(|&z| z <= deck + slack);
+    let keel_height = keel_height(hull, x).filter(|&z| z <= deck + slack);
     let section = hull.section(Cut::Station { x }, 0.0);
     let heights =
         buttocks.iter().map(|&y| Cell::from(if y <= 0.0 { keel_height } else { height_at(&section, y) })).collect();
@@ -199,8 +199,9 @@ fn upper_edge(hull: &Hull, x: f64) -> f64 {
     hull.length_parameter(x, v).map_or(hull.top(), |u| hull.surface().eval(u, v)[2])
 }
 
-/// The lowest height at which the surface reaches `x`.
-fn lowest(hull: &Hull, x: f64) -> Option<f64> {
+/// Height of the lowest point of the surface at `x` \[m\]; none beyond its ends.
+#[must_use]
+pub fn keel_height(hull: &Hull, x: f64) -> Option<f64> {
     if let Some([_, _, z]) = keel_point(hull, x) {
         return Some(z);
     }

@@ -132,6 +132,12 @@ pub struct Statement {
 }
 
 impl Conventions {
+    /// ` (assumed)` where the design draught is, for what follows the draught in a line of text.
+    #[must_use]
+    pub fn draught_mark(&self) -> &'static str {
+        if self.draught_assumed { " (assumed)" } else { "" }
+    }
+
     /// What the numbers of a table are referred to, one statement a line; to be printed with every table.
     #[must_use]
     pub fn statements(&self) -> Vec<Statement> {

@@ -10,7 +10,7 @@ use super::scale::{drawing_scale, nice_step, sheet_scale};
 use super::sheet::{LETTERS, ROOM};
 use super::view::{DESIGN, GRID, OUTLINE};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
-use crate::hull::{Cut, Hull, SectionalAreaCurve};
+use crate::hull::{Hull, SectionalAreaCurve, keel_height};
 
 /// Room at the sides of the profile \[mm\].
 const SIDE: f64 = 26.0;
@@ -171,14 +171,6 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     canvas.text([10.0, height - 4.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
     canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)
-}
-
-/// Height of the lowest point of the station at `x` \[m\]; none where there is no station.
-fn keel_height(hull: &Hull, x: f64) -> Option<f64> {
-    let (low, high) = (hull.bottom(), hull.top());
-    let section = hull.section(Cut::Station { x }, 1e-6);
-    let points = section.branches.iter().flat_map(|branch| branch.polyline(1e-3 * (high - low)));
-    points.map(|p| p[2]).reduce(f64::min)
 }
 
 /// Areas of the stations, the highest waterline on top.

@@ -102,6 +102,12 @@ impl Rectangle {
         self.left <= other.left && other.right <= self.right && self.top <= other.top && other.bottom <= self.bottom
     }
 
+    /// Place and size, as an element of SVG has them.
+    fn attributes(&self) -> String {
+        let [x, y, width, height] = [self.left, self.top, self.width(), self.height()].map(number);
+        format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")
+    }
+
     pub(super) fn grown(&self, margin: f64) -> Self {
         Self::new(self.left - margin, self.top - margin, self.right + margin, self.bottom + margin)
     }
@@ -288,14 +294,7 @@ impl Canvas {
     }
 
     pub(super) fn rectangle(&mut self, r: &Rectangle, pen: &Pen) {
-        let _ = write!(
-            self.body,
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
-            number(r.left),
-            number(r.top),
-            number(r.width()),
-            number(r.height())
-        );
+        let _ = write!(self.body, "<rect {}", r.attributes());
         self.stroke(pen);
         self.body.push_str("/>\n");
     }
@@ -310,13 +309,9 @@ impl Canvas {
         self.clips += 1;
         let _ = writeln!(
             self.body,
-            "<clipPath id=\"clip{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/></clipPath>\n<g \
-             clip-path=\"url(#clip{0})\">",
+            "<clipPath id=\"clip{0}\"><rect {1}/></clipPath>\n<g clip-path=\"url(#clip{0})\">",
             self.clips,
-            number(window.left),
-            number(window.top),
-            number(window.width()),
-            number(window.height())
+            window.attributes()
         );
     }
 
@@ -364,8 +359,9 @@ impl Canvas {
 
     /// Writes `text`; `_` lowers the letters and digits that follow it.
     pub(super) fn text(&mut self, at: [f64; 2], text: &str, style: &TextStyle) {
-        self.write_text(at, &pieces(text), style);
-        self.texts.push(PlacedText { content: text.to_owned(), place: Self::text_place(at, text, style) });
+        let place = Self::text_place(at, text, style);
+        self.write_text(at, text, &place, style);
+        self.texts.push(PlacedText { content: text.to_owned(), place });
     }
 
     /// Notes a text that another writer has drawn.
@@ -373,34 +369,20 @@ impl Canvas {
         self.texts.push(PlacedText { content: content.to_owned(), place });
     }
 
-    fn write_text(&mut self, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle) {
+    fn write_text(&mut self, at: [f64; 2], text: &str, place: &Rectangle, style: &TextStyle) {
+        let pieces = &pieces(text);
         if style.halo {
             let edge = format!(
                 "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" aria-hidden=\"true\"",
                 number(0.35 * style.size)
             );
             write_element(&mut self.halos, at, pieces, style, &edge);
-            self.clear_gaps(at, pieces, style);
+            // A line through a gap between words, or beside a point, reads as a hyphen or a colon.
+            if text.trim().contains([' ', '.', '\u{2013}']) {
+                let _ = writeln!(self.halos, "<rect {} fill=\"#ffffff\"/>", place.attributes());
+            }
         }
         write_element(&mut self.letters, at, pieces, style, &format!("fill=\"{}\"", style.colour));
-    }
-
-    /// Clears the place of a text of several words or with a point: a line through a gap reads as a hyphen or a colon.
-    fn clear_gaps(&mut self, at: [f64; 2], pieces: &[(bool, &str)], style: &TextStyle) {
-        let text: String =
-            pieces.iter().map(|(low, piece)| format!("{}{piece}", if *low { "_" } else { "" })).collect();
-        if !text.trim().contains([' ', '.', '\u{2013}']) {
-            return;
-        }
-        let place = Self::text_place(at, &text, style);
-        let _ = writeln!(
-            self.halos,
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>",
-            number(place.left),
-            number(place.top),
-            number(place.width()),
-            number(place.height())
-        );
     }
 
     /// Sets the text that waits: all white edges, then all letters.

@@ -27,19 +27,14 @@ pub(super) fn conventions(inputs: &FigureInputs) -> String {
     )
 }
 
-/// ` (assumed)` where the design draught is.
-pub(super) fn assumed(inputs: &FigureInputs) -> &'static str {
-    if inputs.curves.conventions.draught_assumed { " (assumed)" } else { "" }
-}
-
 /// The design draught, `T 7.70 m`, and whether it was assumed.
 pub(super) fn draught(inputs: &FigureInputs) -> String {
-    format!("T {:.2} m{}", inputs.design.draught, assumed(inputs))
+    format!("T {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())
 }
 
 /// The design waterline, `DWL 7.70 m`, and whether it was assumed.
 pub(super) fn design_waterline(inputs: &FigureInputs) -> String {
-    format!("DWL {:.2} m{}", inputs.design.draught, assumed(inputs))
+    format!("DWL {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())
 }
 
 /// The title of a chart `width` \[mm\] wide with the name of the ship, and a line of words under it.

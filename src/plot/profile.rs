@@ -4,7 +4,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
-use super::{FigureInputs, caption, outline};
+use super::{FigureInputs, outline};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
@@ -80,6 +80,11 @@ fn draw_level(
     text_size: f64,
 ) {
     canvas.line([frame.left, y], [frame.right, y], pen);
+    name_ends(canvas, names, frame, y, name, text_size);
+}
+
+/// A name on both sides of the frame at one height.
+fn name_ends(canvas: &mut Canvas, names: &mut LabelPlacer, frame: &Rectangle, y: f64, name: &str, text_size: f64) {
     let room = frame.grown(SIDE_ROOM + BEYOND);
     let style = TextStyle::new(text_size, Anchor::End);
     names.name_point(canvas, name, &style, &[[frame.left - 1.0, y]], &room);
@@ -96,13 +101,9 @@ pub(super) fn name_assumed(
     y: f64,
     text_size: f64,
 ) {
-    let (text, room) = (caption::assumed(inputs).trim(), frame.grown(SIDE_ROOM + BEYOND));
-    let below = y + 1.15 * text_size;
+    let text = inputs.curves.conventions.draught_mark().trim();
     if !text.is_empty() {
-        let style = TextStyle::new(text_size, Anchor::End);
-        names.name_point(canvas, text, &style, &[[frame.left - 1.0, below]], &room);
-        let right = TextStyle { anchor: Anchor::Start, ..style };
-        names.name_point(canvas, text, &right, &[[frame.right + 1.0, below]], &room);
+        name_ends(canvas, names, frame, y + 1.15 * text_size, text, text_size);
     }
 }
 

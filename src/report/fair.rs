@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::check::suspect_json;
 use super::failure::{Failure, problem};
+use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{read_bytes, read_table_file, ship_name, utf8};
@@ -14,6 +15,7 @@ use crate::exchange::{
     ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
     fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
 };
+use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
@@ -296,10 +298,13 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
     })
 }
 
-/// A length in millimetres, a small one with its digits.
-fn millimetres(length: f64) -> String {
-    let digits = if length < 1e-3 { 4 } else { 1 };
-    format!("{:.digits$} mm", 1e3 * length)
+/// The unit of what is held after a number, and where it is counted from.
+fn unit(constraint: &Constraint) -> String {
+    let from = match constraint {
+        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => " from AP",
+        _ => "",
+    };
+    if constraint.unit() == "-" { String::new() } else { format!(" {}{from}", constraint.unit()) }
 }
 
 impl FairOutputs {
@@ -312,12 +317,12 @@ impl FairOutputs {
         let least = found.and_then(|found| found.widening).map(|factor| {
             let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
             let [wide, now] = [factor * typical, typical].map(millimetres);
-            format!(" {factor:.3} times as wide ({wide} where it is widest now {now}) would do;")
+            format!(" {factor:.3} times as wide ({wide} mm where it is widest now {now} mm) would do;")
         });
         let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
             let held = self.outcome.held.get(reach.constraint)?;
             let [low, high] = self.outcome.reached_values(reach)?;
-            let (words, target, unit) = (held.constraint.words(), held.constraint.target(), held.constraint.unit());
+            let (words, target, unit) = (held.constraint.words(), held.constraint.target(), unit(&held.constraint));
             let missing = 100.0 * reach.missing?;
             let of = held.constraint.relative_to();
             Some(format!(

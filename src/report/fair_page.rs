@@ -31,7 +31,7 @@ fn small(length: f64, notation: Notation) -> String {
 }
 
 /// Millimetres to three figures.
-fn millimetres(length: f64) -> String {
+pub(super) fn millimetres(length: f64) -> String {
     let value = 1000.0 * length;
     let decimals = match value.abs() {
         v if v >= 100.0 => 0,

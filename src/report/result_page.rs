@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::page::{fixed, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
-use super::verdict::{assumed, verdict};
+use super::verdict::verdict;
 use crate::exchange::scene_json;
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
@@ -361,7 +361,7 @@ pub(super) fn report_page(
         p.length_between_perpendiculars,
         p.breadth,
         p.draught,
-        assumed(&result.conventions),
+        result.conventions.draught_mark(),
         p.depth,
         result.conventions.density
     );

@@ -5,6 +5,9 @@ use super::result::JobResult;
 use super::result_page::{list, text};
 use crate::hydrostatics::{Conventions, Hydrostatics};
 
+/// Curves whose inflections are counted, as files name them.
+const KINDS: [&str; 4] = ["waterlines", "stations", "buttocks", "diagonals"];
+
 /// Displacement and LCB at the design draught before and after.
 fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conventions) -> String {
     let share = 100.0 * (after.displacement_mass / before.displacement_mass - 1.0);
@@ -13,17 +16,12 @@ fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conve
     format!(
         "At T {} m{}: displacement {} → {} t ({share:+.3} %), LCB {} → {} m from AP{moved}.",
         fixed(after.draught, 3),
-        assumed(conventions),
+        conventions.draught_mark(),
         fixed(before.displacement_mass, 1),
         fixed(after.displacement_mass, 1),
         lcb(before),
         lcb(after)
     )
-}
-
-/// ` (assumed)` where the design draught is.
-pub(super) fn assumed(conventions: &Conventions) -> &'static str {
-    if conventions.draught_assumed { " (assumed)" } else { "" }
 }
 
 /// What the fairing came to, in sentences.
@@ -54,14 +52,10 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
         lines.push((false, displacement(before, after, &result.conventions)));
     }
     let sum = |key: &str, when: &str| list(&fairing["inflections"][key]).filter_map(|l| l[when].as_u64()).sum::<u64>();
-    let counts: Vec<String> = ["waterlines", "stations", "buttocks", "diagonals"]
-        .iter()
-        .map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after")))
-        .collect();
+    let counts: Vec<String> =
+        KINDS.iter().map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after"))).collect();
     lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
-    let all = || {
-        ["waterlines", "stations", "buttocks", "diagonals"].iter().flat_map(|key| list(&fairing["inflections"][key]))
-    };
+    let all = || KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]));
     let more_than = |than: &str| {
         all()
             .filter(|line| line["after"].as_u64().zip(line[than].as_u64()).is_some_and(|(after, most)| after > most))

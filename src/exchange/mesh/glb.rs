@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 
-use super::super::fault::{Faults, RecordFault};
+use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::{MOST_TRIANGLES, regions};
 use crate::hull::{HullMesh, Region, TriangleMesh};
 
@@ -209,7 +209,7 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
             }
         }
     }
-    corners.retain(|t: &[[f64; 3]; 3]| t.iter().flatten().all(|c| c.is_finite() && c.abs() <= 1e8));
+    corners.retain(|t: &[[f64; 3]; 3]| t.iter().flatten().all(|c| c.abs() <= LARGEST));
     if corners.is_empty() {
         faults.add(None, "", "no triangles".to_owned());
     }

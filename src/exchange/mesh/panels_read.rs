@@ -2,7 +2,7 @@
 //! the lines; a panel of four different corners becomes two triangles from its first. Where the file names a plane of symmetry,
 //! the half that is given is read: whoever reads bodies mirrors it.
 
-use super::super::fault::{Faults, RecordFault};
+use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::MOST_TRIANGLES;
 use crate::hull::TriangleMesh;
 
@@ -36,7 +36,7 @@ impl<'a> Words<'a> {
         };
         // FORTRAN writes 1.0D+01.
         match word.replace(['D', 'd'], "e").parse::<f64>() {
-            Ok(value) if value.abs() <= 1e8 => Some(value),
+            Ok(value) if value.abs() <= LARGEST => Some(value),
             _ => {
                 self.faults.add(Some(line), word, format!("expected {what}, a number of at most 1e8"));
                 None

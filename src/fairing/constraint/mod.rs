@@ -99,15 +99,17 @@ impl Constraint {
         }
     }
 
-    /// Unit of the quantity, after a space; nothing for a coefficient.
+    /// Unit of the quantity; `-` for a coefficient.
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Displacement(_) => " m3",
-            Self::WaterplaneArea(_) | Self::SectionArea { .. } | Self::WettedSurface(_) => " m2",
-            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => " m from AP",
-            Self::HeightOfBuoyancy(_) | Self::Metacentre { .. } => " m",
-            Self::BlockCoefficient(_) | Self::WaterplaneCoefficient(_) | Self::MidshipCoefficient(_) => "",
+            Self::Displacement(_) => "m3",
+            Self::WaterplaneArea(_) | Self::SectionArea { .. } | Self::WettedSurface(_) => "m2",
+            Self::CentreOfBuoyancy(_)
+            | Self::CentreOfFlotation(_)
+            | Self::HeightOfBuoyancy(_)
+            | Self::Metacentre { .. } => "m",
+            Self::BlockCoefficient(_) | Self::WaterplaneCoefficient(_) | Self::MidshipCoefficient(_) => "-",
         }
     }
 

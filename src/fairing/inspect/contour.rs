@@ -137,17 +137,12 @@ impl<'a> Locator<'a> {
             ([0.0, 1f64.copysign(gu)], [0.0; 2], [0.0; 2], up)
         } else {
             let (a, b) = (-gv, gu);
-            let a1 = -(g(1, 1) * a + g(0, 2) * b);
-            let b1 = g(2, 0) * a + g(1, 1) * b;
+            let [a1, b1] = motion_rates(&s, n, [a, b]);
             let a2 = (g(2, 1) * a + g(1, 2) * b) * a + g(1, 1) * a1 + (g(1, 2) * a + g(0, 3) * b) * b + g(0, 2) * b1;
             let b2 = (g(3, 0) * a + g(2, 1) * b) * a + g(2, 0) * a1 + (g(2, 1) * a + g(1, 2) * b) * b + g(1, 1) * b1;
             ([a, b], [a1, b1], [-a2, b2], along * up)
         };
-        let first: Point = std::array::from_fn(|d| s[1][0][d] * a + s[0][1][d] * b);
-        let second: Point = std::array::from_fn(|d| {
-            let squares = s[2][0][d] * a * a + 2.0 * s[1][1][d] * a * b + s[0][2][d] * b * b;
-            squares + s[1][0][d] * a1 + s[0][1][d] * b1
-        });
+        let [first, second] = swept(&s, [a, b], [a1, b1]);
         let third: Point = std::array::from_fn(|d| {
             let cubes =
                 s[3][0][d] * a.powi(3) + s[0][3][d] * b.powi(3) + 3.0 * a * b * (s[2][1][d] * a + s[1][2][d] * b);
@@ -172,6 +167,22 @@ impl<'a> Locator<'a> {
             Some(1f64.copysign(dot(direction, velocity)))
         })
     }
+}
+
+/// Derivatives of the motion [a, b] = [-g_v, g_u] along a section of a surface with the derivatives s\[i\]\[j\] in u and v, g = n . S.
+pub(in super::super) fn motion_rates<const N: usize>(s: &[[Point; N]; N], n: Point, [a, b]: [f64; 2]) -> [f64; 2] {
+    let g = |i: usize, j: usize| dot(n, s[i][j]);
+    [-(g(1, 1) * a + g(0, 2) * b), g(2, 0) * a + g(1, 1) * b]
+}
+
+/// P' and P'' of the motion [a, b] with the derivatives [a1, b1].
+pub(in super::super) fn swept<const N: usize>(s: &[[Point; N]; N], [a, b]: [f64; 2], [a1, b1]: [f64; 2]) -> [Point; 2] {
+    let first = std::array::from_fn(|d| s[1][0][d] * a + s[0][1][d] * b);
+    let second = std::array::from_fn(|d| {
+        let squares = s[2][0][d] * a * a + 2.0 * s[1][1][d] * a * b + s[0][2][d] * b * b;
+        squares + s[1][0][d] * a1 + s[0][1][d] * b1
+    });
+    [first, second]
 }
 
 /// kappa and d(kappa)/ds of a motion with these derivatives in the plane with unit normal `n`; none where it stands still.

@@ -30,7 +30,7 @@ enum Column {
 }
 
 /// Values from `edges[0]` to the last edge in about `count` equal steps, with both sides of the edges between.
-fn banded(edges: &[f64], count: usize, beside: f64) -> (Vec<f64>, Vec<usize>) {
+fn banded(edges: &[f64], count: usize) -> (Vec<f64>, Vec<usize>) {
     let whole = edges[edges.len() - 1] - edges[0];
     let (mut values, mut firsts) = (Vec::new(), Vec::new());
     for (band, pair) in edges.windows(2).enumerate() {
@@ -39,9 +39,7 @@ fn banded(edges: &[f64], count: usize, beside: f64) -> (Vec<f64>, Vec<usize>) {
         if band > 0 {
             firsts.push(values.len() - 1);
         }
-        let low = from + if band > 0 { beside } else { 0.0 };
-        let high = to - if band + 2 < edges.len() { beside } else { 0.0 };
-        values.extend((0..=steps).map(|k| low + (high - low) * k as f64 / steps as f64));
+        values.extend((0..=steps).map(|k| from + (to - from) * k as f64 / steps as f64));
     }
     (values, firsts)
 }
@@ -83,7 +81,7 @@ fn rows(hull: &Hull, count: usize) -> (Vec<f64>, Vec<MapBreak>, usize) {
     let mut edges = vec![0.0];
     edges.extend(breaks.iter().map(|(v, _)| read(&table, 0, 1, *v)));
     edges.push(table[MEAN[1]][1]);
-    let (girths, firsts) = banded(&edges, count, 0.0);
+    let (girths, firsts) = banded(&edges, count);
     let mut values: Vec<f64> = girths.iter().map(|&girth| read(&table, 1, 0, girth)).collect();
     (values[0], values[girths.len() - 1]) = (v0, v1);
     let mut found = Vec::new();
@@ -120,7 +118,7 @@ fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>, usize) {
     let mut edges = vec![low + inside];
     edges.extend(breaks.iter().map(|(_, x, _)| *x));
     edges.push(high - inside);
-    let (xs, firsts) = banded(&edges, count, 0.0);
+    let (xs, firsts) = banded(&edges, count);
     let mut list: Vec<Column> = xs.into_iter().map(Column::Station).collect();
     let mut found = Vec::new();
     for (&first, &(u, _, line)) in firsts.iter().zip(&breaks) {
