@@ -137,3 +137,29 @@ fn a_surface_that_crosses_the_centreplane_gives_faces_that_do_not() {
     let port = solid.faces.iter().find(|face| face.name == "hull port").unwrap();
     assert!(port.surface.points().iter().all(|point| point[1] >= 0.0));
 }
+
+#[test]
+fn areas_are_those_of_closed_forms() {
+    // Sides that flare by half of their height, a trapezium at each end, flat deck and bottom.
+    let barge = Solid::new(&hull(true, true, 0.0)).unwrap();
+    let exact = 2.0 * 60.0 * 4.0 * 1.25_f64.sqrt() + 60.0 * 6.0 + 60.0 * 10.0 + 2.0 * 4.0 * 0.5 * (6.0 + 10.0);
+    assert!((barge.area() / exact - 1.0).abs() < 1e-12, "{} for {exact}", barge.area());
+    // A wall-sided parabola of length L, half-breadth b and height h: two walls, deck and bottom. The length of its arc is
+    // sqrt(L^2 + 16 b^2) / 2 + L^2 / (8 b) asinh(4 b / L).
+    let (long, b, h) = (60.0, 5.0, 4.0);
+    let (u, v) = (KnotVector::uniform(2, 2).unwrap(), KnotVector::uniform(1, 1).unwrap());
+    let mut points = Vec::new();
+    for i in 0..u.basis_count() {
+        let [s, t] = [u.knots()[i + 1], u.knots()[i + 2]];
+        let y = b * (2.0 * (s + t) - 4.0 * s * t);
+        points.extend([[0.5 * long * (s + t), y, 0.0], [0.5 * long * (s + t), y, h]]);
+    }
+    let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, h], [long, h]]).unwrap();
+    let particulars =
+        PrincipalParticulars { length_between_perpendiculars: long, breadth: 2.0 * b, draught: 3.0, depth: h };
+    let parabola = Hull::new("parabola", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
+    let arc = 0.5 * (long * long + 16.0 * b * b).sqrt() + long * long / (8.0 * b) * (4.0 * b / long).asinh();
+    let exact = 2.0 * h * arc + 2.0 * (4.0 / 3.0) * long * b;
+    let area = Solid::new(&parabola).unwrap().area();
+    assert!((area / exact - 1.0).abs() < 1e-10, "{area} for {exact}");
+}
