@@ -209,8 +209,15 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
             }
         }
     }
-    corners.retain(|t: &[[f64; 3]; 3]| t.iter().flatten().all(|c| c.abs() <= LARGEST));
-    if corners.is_empty() {
+    for (k, triangle) in corners.iter().enumerate() {
+        if !triangle.iter().flatten().all(|c: &f64| c.abs() <= LARGEST) {
+            faults.add(None, "", format!("triangle {} has a corner that is no number of at most 1e8", k + 1));
+        }
+        if faults.is_full() {
+            break;
+        }
+    }
+    if corners.is_empty() && faults.list.is_empty() {
         faults.add(None, "", "no triangles".to_owned());
     }
     faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
