@@ -328,6 +328,40 @@ fn units_and_axes_of_cad_files() {
 }
 
 #[test]
+fn trimming_that_is_not_read_is_told() {
+    let iges = golden("box.igs");
+    let last = |letter: &str| iges.lines().filter(|line| line[72..].starts_with(letter)).count();
+    let (entries, parameters) = (last("D"), last("P"));
+    // A surface with a curve around it, and one whose edge is its own.
+    let with = |kind: usize, list: &str| {
+        let field = |value: usize| format!("{value:8}");
+        let first: String = [kind, parameters + 1, 0, 0, 0, 0, 0, 0, 0].map(field).concat();
+        let second: String = [kind, 0, 0, 1, 0, 0, 0, 0, 0].map(field).concat();
+        let added = format!("{first}D{:7}\n{second}D{:7}\n", entries + 1, entries + 2);
+        let told = format!("{list:<64}{:8}P{:7}\n", entries + 1, parameters + 1);
+        let letter = |line: &str| line[72..73].to_owned();
+        let mut text = String::new();
+        for line in iges.lines() {
+            match letter(line).as_str() {
+                "P" if line[73..].trim() == "1" => text.push_str(&added),
+                "T" => text.push_str(&told),
+                _ => {}
+            }
+            text.push_str(line);
+            text.push('\n');
+        }
+        volume("box.igs", &text, "").unwrap().1
+    };
+    let said = with(144, "144,1,1,0,3;");
+    assert!(
+        said.contains("W352") && said.contains("1 trimmed surfaces (entities 143, 144) are read untrimmed"),
+        "{said}"
+    );
+    assert!(with(143, "143,0,1,1,3;").contains("read untrimmed"));
+    assert!(!with(144, "144,1,0,0,0;").contains("read untrimmed"));
+}
+
+#[test]
 fn faults_of_cad_files_name_their_record() {
     let (iges, step) = (golden("box.igs"), golden("box.step"));
     let error = |name: &str, text: &str| volume(name, text, "").unwrap_err();

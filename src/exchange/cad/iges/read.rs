@@ -189,6 +189,19 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
             if found.is_empty() { String::new() } else { format!("; the file has entities {}", found.join(", ")) };
         faults.add(None, "", format!("no B-spline surfaces (entity 128) and no curves (126){there}"));
     }
+    // 143, and 144 (surface, 1 where its outer edge is not that of the surface, number of inner edges, ...).
+    let cuts = |entry: &Entry| match numbers(&of_entry(entry).0)[..] {
+        [_, _, outer, inner, ..] => outer > 0.0 || inner > 0.0,
+        _ => false,
+    };
+    let trims = |entry: &&Entry| entry.kind == 143 || (entry.kind == 144 && cuts(entry));
+    let trimmed = directory.values().filter(trims).count();
+    if trimmed > 0 && !read.surfaces.is_empty() {
+        read.notes.push(format!(
+            "{trimmed} trimmed surfaces (entities 143, 144) are read untrimmed: what their curves cut away counts as part of the body; \
+             export without trimming, or as a mesh, where they reach beyond their neighbours"
+        ));
+    }
     for (kind, count) in others {
         read.notes.push(format!("{count} entities {kind} are not read"));
     }
