@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use loftsman::exchange::{DxfVersion, read_table, sha256};
-use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, Solid, whole_volume};
+use loftsman::hull::{FitMethod, Hull, HullMesh, LEAST_ANGLE, PanelMesh, PanelSettings, Solid, whole_volume};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::report::{ExportFormat, ExportSettings, export, read_source};
+use loftsman::report::{ExportFormat, ExportSettings, export, read_source, read_table_file};
 
 fn program(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
@@ -247,4 +247,102 @@ fn the_drawn_plan_has_its_views_apart() {
     assert!((profile[2] - profile[0] - length).abs() < 0.02 * length && profile[1].abs() < 1e-9, "{profile:?}");
     assert!((plan[3] - plan[1] - 0.5 * breadth).abs() < 1e-3 * breadth && plan[3] < profile[1], "{plan:?}");
     assert!((body[2] - body[0] - breadth).abs() < 1e-3 * breadth && body[0] > profile[2], "{body:?}");
+}
+
+/// The least angle of a triangle \[degrees\] and the corner that has it.
+fn least_angle(corners: [[f64; 3]; 3]) -> (f64, usize) {
+    let angle = |k: usize| {
+        let [a, b, c] = [0, 1, 2].map(|j| corners[(k + j) % 3]);
+        let (p, q) = (minus(b, a), minus(c, a));
+        dot(cross(p, q), cross(p, q)).sqrt().atan2(dot(p, q)).to_degrees()
+    };
+    (0..3).map(|k| (angle(k), k)).min_by(|p, q| p.0.total_cmp(&q.0)).unwrap()
+}
+
+/// Triangles below the bound that stand at no sharp corner, after what a mesh says of itself was found true.
+fn slivers(name: &str, hull: &Hull, deviation: f64) -> usize {
+    let mesh = HullMesh::new(hull, deviation, 8).unwrap();
+    let report = mesh.report();
+    assert!(report.closed && report.open_edges == 0, "{name}: {report:?}");
+    let mut found = 0;
+    for (region, corners) in &mesh.triangles {
+        let (angle, at) = least_angle(corners.map(|k| mesh.vertices[k]));
+        if angle < LEAST_ANGLE.to_degrees() {
+            let sharp = mesh.sharp_corners.iter().any(|c| c.vertex == corners[at] && c.region == *region);
+            found += usize::from(!sharp);
+        }
+    }
+    assert_eq!(found, mesh.slivers(), "{name}");
+    // A corner is sharper than the bound, and on the outline of its face: at the centreplane or on the edge of another.
+    for corner in &mesh.sharp_corners {
+        assert!(corner.angle < LEAST_ANGLE, "{name}: {corner:?}");
+        let others = mesh.triangles.iter().any(|(region, t)| *region != corner.region && t.contains(&corner.vertex));
+        assert!(others || mesh.vertices[corner.vertex][1].abs() <= 0.0, "{name}: {corner:?}");
+    }
+    assert!(mesh.sharp_corners.len() <= 1 + mesh.triangles.len() / 1000, "{name}: {:?}", mesh.sharp_corners);
+    found
+}
+
+#[test]
+fn no_triangle_is_a_sliver_but_at_sharper_corners() {
+    for entry in fs::read_dir(config("")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "toml") {
+            continue;
+        }
+        let hull = read_source(&path).unwrap().hull;
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        // At coarse deviations a narrow end of deck or bottom may keep a few.
+        for (share, most) in [(4e-3, 8), (1e-3, 0)] {
+            let found = slivers(&name, &hull, share * hull.particulars().breadth);
+            assert!(found <= most, "{name} at {share}: {found}");
+        }
+    }
+}
+
+#[test]
+fn hulls_laid_through_tables_have_hardly_a_sliver() {
+    // Strips at stem and stern that are narrower than the deviation over metres are what remains on two of them.
+    for (table, most) in [
+        ("s175/sections.csv", 0),
+        ("wigley/offsets.csv", 0),
+        ("pdstrip_yacht/sections.csv", 0),
+        ("series60_cb060/offsets.csv", 12),
+        ("series60_cb070/offsets.csv", 20),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(table);
+        let (table_read, _) = read_table_file(&path).unwrap();
+        let hull = Hull::fit(&table_read, &FitMethod::default()).unwrap().hull;
+        let found = slivers(table, &hull, 1e-3 * hull.particulars().breadth);
+        assert!(found <= most, "{table}: {found}");
+    }
+}
+
+#[test]
+fn the_page_says_what_its_angles_are() {
+    let hull = read_source(&config("bulk-carrier.toml")).unwrap().hull;
+    let page = export(&hull, "b", &[ExportFormat::Stl], &ExportSettings::default()).unwrap().page;
+    assert!(
+        page.contains("degrees (bound 15, 0 triangles below it but at 1 sharper corners of the body: bottom "),
+        "{page}"
+    );
+    let hull = read_source(&config("wigley.toml")).unwrap().hull;
+    let page = export(&hull, "w", &[ExportFormat::Stl], &ExportSettings::default()).unwrap().page;
+    assert!(page.contains("degrees (bound 15, 0 triangles below it); volume"), "{page}");
+}
+
+#[test]
+fn volumes_of_meshes_converge_at_second_order() {
+    for name in ["bulk-carrier", "seed002-frigate", "wigley"] {
+        let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
+        let (breadth, exact) = (hull.particulars().breadth, whole_volume(&hull));
+        let error = |share: f64| {
+            let mesh = HullMesh::new(&hull, share * breadth, 8).unwrap();
+            ((mesh.report().volume / exact - 1.0).abs(), mesh.triangles.len() as f64)
+        };
+        let ((coarse, many), (fine, more)) = (error(4e-3), error(1e-3));
+        // The error over the number of triangles, which grows with the square of the fineness.
+        let order: f64 = 2.0 * (coarse / fine).ln() / (more / many).ln();
+        assert!(order > 1.6, "{name}: {order} ({coarse:e} to {fine:e}, {many} to {more} triangles)");
+    }
 }

@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     /// thousandth of it
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     deviation: Option<f64>,
-    /// Cells of a mesh across deck, bottom and transom
+    /// Edges of a mesh across deck, bottom and transom, about
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
     across: u16,
     /// Height above the base line that is z = 0 in the files: a length up to a hundred depths, or `waterline` for the design draught
@@ -64,7 +64,9 @@ centreplane cuts the surface, the faces follow it within a distance that the pag
 dxf: polylines in space on the layers STATIONS, WATERLINES and BUTTOCKS; dxf-plan: the three views of the lines plan in one \
 plane at full size, on layers BODY_..., PROFILE_... and PLAN_... .
 stl, stl-ascii, obj, glb: one closed mesh of the body up to its deck, normals outward, with the regions hull, bottom, transom, bow \
-and deck (named in stl-ascii, obj and glb). The page tells whether it is closed, its least angle, and its volume against the hull's.
+and deck (named in stl-ascii, obj and glb). No triangle has an angle of less than 15 degrees but at a corner of the body that is \
+sharper (the end of a flat bottom, a deck to a point); the page tells whether the mesh is closed, its edges, its least angle, those corners, \
+how many triangles are below the bound elsewhere (where a face is narrower than the deviation over a length), and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
 the waterline, normals into the water, no lid; every panel is planar unless --flatness allows more. The page tells how even they are, and their volume and area against the hull's.
 gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \

@@ -1,36 +1,43 @@
 //! A closed mesh of triangles over the body of a hull, up to its deck.
 //!
-//! Vertices lie on the surface, on a grid of its parameters: each span of the knots is cut into as many parts as the second
-//! derivatives ask for. A triangle over a cell of h by k parameters is off the surface by at most
+//! Vertices lie on the surface. The mesh begins as a grid of its parameters (`start`), each span of the knots cut into as many parts as the
+//! second derivatives ask for: a triangle over a cell of h by k parameters is off the surface by at most
 //!
 //! ```text
 //! (h^2 |S_uu| + 2 h k |S_uv| + k^2 |S_vv|) / 8,
 //! ```
 //!
-//! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. Halving
-//! the tolerance therefore halves the error of the volume: second order in the length of edges. Knots are lines of the mesh, so
-//! that knuckles are edges. Where the deck cuts the surface, the upper rows are drawn down to the deck.
+//! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. The triangles are
+//! then brought into shape (`shape`), so that their angles are [`LEAST_ANGLE`] or more and they are off the surface by at most half of the
+//! tolerance, as seen at their middles and those of their sides. Halving the tolerance therefore halves the error of the volume: second
+//! order in the length of edges. Where the surface has a crease, it is an edge of the mesh; above the last knuckle, or three quarters of the height, below a
+//! deck that cuts the surface, rows are drawn down to the deck.
 //!
-//! The faces that close the body (bottom, transom, flat bow, deck) are strips between the two sides that share their vertices,
-//! cut across into equal parts. What has no breadth has no faces.
+//! The faces that close the body (bottom, transom, flat bow, deck) are ruled between the two sides and share their vertices. What is
+//! narrower than half of the tolerance has no face.
 
+mod body;
+mod change;
+mod half;
+mod mirror;
+mod shape;
+mod start;
+
+use self::body::Body;
+use self::half::least_sine;
 use super::form::Hull;
 use super::functional::Functional;
-use super::vertices::Known;
 use crate::spline::{cross, dot, length, minus};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// Half-breadths below this part of the greatest are on the centreplane.
-const CENTREPLANE: f64 = 1e-9;
+/// The least angle of a triangle of a [`HullMesh`], but at corners of the body that are sharper: 15 degrees \[rad\].
+pub const LEAST_ANGLE: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
 /// Points of a span at which second derivatives are looked at, from its first knot to its last.
 const SITES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// Most parts of a span.
 const MOST_PARTS: usize = 20_000;
-
-/// Part of the height of the lowest deck below which rows are not moved to the deck.
-const UNMOVED: f64 = 0.75;
 
 /// Most triangles of a mesh.
 const MOST_TRIANGLES: usize = 4_000_000;
@@ -85,6 +92,19 @@ pub struct HullMesh {
     pub vertices: Vec<[f64; 3]>,
     /// Triangles as indices of vertices, by region in the order of [`Region::ALL`].
     pub triangles: Vec<(Region, [usize; 3])>,
+    /// Corners of the body at which a triangle has an angle of less than [`LEAST_ANGLE`].
+    pub sharp_corners: Vec<SharpCorner>,
+}
+
+/// A corner of a face of the body that is sharper than [`LEAST_ANGLE`]: a triangle must be as sharp there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SharpCorner {
+    /// Index of its vertex.
+    pub vertex: usize,
+    /// The face.
+    pub region: Region,
+    /// Its angle in the mesh \[rad\].
+    pub angle: f64,
 }
 
 /// What can be said of a mesh without knowing where it comes from.
@@ -170,112 +190,38 @@ pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Builds a mesh, each vertex once.
-#[derive(Default)]
-struct Builder {
-    mesh: HullMesh,
-    known: Known,
-}
-
-impl Builder {
-    fn vertex(&mut self, point: [f64; 3]) -> usize {
-        self.known.place(&mut self.mesh.vertices, point)
-    }
-
-    fn triangle(&mut self, region: Region, corners: [[f64; 3]; 3]) {
-        if corners.iter().all(|corner| corner[1].abs() <= 0.0) && region == Region::Hull {
-            return;
-        }
-        let [a, b, c] = corners.map(|corner| self.vertex(corner));
-        if a != b && b != c && c != a {
-            self.mesh.triangles.push((region, [a, b, c]));
-        }
-    }
-
-    /// A cell with corners in turn, cut along its shorter diagonal.
-    fn cell(&mut self, region: Region, [a, b, c, d]: [[f64; 3]; 4]) {
-        if length(minus(a, c)) <= length(minus(b, d)) {
-            self.triangle(region, [a, b, c]);
-            self.triangle(region, [a, c, d]);
-        } else {
-            self.triangle(region, [b, c, d]);
-            self.triangle(region, [b, d, a]);
-        }
-    }
-
-    /// Cells between the two sides along an edge of the body, `across` of them, `edge` run so that the normals point out.
-    fn strip(&mut self, region: Region, edge: &[[f64; 3]], across: usize) {
-        let point = |p: [f64; 3], k: usize| {
-            // Both sides exactly.
-            let share = (2.0 * k as f64 - across as f64) / across as f64;
-            [p[0], p[1] * share, p[2]]
-        };
-        for pair in edge.windows(2) {
-            for k in 0..across {
-                let corners = [point(pair[0], k), point(pair[1], k), point(pair[1], k + 1), point(pair[0], k + 1)];
-                self.cell(region, corners);
-            }
-        }
-    }
-}
-
 impl HullMesh {
-    /// A mesh that leaves the surface by at most `deviation` \[m\], about (see the head); `across` cells across the faces that close
-    /// it, at least one.
+    /// A mesh that leaves the surface by at most `deviation` \[m\], about (see the head); edges on the faces that close it are at most about
+    /// their breadth over `across`, or as the angles want it.
     ///
     /// Mirrored exactly: for each vertex (x, y, z) there is (x, -y, z).
     ///
     /// # Errors
     /// [`MeshError::TooMany`] when it would have more than 4,000,000 triangles; nothing of that size is laid out.
     pub fn new(hull: &Hull, deviation: f64, across: usize) -> Result<Self, MeshError> {
-        let surface = hull.surface();
-        let [us, vs] = lines(hull, deviation);
-        let across = across.max(1);
-        let strips = 4 * across * (us.len() + vs.len());
-        let count = 4 * (us.len() - 1) * (vs.len() - 1) + strips;
+        let [us, ws] = lines(hull, deviation);
+        let across = across.max(1).div_ceil(2);
+        let strips = 4 * across * (us.len() + ws.len());
+        let count = 4 * (us.len() - 1) * (ws.len() - 1) + strips;
         if count > MOST_TRIANGLES {
             return Err(MeshError::TooMany { count });
         }
-        let tops: Vec<f64> = us.iter().map(|&u| deck_parameter(hull, u)).collect();
-        let (from, to) = surface.v().domain();
-        let lowest = tops.iter().copied().fold(to, f64::min);
-        // Rows above this knot are moved to the deck.
-        let moved = vs.iter().copied().filter(|&v| v <= from + UNMOVED * (lowest - from)).fold(from, f64::max);
-        let breadth = surface.points().iter().map(|p| p[1].abs()).fold(0.0, f64::max);
-        let grid: Vec<Vec<[f64; 3]>> = us
-            .iter()
-            .zip(&tops)
-            .map(|(&u, &top)| {
-                let along = vs.iter().map(|&v| {
-                    let v = if v > moved && top < to { moved + (v - moved) * (top - moved) / (to - moved) } else { v };
-                    let [x, y, z] = surface.eval(u, v);
-                    [x, if y <= CENTREPLANE * breadth { 0.0 } else { y }, z]
-                });
-                along.collect()
-            })
-            .collect();
-        let (m, n) = (us.len(), vs.len());
-        let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
-        let mut builder = Builder::default();
-        for i in 0..m - 1 {
-            for j in 0..n - 1 {
-                let cell = [grid[i][j], grid[i][j + 1], grid[i + 1][j + 1], grid[i + 1][j]];
-                builder.cell(Region::Hull, cell);
-                let [a, b, c, d] = cell.map(mirror);
-                builder.cell(Region::Hull, [a, d, c, b]);
-            }
-        }
-        let column = |i: usize| grid[i].clone();
-        let row = |j: usize| grid.iter().map(|column| column[j]).collect::<Vec<_>>();
-        let reversed = |mut edge: Vec<[f64; 3]>| {
-            edge.reverse();
-            edge
+        let body = Body::new(hull, &us);
+        let mut half = start::half(&body, [&us, &ws], deviation, across);
+        half.shape();
+        Ok(mirror::whole(&half))
+    }
+
+    /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but on faces that are narrower than
+    /// the deviation over a length, as they may be on hulls laid through tables.
+    #[must_use]
+    pub fn slivers(&self) -> usize {
+        let known: HashSet<(usize, Region)> = self.sharp_corners.iter().map(|c| (c.vertex, c.region)).collect();
+        let is_sliver = |(region, corners): &&(Region, [usize; 3])| {
+            let (sine, at) = least_sine(corners.map(|k| self.vertices[k]));
+            sine < LEAST_ANGLE.sin() && !known.contains(&(corners[at], *region))
         };
-        builder.strip(Region::Bottom, &reversed(row(0)), across);
-        builder.strip(Region::Transom, &column(0), across);
-        builder.strip(Region::Bow, &reversed(column(m - 1)), across);
-        builder.strip(Region::Deck, &row(n - 1), across);
-        Ok(builder.mesh)
+        self.triangles.iter().filter(is_sliver).count()
     }
 
     /// Checks closure and measures.

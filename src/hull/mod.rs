@@ -37,7 +37,7 @@ pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use inertia::{transverse_inertia, transverse_inertia_gradient};
-pub use mesh::{HullMesh, MeshError, MeshReport, Region, whole_volume};
+pub use mesh::{HullMesh, LEAST_ANGLE, MeshError, MeshReport, Region, SharpCorner, whole_volume};
 pub use offsets::{
     OffsetStation, OffsetTable, StationOffsets, default_buttocks, default_stations, default_waterlines, keel_height,
 };

@@ -101,6 +101,7 @@ fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option
     let mesh = HullMesh {
         vertices: triangles.vertices,
         triangles: triangles.triangles.into_iter().map(|corners| (Region::Hull, corners)).collect(),
+        sharp_corners: Vec::new(),
     };
     let contents = match format {
         ExportFormat::Stl => write_stl(&mesh, &body.name),

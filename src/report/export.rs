@@ -11,8 +11,8 @@ use crate::exchange::{
     write_pias, write_pnl, write_step, write_stl, write_stl_ascii,
 };
 use crate::hull::{
-    Hull, HullMesh, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, Solid, SubdivisionNet,
-    TableForm, floats_at, section_stations, whole_volume,
+    Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
+    Solid, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::Notation;
@@ -177,7 +177,7 @@ pub struct ExportSettings {
     pub dxf: DxfVersion,
     /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
     pub deviation: Option<f64>,
-    /// Cells of a mesh across deck, bottom and transom.
+    /// Edges of a mesh across deck, bottom and transom where these are broadest, about; the least angle may ask for others.
     pub across: usize,
     /// Height that is z = 0 in the files, above the base line \[m\]; in panels it is the waterline.
     pub datum: f64,
@@ -235,19 +235,46 @@ const MOST_ALONG: f64 = 200.0;
 /// What the volume of panels whose size is not said leaves that of the hull by, over it.
 const PANEL_VOLUME: f64 = 5e-3;
 
+/// Corners of the body that the page names.
+const NAMED_CORNERS: usize = 4;
+
 fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
+}
+
+/// What can be said of the angles of a mesh.
+fn angles(mesh: &HullMesh, report: &MeshReport) -> String {
+    let degrees = 180.0 / PI;
+    let mut said = format!(
+        "least angle {:.2} degrees (bound {:.0}, {} triangles below it",
+        report.least_angle * degrees,
+        LEAST_ANGLE * degrees,
+        mesh.slivers()
+    );
+    if mesh.sharp_corners.is_empty() {
+        said.push(')');
+        return said;
+    }
+    said.push_str(&format!(" but at {} sharper corners of the body: ", mesh.sharp_corners.len()));
+    let corner = |corner: &SharpCorner| {
+        let [x, y, z] = mesh.vertices[corner.vertex];
+        format!("{} {:.2} degrees at ({x:.3}, {y:.3}, {z:.3}) m", corner.region.name(), corner.angle * degrees)
+    };
+    let named: Vec<String> = mesh.sharp_corners.iter().take(NAMED_CORNERS).map(corner).collect();
+    said.push_str(&named.join(", "));
+    said.push_str(if mesh.sharp_corners.len() > NAMED_CORNERS { " ...)" } else { ")" });
+    said
 }
 
 /// A mesh and its line on the page.
 fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
     format!(
-        "mesh: {} vertices, {} triangles, {} edges, {}; least angle {:.2} degrees; volume {:.6e} m3, {:+.2e} of the hull's {:.6e} m3",
+        "mesh: {} vertices, {} triangles, {} edges, {}; {}; volume {:.6e} m3, {:+.2e} of the hull's {:.6e} m3",
         mesh.vertices.len(),
         mesh.triangles.len(),
         report.edges,
         if report.closed { "closed".to_owned() } else { format!("NOT closed ({} open edges)", report.open_edges) },
-        report.least_angle * 180.0 / PI,
+        angles(mesh, report),
         report.volume,
         report.volume / volume - 1.0,
         volume,

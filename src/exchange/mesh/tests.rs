@@ -11,6 +11,7 @@ fn mesh() -> HullMesh {
             (Region::Hull, [1, 2, 3]),
             (Region::Transom, [0, 3, 2]),
         ],
+        sharp_corners: Vec::new(),
     }
 }
 
@@ -94,4 +95,19 @@ fn a_pnl_file_counts_the_corners_of_panels() {
     let text = write_pnl(&panels());
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!((lines[3], lines[6], lines[14], lines[15]), ("2 5 0 1", "1 0 1.5 -2", "1 4 1 2 3 4", "2 3 4 3 5"));
+}
+
+#[test]
+fn corners_that_are_no_numbers_are_faults_of_their_triangle() {
+    for wrong in [f32::NAN, f32::INFINITY, 2e8] {
+        let (mut stl, mut glb) = (write_stl(&mesh(), "ship"), write_glb(&mesh(), "ship"));
+        // The first corner of the second triangle; a corner of the first one.
+        stl[84 + 50 + 12..84 + 50 + 16].copy_from_slice(&wrong.to_le_bytes());
+        let text = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+        glb[28 + text..32 + text].copy_from_slice(&wrong.to_le_bytes());
+        for (faults, triangle) in [(read_stl(&stl).unwrap_err(), 2), (read_glb(&glb).unwrap_err(), 1)] {
+            let wanted = format!("triangle {triangle} has a corner that is no number of at most 1e8");
+            assert_eq!(faults[0].message, wanted, "{wrong}");
+        }
+    }
 }
