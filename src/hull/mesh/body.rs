@@ -56,10 +56,8 @@ impl Site {
 
     /// The same vertex has also this place on its patch.
     pub(super) fn add(&mut self, place: [f64; 2]) {
-        for k in 0..2 {
-            self.low[k] = self.low[k].min(place[k]);
-            self.high[k] = self.high[k].max(place[k]);
-        }
+        self.low = [0, 1].map(|k| self.low[k].min(place[k]));
+        self.high = [0, 1].map(|k| self.high[k].max(place[k]));
     }
 
     pub(super) fn is_point(&self) -> bool {
