@@ -38,6 +38,9 @@ const STRIP: f64 = 0.02;
 /// Height of a strip over that of the body below it.
 const HAIR: f64 = 1e-9;
 
+/// Rounds in which rows are kept above the centreplane: what is held in one gap may swing in the next.
+const STEERED: usize = 4;
+
 /// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the ends of
 /// the body below.
 fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Vec<Row>> {
@@ -108,11 +111,28 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
         parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
     }
     // Knots in u that serve every row, and more of them where a row swings.
+    let first_knots = |parts: &[Part]| -> Result<KnotVector, FitError> {
+        let lines = || parts.iter().flat_map(|p| &p.lines);
+        let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
+        let edges = lines().flat_map(|line| line.slopes.iter().map(|s| line.sites[s.0]));
+        let edges: Vec<f64> = edges.filter(|&u| u > 0.0 && u < 1.0).collect();
+        with_multiple(&length_knots(&sites)?, &edges, 2)
+    };
+    let mut first = first_knots(&parts)?;
+    // Where a row falls below the centreplane between two cells it follows the monotone cubic there.
+    for _ in 0..STEERED {
+        let energy = Energy::new(&first, 2);
+        let mut steered = false;
+        for line in parts.iter_mut().flat_map(|p| &mut p.lines) {
+            let control = line.free(&energy)?;
+            steered |= line.steer(&first, &control, -line.tolerance);
+        }
+        if !steered {
+            break;
+        }
+        first = first_knots(&parts)?;
+    }
     let lines = || parts.iter().flat_map(|p| &p.lines);
-    let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
-    let edges: Vec<f64> =
-        lines().flat_map(|line| line.level.iter().map(|&k| line.sites[k])).filter(|&u| u > 0.0 && u < 1.0).collect();
-    let mut first = with_multiple(&length_knots(&sites)?, &edges, 2)?;
     let free = |knots: &KnotVector| -> Result<(Vec<f64>, bool), FitError> {
         let energy = Energy::new(knots, 2);
         let (mut middles, mut wild) = (Vec::new(), false);
@@ -136,11 +156,7 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     for part in &mut parts {
         let mut rows = Vec::with_capacity(part.lines.len());
         for line in &part.lines {
-            let mut control = line.solve(&energy, line.free(&energy)?);
-            if let [aft, fore] = line.level[..] {
-                part::flatten(&u, &mut control, [line.sites[aft], line.sites[fore]], line.values[aft]);
-            }
-            rows.push(control);
+            rows.push(line.flattened(&u, line.solve(&energy, line.free(&energy)?)));
         }
         let Columns { x, y } = part.across(&u, &rows, greatest, flat.as_ref())?;
         net.push(x, y, &part.up);
