@@ -97,42 +97,13 @@ fn narrowed(row: &Row, below: &[Row]) -> Row {
     copy
 }
 
-/// The hull of prepared rows.
-pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<String>), FitError> {
-    let Rows { rows, mut notes } = prepared;
-    let greatest = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
-    let particulars = particulars::particulars(table, &rows, &mut notes);
-    let deck = particulars::deck(table, &rows, &mut notes)?;
-    let flat = FlatOfSide::new(table, &mut notes);
-    let shape = Shape { flat: flat.as_ref(), transom: table.transom };
-    features::unused(table, flat.as_ref(), &mut notes);
-    let mut parts = Vec::new();
-    for rows in split(table, rows, &mut notes) {
-        parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
-    }
-    // Knots in u that serve every row, and more of them where a row swings.
-    let first_knots = |parts: &[Part]| -> Result<KnotVector, FitError> {
-        let lines = || parts.iter().flat_map(|p| &p.lines);
-        let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
-        let edges = lines().flat_map(|line| line.slopes.iter().map(|s| line.sites[s.0]));
-        let edges: Vec<f64> = edges.filter(|&u| u > 0.0 && u < 1.0).collect();
-        with_multiple(&length_knots(&sites)?, &edges, 2)
-    };
-    let mut first = first_knots(&parts)?;
-    // Where a row falls below the centreplane between two cells it follows the monotone cubic there.
-    for _ in 0..STEERED {
-        let energy = Energy::new(&first, 2);
-        let mut steered = false;
-        for line in parts.iter_mut().flat_map(|p| &mut p.lines) {
-            let control = line.free(&energy)?;
-            steered |= line.steer(&first, &control, -line.tolerance);
-        }
-        if !steered {
-            break;
-        }
-        first = first_knots(&parts)?;
-    }
+/// Knots in u that serve every row, more of them where a row swings, and the control values of all rows.
+fn length_rows(parts: &[Part], greatest: f64) -> Result<(KnotVector, Vec<Vec<f64>>), FitError> {
     let lines = || parts.iter().flat_map(|p| &p.lines);
+    let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
+    let edges = lines().flat_map(|line| line.slopes.iter().map(|s| line.sites[s.0]));
+    let edges: Vec<f64> = edges.filter(|&u| u > 0.0 && u < 1.0).collect();
+    let mut first = with_multiple(&length_knots(&sites)?, &edges, 2)?;
     let free = |knots: &KnotVector| -> Result<(Vec<f64>, bool), FitError> {
         let energy = Energy::new(knots, 2);
         let (mut middles, mut wild) = (Vec::new(), false);
@@ -152,12 +123,40 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     }
     let u = with_knots(&first, middles)?;
     let energy = Energy::new(&u, 2);
+    let rows: Result<Vec<Vec<f64>>, FitError> =
+        lines().map(|line| Ok(line.flattened(&u, line.solve(&energy, line.free(&energy)?)))).collect();
+    Ok((u, rows?))
+}
+
+/// The hull of prepared rows.
+pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<String>), FitError> {
+    let Rows { rows, mut notes } = prepared;
+    let greatest = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
+    let particulars = particulars::particulars(table, &rows, &mut notes);
+    let deck = particulars::deck(table, &rows, &mut notes)?;
+    let flat = FlatOfSide::new(table, &mut notes);
+    let shape = Shape { flat: flat.as_ref(), transom: table.transom };
+    features::unused(table, flat.as_ref(), &mut notes);
+    let mut parts = Vec::new();
+    for rows in split(table, rows, &mut notes) {
+        parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
+    }
+    let mut lined = length_rows(&parts, greatest)?;
+    // Where a row falls below the centreplane between two cells it follows the monotone cubic there.
+    for _ in 0..STEERED {
+        let (u, rows) = &lined;
+        let lines = parts.iter_mut().flat_map(|p| &mut p.lines);
+        let steered = lines.zip(rows).map(|(line, control)| line.steer(u, control, -line.tolerance));
+        if steered.filter(|&steered| steered).count() == 0 {
+            break;
+        }
+        lined = length_rows(&parts, greatest)?;
+    }
+    let (u, rows) = lined;
+    let mut rows = rows.into_iter();
     let mut net = Net::default();
     for part in &mut parts {
-        let mut rows = Vec::with_capacity(part.lines.len());
-        for line in &part.lines {
-            rows.push(line.flattened(&u, line.solve(&energy, line.free(&energy)?)));
-        }
+        let rows: Vec<Vec<f64>> = rows.by_ref().take(part.lines.len()).collect();
         let Columns { x, y } = part.across(&u, &rows, greatest, flat.as_ref())?;
         net.push(x, y, &part.up);
     }
