@@ -107,6 +107,10 @@ fn every_waterline_is_named_in_the_half_breadth_plan() {
             let named = canvas.texts().iter().any(|text| text.content == plane.name);
             assert!(named, "{}: {} bears no name", hull.name(), plane.name);
         }
+        for plane in &grid.diagonals {
+            let names = canvas.texts().iter().filter(|text| text.content == plane.name).count();
+            assert!((1..=2).contains(&names), "{}: {} bears {names} names", hull.name(), plane.name);
+        }
         let document = canvas.finish("half-breadths");
         assert!(
             document.contains("stroke-width=\"0.55\" stroke-dasharray"),
