@@ -363,3 +363,33 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn what_is_plumb_stays_plumb_and_what_is_closed_stays_closed() {
+    // A stem that rakes below the second waterline and is plumb above it, with breadth; a keel without breadth that opens over a bulb.
+    let keel = [0.0, 0.15, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.13, 0.15, 0.0];
+    let lines = [0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
+    let stations = steps(0.0, 120.0, 12);
+    let mut table = table(&stations, &lines, |x, z| {
+        let s = x / 60.0 - 1.0;
+        Some(if z > 0.0 { 0.6 + 9.0 * (1.0 - s.powi(4)) * (1.0 - (1.0 - z / 8.0).powi(2)) } else { 0.0 })
+    });
+    for (station, y) in table.stations.iter_mut().zip(keel) {
+        station.half_breadths[0] = Cell::from(Some(y));
+    }
+    let last = table.stations.len() - 1;
+    table.stations[last].half_breadths[0] = Cell::from(None);
+    let hull = fit(&table).hull;
+    // The station at the stem is one section from the second waterline up, as wide as the table has it.
+    for k in 0..=75 {
+        let z = 0.5 + 0.1 * f64::from(k);
+        assert!(hull.half_breadth(120.0, z).is_some_and(|y| (0.59..=9.7).contains(&y)), "z = {z}");
+        assert!(hull.half_breadth(120.0 + 1e-9, z).is_none(), "z = {z}");
+    }
+    let lowest = (0..=2400).filter_map(|k| hull.half_breadth(0.05 * f64::from(k), 0.0)).fold(f64::INFINITY, f64::min);
+    println!("keel down to {lowest:.1e} m");
+    assert!(lowest > -1e-12, "{lowest}");
+    for (x, y) in stations.iter().zip(keel).take(11) {
+        assert!(hull.half_breadth(*x, 0.0).is_some_and(|found| (found - y).abs() < 1e-9), "{x}");
+    }
+}

@@ -308,8 +308,7 @@ fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
     assert_eq!(text(&files, "sections.svg"), text(&small, "sections.svg"));
 }
 
-/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide, subscripts left aside: their attribute times the scale of the groups
-/// around them.
+/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide: their attribute times the scale of the groups around them.
 fn letters(svg: &str) -> Vec<f64> {
     let number = |text: &str, key: &str| -> Option<f64> {
         let rest = &text[text.find(key)? + key.len()..];
@@ -323,7 +322,7 @@ fn letters(svg: &str) -> Vec<f64> {
             scales.push(scale * number(element, "scale(").unwrap_or(1.0));
         } else if element.starts_with("/g>") {
             scales.pop();
-        } else if element.starts_with("text ") {
+        } else if element.starts_with("text ") || element.starts_with("tspan ") {
             sizes.extend(number(element, "font-size=\"").map(|size| size * scale * 1200.0 / width));
         }
     }
@@ -346,7 +345,9 @@ fn lines_with_combs_are_chosen_by_their_names() {
     let outputs = |combs: &str| report_outputs(&result, &ReportSettings { combs: combs.to_owned(), ..SETTINGS });
     let chosen = outputs("waterline 3.125, station -20").unwrap();
     assert!(text(&chosen, "fairing-buttocks.svg").contains("no combs"));
-    assert!(text(&chosen, "fairing-body-plan.svg").contains("combs before and after: 10 mm = "));
+    assert!(
+        text(&chosen, "fairing-body-plan.svg").contains("combs of stations on every sheet, before and after: 10 mm = ")
+    );
     assert!(text(&chosen, "fairing-body-plan.svg").len() < text(files, "fairing-body-plan.svg").len());
     for (words, part) in [
         ("waterline 3", "'waterline 3' is no waterline of the table"),

@@ -43,7 +43,7 @@ space, and opens without a network; report.pdf holds them at true size, each she
 Of every hull: lines plan, body plan, sectional areas, hydrostatic curves, diagram sheet, Bonjean curves, maps of Gaussian and mean \
 curvature and zebra stripes over the developed side. Of `fair`, besides: constraints and prices, suspects, moves as a map and as arrows \
 in three views, the lines that moved most with the tolerances of their offsets, stations, waterlines, buttocks and diagonals before and \
-after with combs (one scale for stations, one for lines along the ship), moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
+after with combs (one scale for each kind of line), moves against the assumed noise, the search for the weight, deviation against fairness, convergence.
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 

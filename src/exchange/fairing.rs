@@ -38,7 +38,7 @@ pub fn status_word(status: Status) -> &'static str {
 }
 
 /// Moves below this \[m\] are none: without the wish the objective falls, but the moves need not.
-const NO_MOVE: f64 = 5e-7;
+pub const NO_MOVE: f64 = 5e-7;
 
 /// What a wish costs, as "holding LCB costs 0.42 mm RMS".
 #[must_use]

@@ -18,10 +18,10 @@ pub fn diagonals_csv(
     notation: Notation,
 ) -> String {
     let mut head = vec![format!("x\\height on CL {:.3} deg down [{}]", angle.to_degrees(), notation.as_str())];
-    head.extend(heights.iter().map(|&height| notation.write(height)));
+    head.extend(heights.iter().map(|&height| notation.write(micrometres(height))));
     let mut text = line(&head);
     for station in stations {
-        let mut row = vec![notation.write(station.x)];
+        let mut row = vec![notation.write(micrometres(station.x))];
         let offset = |&height: &f64| diagonal_offset(hull, station.x, height, angle);
         row.extend(
             heights.iter().map(|height| offset(height).map_or(String::new(), |s| notation.write(micrometres(s)))),
@@ -74,9 +74,11 @@ fn write(table: &CurvesOfForm, conventions: &[(String, String)]) -> Result<Vec<u
         let format = Format::new().set_num_format(digits);
         sheet.write_string_with_format(0, column, quantity.key, &bold)?;
         sheet.write_string(1, column, quantity.unit)?;
+        // Six digits more than are shown: what is beyond them is rounding.
+        let unit = 10f64.powi(quantity.decimals as i32 + 6);
         for (row, values) in (2..).zip(&table.rows) {
             if let Some(value) = (quantity.value)(values).filter(|value| value.is_finite()) {
-                sheet.write_number_with_format(row, column, value, &format)?;
+                sheet.write_number_with_format(row, column, (value * unit).round() / unit, &format)?;
             }
         }
     }

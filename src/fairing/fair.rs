@@ -30,7 +30,7 @@ use crate::qp::{ProblemError, Settings, Status};
 pub const PRICE: f64 = 12.0;
 
 /// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
-pub const MISFIT: f64 = 1.4;
+pub const MISFIT: f64 = 1.75;
 
 /// Noise of a table, over the greatest that is assumed for roughness, from which it is taken as it is: the tolerance itself.
 const ROUGH: f64 = 3.0;

@@ -206,7 +206,7 @@ fn draw_grid(
 }
 
 /// `3 – 5`; after a negative number `-½ to ½`.
-fn range(first: &str, last: &str) -> String {
+pub(super) fn range(first: &str, last: &str) -> String {
     let between = if first.starts_with('-') { "to" } else { "–" };
     format!("{first} {between} {last}")
 }
@@ -225,9 +225,19 @@ fn name_stations(
     let style = TextStyle::new(text_size, Anchor::Middle).halo();
     let reach = grid.half_breadth * view.scale + SIDE_ROOM;
     let top = view.at([0.0, grid.height[1]])[1] - TOP_ROOM;
-    let room = Rectangle::new(view.origin[0] - reach, top, view.origin[0] + reach, view.origin[1]);
+    // Names stay on the side of their sections.
+    let [centre, base] = view.origin;
+    let room = match half {
+        Half::Aft => Rectangle::new(centre - reach, top, centre - 0.4, base),
+        Half::Fore => Rectangle::new(centre + 0.4, top, centre + reach, base),
+    };
     let mut groups: Vec<([f64; 2], Vec<&GridPlane>)> = Vec::new();
-    for plane in grid.stations.iter().filter(|plane| half.has(plane.at, midship)) {
+    // From the centre line out: there is least room beside it.
+    let mut planes: Vec<&GridPlane> = grid.stations.iter().filter(|plane| half.has(plane.at, midship)).collect();
+    if half == Half::Fore {
+        planes.reverse();
+    }
+    for plane in planes {
         let end = plane.curves.iter().flatten().max_by(|a, b| a[2].total_cmp(&b[2]));
         let Some(end) = end else { continue };
         let at = view.at([half.sign() * end[1], end[2]]);
@@ -237,7 +247,10 @@ fn name_stations(
         }
     }
     for (at, planes) in groups {
-        let (first, last) = (planes[0], planes[planes.len() - 1]);
+        let (mut first, mut last) = (planes[0], planes[planes.len() - 1]);
+        if last.at < first.at {
+            (first, last) = (last, first);
+        }
         let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
         // From the deck up and aside, the nearest first.
         let mut shifts: Vec<[f64; 2]> =

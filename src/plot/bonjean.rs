@@ -74,7 +74,7 @@ impl BonjeanTable {
 /// # Errors
 /// [`PlotError::Chart`] for a hull without areas.
 pub fn bonjean_figure(inputs: &FigureInputs) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(inputs)?.finish("bonjean") })
+    Ok(Svg::new(compose(inputs)?.finish("bonjean")))
 }
 
 pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
@@ -102,16 +102,18 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         .flat_map(|row| row.iter().zip(&table.stations))
         .filter_map(|(area, x)| Some(x + WIDEST * spacing * (*area)? / largest));
     let end = reach.fold(high, f64::max) + 0.2 * spacing;
-    let across = (ROOM[0] - 2.0 * SIDE) / (end - low);
-    let at = |x: f64, z: f64| [SIDE + across * (x - low), floor - upward * (z - bottom)];
+    let room = ROOM[0] - 2.0 * SIDE;
+    let contracted = drawing_scale(end - low, room);
+    let across = 1000.0 / f64::from(contracted);
+    let left = 0.5 * (ROOM[0] - across * (end - low));
+    let at = |x: f64, z: f64| [left + across * (x - low), floor - upward * (z - bottom)];
     let scale = sheet_scale(largest, WIDEST * spacing * across);
     let height = floor + 26.0 + ROW * (table.heights.len() + 2) as f64 + 10.0;
     let mut canvas = Canvas::new(ROOM[0], height);
     let title = format!("BONJEAN CURVES – {}", caption::plain(hull.name()));
     canvas.text([0.5 * ROOM[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
-    let contracted = 1000.0 / across;
     let words = format!(
-        "areas: 1 mm = {scale} m² forward of the line of the station    heights 1 : {n}    lengths contracted to 1 : {contracted:.0}    moulded"
+        "areas: 1 mm = {scale} m² forward of the line of the station    heights 1 : {n}    lengths 1 : {contracted}    moulded"
     );
     canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let names = TextStyle::new(LETTERS, Anchor::End);
@@ -125,7 +127,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     for &z in &table.heights {
         let y = at(low, z)[1];
         if last - y >= 3.6 {
-            canvas.text([SIDE - 2.0, y], &format!("{z:.2} m"), &names);
+            canvas.text([left - 2.0, y], &format!("{z:.2} m"), &names);
             last = y;
         }
     }

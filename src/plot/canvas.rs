@@ -7,6 +7,7 @@
 //! no edge can cover a letter, and no renderer has to know `paint-order`. Subscripts have their own x.
 
 use super::font;
+use super::sheet::LETTERS;
 use super::straight::straightened;
 use std::fmt::Write;
 
@@ -133,10 +134,16 @@ pub(super) struct Canvas {
     texts: Vec<PlacedText>,
 }
 
-/// Size of a subscript, as a part of the size of its text.
-const SUBSCRIPT: f64 = 0.72;
+/// Size of a subscript \[mm\] in a text of `size`: nearly three quarters of it, but no less than letters are anywhere.
+fn subscript(size: f64) -> f64 {
+    (0.72 * size).max(size.min(LETTERS))
+}
+
+/// How far an area reaches over its edge, so that no seam shows between it and its neighbours \[mm\].
+pub(super) const HAIR: f64 = 0.06;
+
 /// How much lower a subscript stands, as a part of the size of its text.
-const SUBSCRIPT_DROP: f64 = 0.18;
+const SUBSCRIPT_DROP: f64 = 0.22;
 
 /// `text` in pieces of full size and subscripts: `_` lowers the letters and digits that follow it.
 fn pieces(text: &str) -> Vec<(bool, &str)> {
@@ -189,7 +196,7 @@ fn write_element(out: &mut String, at: [f64; 2], pieces: &[(bool, &str)], style:
     if single {
         pieces.iter().for_each(|(_, piece)| out.push_str(&escape(piece)));
     } else {
-        let sizes = pieces.iter().map(|(low, _)| style.size * if *low { SUBSCRIPT } else { 1.0 });
+        let sizes = pieces.iter().map(|(low, _)| if *low { subscript(style.size) } else { style.size });
         let widths: Vec<f64> =
             pieces.iter().zip(sizes.clone()).map(|((_, piece), size)| font::width(piece) * size).collect();
         let length: f64 = widths.iter().sum();
@@ -272,13 +279,17 @@ impl Canvas {
         let _ = writeln!(self.body, " fill=\"{colour}\"/>");
     }
 
-    /// Filled areas with a hair of their own colour around them, so that no seam shows between neighbours. Corners are rounded to a hundredth
-    /// of a millimetre, and those that lie beside a side left out: both are less than the hair.
-    pub(super) fn edged_areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str) {
+    /// Filled areas, with a hair of their own colour around them if `edged`, so that no seam shows between neighbours: twice [`HAIR`] wide.
+    /// Corners are rounded to a hundredth of a millimetre, and those that lie beside a side left out: both are less than the hair.
+    pub(super) fn areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str, edged: bool) {
         if areas.is_empty() {
             return;
         }
-        let _ = write!(self.body, "<path fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.12\" d=\"");
+        let _ = write!(self.body, "<path fill=\"{colour}\"");
+        if edged {
+            let _ = write!(self.body, " stroke=\"{colour}\" stroke-width=\"{}\"", number(2.0 * HAIR));
+        }
+        self.body.push_str(" d=\"");
         let hundredths = |place: &[f64; 2]| place.map(|c| (100.0 * c).round());
         for area in areas {
             let mut last: Option<[f64; 2]> = None;
@@ -339,9 +350,8 @@ impl Canvas {
     /// The rectangle that `text` takes at `at`.
     pub(super) fn text_place(at: [f64; 2], text: &str, style: &TextStyle) -> Rectangle {
         let pieces = pieces(text);
-        let length: f64 =
-            pieces.iter().map(|(low, piece)| font::width(piece) * if *low { SUBSCRIPT } else { 1.0 }).sum();
-        let length = length * style.size;
+        let size = |low: bool| if low { subscript(style.size) } else { style.size };
+        let length: f64 = pieces.iter().map(|(low, piece)| font::width(piece) * size(*low)).sum();
         let subscript = pieces.iter().any(|(low, _)| *low);
         let above = 0.5 * font::CAP_HEIGHT * style.size;
         let below = above + style.size * if subscript { font::DESCENT } else { 0.5 * font::DESCENT };

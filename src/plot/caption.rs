@@ -37,6 +37,11 @@ pub(super) fn design_waterline(inputs: &FigureInputs) -> String {
     format!("DWL {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())
 }
 
+/// Where curves end because the deck edge goes under.
+pub(super) fn immersed_edge(edge: f64) -> String {
+    format!("deck edge goes under at {edge:.2} m: curves end")
+}
+
 /// The title of a chart `width` \[mm\] wide with the name of the ship, and a line of words under it.
 pub(super) fn head(canvas: &mut Canvas, width: f64, title: &str, ship: &str, words: &str) {
     let ship: String = plain(ship).chars().take(40).collect();

@@ -143,14 +143,13 @@ impl Chart {
         ]
     }
 
-    /// Draws grid, axes and curves, a dash-dot line at a level of the left axis when there is one, and then the names, the
-    /// curves' on the curves.
+    /// Draws grid, axes and curves, lines at levels of the left axis, and then the names, the curves' on the curves.
     pub(super) fn draw(
         &self,
         canvas: &mut Canvas,
         placer: &mut LabelPlacer,
         series: &[Series],
-        level: Option<(f64, &str)>,
+        levels: &[Level<'_>],
     ) -> Result<(), PlotError> {
         let elements = self.elements(series)?;
         let corner = [self.frame.left - SIDE_MARGIN, self.frame.top - MARGIN];
@@ -164,9 +163,9 @@ impl Chart {
             placer.add_curve(&points);
         }
         let first = placer.curve_count() - series.len();
-        if let Some((value, name)) = level {
-            let y = self.place([self.bottom.range[0], value])[1];
-            draw_level(canvas, placer, &self.frame, y, name, self.text_size);
+        for level in levels {
+            let y = self.place([self.bottom.range[0], level.at])[1];
+            draw_level(canvas, placer, &self.frame, &Level { at: y, ..*level }, self.text_size);
         }
         for (k, one) in series.iter().enumerate() {
             let style = TextStyle::new(1.1 * self.text_size, Anchor::Middle).coloured(dark(one.colour));
@@ -295,16 +294,29 @@ impl Chart {
     }
 }
 
-/// A dash-dot line across `frame` at `y`, its name at that end, above or below, where it meets fewest curves.
+/// A named line across a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Level<'a> {
+    /// Where it stands.
+    pub(super) at: f64,
+    pub(super) name: &'a str,
+    pub(super) pen: Pen,
+}
+
+/// The design waterline.
+pub(super) const DESIGN: Pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7, 1.0]);
+/// The draught at which the deck edge goes under.
+pub(super) const EDGE: Pen = Pen::new(0.35, "#5a5a5a").dashed(&[1.2, 0.8]);
+
+/// A line across `frame`, `at` millimetres down the sheet, its name at that end, above or below, where it meets fewest curves.
 pub(super) fn draw_level(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
     frame: &Rectangle,
-    y: f64,
-    name: &str,
+    level: &Level<'_>,
     text_size: f64,
 ) {
-    let pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7, 1.0]);
+    let Level { at: y, name, pen } = *level;
     canvas.line([frame.left, y], [frame.right, y], &pen);
     let style = TextStyle::new(text_size, Anchor::Middle).halo();
     let width = Canvas::text_place([0.0, 0.0], name, &style).width();

@@ -8,12 +8,8 @@ use crate::fairing::inspect::Comb;
 
 /// Length of the tooth whose curvature is printed \[mm\].
 const STATED: f64 = 10.0;
-/// Length of the longest tooth of a drawing \[mm\].
-const LONGEST: f64 = 18.0;
-/// Part of the teeth that have room at least.
-const MOST: f64 = 0.9;
-/// Length of a short tooth, as a part of the longest.
-const USUAL: f64 = 0.5;
+/// Length of the longest tooth of a plan \[mm\].
+pub(super) const LONGEST: f64 = 18.0;
 /// Every so many teeth are drawn; the tips of all are joined.
 const DRAWN: usize = 3;
 /// Radius of the ring around an inflection \[mm\].
@@ -39,15 +35,19 @@ pub(super) struct CombPens {
 }
 
 impl CombScale {
-    /// The scale at which the part `share` of the teeth of `combs` is short.
-    pub(super) fn fitting<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> Self {
-        Self { curvature: sheet_scale(usual(combs, share), USUAL * LONGEST) * STATED, longest: LONGEST }
+    /// The scale at which the part `share` of the teeth of `combs` is no longer than `length` \[mm\].
+    pub(super) fn fitting<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64, length: f64) -> Self {
+        Self { curvature: sheet_scale(usual(combs, share), length) * STATED, longest: LONGEST }
     }
 
-    /// This scale for teeth of `longest` at most \[mm\], or a smaller one where most teeth of `combs` would be longer.
-    pub(super) fn lowered<'a>(self, combs: impl IntoIterator<Item = &'a Comb>, longest: f64) -> Self {
-        let needed = sheet_scale(usual(combs, MOST), longest) * STATED;
-        Self { curvature: self.curvature.max(needed), longest }
+    /// The one of two scales that has the shorter teeth.
+    pub(super) fn coarser(self, other: Self) -> Self {
+        if other.curvature > self.curvature { other } else { self }
+    }
+
+    /// This scale on a drawing that has room for teeth of `longest` \[mm\].
+    pub(super) fn within(self, longest: f64) -> Self {
+        Self { longest, ..self }
     }
 
     /// For the sheet: `10 mm = 0.02 1/m`.

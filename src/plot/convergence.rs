@@ -46,7 +46,7 @@ pub fn convergence_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError>
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let words = "the last program: what limits are missed by, the gradient of the Lagrangian, the products of slacks and multipliers";
     caption::head(&mut canvas, SHEET[0], "CONVERGENCE", &record.name, words);
-    chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, None)?;
+    chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, &[])?;
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
-    Ok(Some(Svg { text: canvas.finish("convergence") }))
+    Ok(Some(Svg::new(canvas.finish("convergence"))))
 }

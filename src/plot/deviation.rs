@@ -18,7 +18,7 @@ const BINS: f64 = 40.0;
 /// # Errors
 /// [`PlotError`] when the chart cannot be drawn.
 pub fn deviation_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record)?.map(|canvas| Svg { text: canvas.finish("deviation") }))
+    Ok(compose(record)?.map(|canvas| Svg::new(canvas.finish("deviation"))))
 }
 
 pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> {
@@ -82,7 +82,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             name_at: 0.62,
         });
     }
-    chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, None)?;
+    chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, &[])?;
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(Some(canvas))
 }

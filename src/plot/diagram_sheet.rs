@@ -1,6 +1,7 @@
 //! The diagram sheet: the classic sheet of hydrostatic curves, read with a scale rule.
 //!
-//! A frame of 240 mm x 175 mm with the draught upwards and three axes: AP at 0, midship (L_PP / 2) at 120 mm, FP at 240 mm.
+//! A frame of 240 mm x 175 mm, or as high as the draughts need at their scale, with the draught upwards and three axes: AP at 0,
+//! midship (L_PP / 2) at 120 mm, FP at 240 mm.
 //! Areas, volumes, inertias and heights are measured forward from AP, centres and the moment to trim from midship, form
 //! coefficients aft from FP (1 mm = 0.025). The scale of a curve is its largest value over its target length, rounded up
 //! to 1, 2, 2.5, 4, 5 or 10 times a power of ten; LCB and LCF are scaled by their largest distance from midship. KM_L and
@@ -9,16 +10,17 @@
 //! down they may run out of the frame.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::chart::draw_level;
+use super::chart::{DESIGN, EDGE, Level, draw_level};
 use super::label::{LabelPlacer, Preference};
-use super::scale::{draught_scale, sheet_scale};
+use super::scale::sheet_scale;
 use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Width of the frame [mm].
 const WIDTH: f64 = 240.0;
-/// Height of the frame [mm].
+/// Largest height of the frame, and the least one, beside which the legend has room [mm].
 const HEIGHT: f64 = 175.0;
+const LOWEST: f64 = 130.0;
 /// Form coefficients: this much a millimetre.
 const COEFFICIENT_SCALE: f64 = 0.025;
 /// Below this part of the design draught KM_L and KM_T may leave the frame.
@@ -165,9 +167,10 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let midship = 0.5 * inputs.hull.particulars().length_between_perpendiculars;
     let draught = inputs.design.draught;
     let highest = rows.iter().map(|row| row.draught).fold(draught, f64::max);
-    let draught_scale = draught_scale(highest / HEIGHT);
-    let mut canvas = Canvas::new(356.0, 228.0);
-    let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + HEIGHT);
+    let draught_scale = sheet_scale(highest, HEIGHT);
+    let frame_height = (5.0 * (highest / draught_scale / 5.0).ceil()).clamp(LOWEST, HEIGHT);
+    let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + frame_height);
+    let mut canvas = Canvas::new(356.0, frame.bottom + 23.0);
     let height = |draught: f64| frame.bottom - draught / draught_scale;
 
     let title = TextStyle::new(5.0, Anchor::Middle);
@@ -190,7 +193,13 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.add_curve(&points);
     }
     canvas.end_group();
-    draw_level(&mut canvas, &mut placer, &frame, height(draught), &caption::design_waterline(inputs), 2.7);
+    let design = caption::design_waterline(inputs);
+    let level = Level { at: height(draught), name: &design, pen: DESIGN };
+    draw_level(&mut canvas, &mut placer, &frame, &level, 2.7);
+    if let Some(at) = inputs.immersed_edge(&rows) {
+        let edge = caption::immersed_edge(at);
+        draw_level(&mut canvas, &mut placer, &frame, &Level { at: height(at), name: &edge, pen: EDGE }, 2.7);
+    }
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
         placer.name_curve(
@@ -213,7 +222,7 @@ fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {
         let x = frame.left + 5.0 * f64::from(k);
         canvas.line([x, frame.top], [x, frame.bottom], pen(k));
     }
-    for k in 1..(HEIGHT / 5.0) as i32 {
+    for k in 1..(frame.height() / 5.0).round() as i32 {
         let y = frame.bottom - 5.0 * f64::from(k);
         canvas.line([frame.left, y], [frame.right, y], pen(k));
     }
@@ -242,9 +251,9 @@ fn draw_grid(canvas: &mut Canvas, frame: &Rectangle) {
 
 /// Decimetres between the draughts that are named: whole metres where there is room for the figures, every one, second,
 /// fifth, tenth, ...; on a sheet of less than three metres, half metres or decimetres.
-fn named_every(draught_scale: f64) -> i64 {
+fn named_every(height: f64, draught_scale: f64) -> i64 {
     let decimetre = 0.1 / draught_scale;
-    let fine = if HEIGHT * draught_scale < 3.0 { [1, 5].as_slice() } else { &[] };
+    let fine = if height * draught_scale < 3.0 { [1, 5].as_slice() } else { &[] };
     let steps = fine.iter().copied().chain([10, 20, 50, 100, 200, 500]);
     steps.into_iter().find(|&n| n as f64 * decimetre >= if n < 10 { 8.0 } else { 4.0 }).unwrap_or(1000)
 }
@@ -252,9 +261,9 @@ fn named_every(draught_scale: f64) -> i64 {
 fn draw_rulers(canvas: &mut Canvas, frame: &Rectangle, draught_scale: f64) {
     let pen = Pen::new(0.18, "#000000");
     let decimetre = 0.1 / draught_scale;
-    let steps = (HEIGHT / decimetre + 1e-9).floor() as i64;
+    let steps = (frame.height() / decimetre + 1e-9).floor() as i64;
     let metre_room = 10.0 * decimetre;
-    let every = named_every(draught_scale);
+    let every = named_every(frame.height(), draught_scale);
     let style = TextStyle::new(2.8, Anchor::End);
     for k in 0..=steps {
         let length = if k % 10 == 0 {
@@ -411,7 +420,7 @@ mod tests {
     #[test]
     fn draughts_of_shallow_hulls_are_named_in_tenths() {
         for (scale, every) in [(0.01, 1), (0.015, 5), (0.02, 10), (0.06, 10), (0.2, 10), (0.4, 20)] {
-            assert_eq!(named_every(scale), every, "{scale}");
+            assert_eq!(named_every(HEIGHT, scale), every, "{scale}");
         }
     }
 

@@ -117,7 +117,7 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
     canvas.text([SIDES[1], MOVES[1] + 8.0], "x [m]", &TextStyle::new(2.6, Anchor::End));
     moves(&mut canvas, fair, |x| SIDES[0] + (x - from) * scale_x);
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
-    Ok(Svg { text: canvas.finish("fair-curve") })
+    Ok(Svg::new(canvas.finish("fair-curve")))
 }
 
 /// y'' / (1 + y'^2)^(3/2).

@@ -5,11 +5,12 @@
 //! those of the ship.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::comb::{CombPens, CombScale};
+use super::comb::{CombPens, CombScale, LONGEST};
 use super::fairing_combs::FairingCombs;
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
+use super::station_names::{ROWS, name_stations};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Comb;
@@ -21,6 +22,8 @@ use crate::qp::Status;
 const SIDE: f64 = 38.0;
 const HEAD: f64 = 50.0;
 const FOOT: f64 = 34.0;
+/// Room at the sides of views along the ship \[mm\].
+pub(super) const LONG_SIDE: f64 = 20.0;
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
 const CHORD: f64 = 0.01;
 
@@ -41,6 +44,8 @@ pub(super) struct Plan<'a> {
     pub(super) heights: &'static str,
     /// Width and height of the drawing \[mm\].
     pub(super) room: [f64; 2],
+    /// Longest tooth of a comb that it has room for \[mm\].
+    pub(super) longest: f64,
 }
 
 /// Body plan before and after, aft sections on the left.
@@ -48,7 +53,7 @@ pub(super) struct Plan<'a> {
 /// # Errors
 /// [`PlotError::Chart`] for a table without stations.
 pub fn fairing_body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: body_plan(record, combs, sheet)?.finish("fairing-body-plan") })
+    Ok(Svg::new(body_plan(record, combs, sheet)?.finish("fairing-body-plan")))
 }
 
 /// Half-breadth plan before and after, bow on the right.
@@ -56,7 +61,7 @@ pub fn fairing_body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet
 /// # Errors
 /// [`PlotError::Chart`] for a table without waterlines.
 pub fn fairing_half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: half_breadth_plan(record, combs, sheet)?.finish("fairing-half-breadth-plan") })
+    Ok(Svg::new(half_breadth_plan(record, combs, sheet)?.finish("fairing-half-breadth-plan")))
 }
 
 /// The curves of a plane on the side of a hull.
@@ -138,6 +143,11 @@ pub(super) fn extent(record: &FairRecord) -> Option<([f64; 2], f64, [f64; 2])> {
     (breadth > 0.0 && x[1] > x[0] && z[1] > z[0]).then_some((x, breadth, z))
 }
 
+/// Height of the base line on a drawing from one height to another \[m\]: 0, or the nearer of them where it is outside.
+pub(super) fn base([low, high]: [f64; 2]) -> f64 {
+    0.0_f64.clamp(low, high)
+}
+
 /// Amidships \[m\]: L_PP/2, or the middle of the offsets where a table has its stations from elsewhere than AP.
 pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     let half = 0.5 * record.after.particulars().length_between_perpendiculars;
@@ -160,6 +170,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
         scale: format!("1:{n}"),
         heights: "waterlines by z [m] above the base line",
         room: paper,
+        longest: LONGEST,
     };
     let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
     let midship = midship(record, x);
@@ -172,7 +183,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     for &height in &record.lines.waterlines {
         canvas.line(frame(-1.0, height), frame(1.0, height), &GRID);
     }
-    canvas.line(frame(-1.0, z[0]), frame(1.0, z[0]), &BASE);
+    canvas.line(frame(-1.0, base(z)), frame(1.0, base(z)), &BASE);
     canvas.line(at(1.0)([0.0, 0.0, z[0]]), at(1.0)([0.0, 0.0, z[1]]), &BASE);
     let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| station_cut(record, station.x)).collect();
     let place = |cut: &Cut| match *cut {
@@ -183,7 +194,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let mut placer = drawn.placer();
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window);
+    name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
     let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
@@ -201,7 +212,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
-    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT - 20.0];
+    let room = [paper[0] - 2.0 * LONG_SIDE, paper[1] - HEAD - FOOT - 20.0];
     let n = drawing_scale(x[1] - x[0], room[0]);
     let millimetres = 1000.0 / f64::from(n);
     // A whole number of times wider than long, so that waterlines keep apart.
@@ -214,6 +225,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
         scale,
         heights: "waterlines by z [m] above the base line",
         room: paper,
+        longest: LONGEST,
     };
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
     // What is left of the height stands above and below.
@@ -235,7 +247,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     for station in &record.lines.stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();
-        placer.name_point(&mut canvas, &name, &style, &[[px, py + 3.0], [px, py + 6.4]], &window);
+        placer.name_point(&mut canvas, &name, &style, &ROWS.map(|down| [px, py + down]), &window);
     }
     let style = TextStyle::new(LETTERS, Anchor::Middle);
     let count = record.lines.waterlines.len();
@@ -255,42 +267,26 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     Ok(canvas)
 }
 
-/// The names of the stations over the upper ends of their sections, with a thread where they stand aside.
-pub(super) fn name_stations(
-    canvas: &mut Canvas,
-    record: &FairRecord,
-    curves: &[(usize, Vec<[f64; 2]>)],
-    placer: &mut LabelPlacer,
-    window: &Rectangle,
-) {
-    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
-    let mut shifts: Vec<[f64; 2]> =
-        (0..16).flat_map(|row| (-6..=6).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
-    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
-    for (k, station) in record.lines.stations.iter().enumerate() {
-        let ends = curves.iter().filter(|(cut, _)| *cut == k).flat_map(|(_, line)| line);
-        let Some(&end) = ends.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
-        let places: Vec<[f64; 2]> =
-            shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
-        let name: String = caption::plain(&station.name).chars().take(9).collect();
-        placer.name_off_curves(canvas, &name, &style, &places, window, (end, &THREAD));
-    }
-}
-
 /// What was drawn.
 pub(super) struct Drawn {
     /// The fair curves with the number of their plane.
     pub(super) curves: Vec<(usize, Vec<[f64; 2]>)>,
     /// Inflections.
     rings: Vec<[f64; 2]>,
-    scale: CombScale,
-    /// Combs after fairing.
-    combs: usize,
+    /// The scale of the combs; none where there are no combs.
+    words: Option<String>,
     /// Whether teeth had to be left out.
     left_out: bool,
 }
 
 impl Drawn {
+    /// What was drawn here and what was drawn there.
+    pub(super) fn joined(mut self, other: Self) -> Self {
+        self.curves.extend(other.curves);
+        self.rings.extend(other.rings);
+        Self { words: self.words.or(other.words), left_out: self.left_out || other.left_out, ..self }
+    }
+
     /// Keeps names off the curves and the rings.
     pub(super) fn placer(&self) -> LabelPlacer {
         let mut placer = LabelPlacer::default();
@@ -311,11 +307,10 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
     let [before, after] = plan.combs.on(cuts);
-    let scale = cuts.first().map_or(plan.combs.along, |cut| plan.combs.scale(cut));
     let mut left_out = false;
     for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
         for comb in list {
-            left_out |= scale.draw(canvas, comb, at(&comb.cut), pens);
+            left_out |= plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
         }
     }
     let mut drawn = Vec::new();
@@ -334,7 +329,8 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     after.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &AFTER_COMB));
     let places = |comb: &Comb| comb.inflections.iter().map(|&place| at(&comb.cut)(place)).collect::<Vec<_>>();
     let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
-    Drawn { curves: drawn, rings, scale, combs: after.len(), left_out }
+    let words = after.first().map(|comb| plan.combs.words(&comb.cut));
+    Drawn { curves: drawn, rings, words, left_out }
 }
 
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
@@ -365,11 +361,8 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
     canvas.text([0.5 * plan.room[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, largest, _) = plan.record.moves();
-    let combs = match (drawn.combs, drawn.left_out) {
-        (0, _) => "no combs".to_owned(),
-        (_, false) => format!("combs before and after: {}", drawn.scale.words()),
-        (_, true) => format!("combs before and after: {}, arrows: longer than there is room for", drawn.scale.words()),
-    };
+    let longer = if drawn.left_out { ", arrows: longer than there is room for" } else { "" };
+    let combs = drawn.words.as_ref().map_or("no combs".to_owned(), |words| format!("{words}{longer}"));
     let second = format!(
         "scale {}    {combs}    moves {:.2} mm RMS, {:.2} mm at most",
         plan.scale,

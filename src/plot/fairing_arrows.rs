@@ -2,10 +2,11 @@
 //! sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{extent, midship, name_stations, station_cut, whole_curves};
+use super::fairing::{base, extent, midship, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
+use super::station_names::name_stations;
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
@@ -29,7 +30,7 @@ const SUSPECT: Pen = Pen::new(0.5, "#7000a0");
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
 pub fn fairing_arrows(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(record, sheet)?.finish("fairing-arrows") })
+    Ok(Svg::new(compose(record, sheet)?.finish("fairing-arrows")))
 }
 
 /// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`], which grows with the paper.
@@ -76,7 +77,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         canvas.text([0.5 * paper[0] - millimetres * breadth - 12.0, y], &format!("{height:.3}"), &names);
     }
     canvas.line(at(x[0], 0.0, z[0]), at(x[0], 0.0, z[1]), &BASE);
-    canvas.line(at(x[0], breadth, z[0]), at(x[1], breadth, z[0]), &BASE);
+    canvas.line(at(x[0], breadth, base(z)), at(x[1], breadth, base(z)), &BASE);
     let mut drawn = Vec::new();
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
         drawn.clear();
@@ -102,7 +103,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     let mut placer = LabelPlacer::default();
     drawn.iter().for_each(|(_, line)| placer.add_curve(line));
     let window = Rectangle::new(8.0, 20.0, paper[0] - 8.0, paper[1] - 14.0);
-    name_stations(&mut canvas, record, &drawn, &mut placer, &window);
+    name_stations(&mut canvas, record, &drawn, &mut placer, &window, [0.5 * paper[0], midship]);
     head(&mut canvas, record, paper, &format!("scale 1:{n}    arrows {times:.0} times as long as the moves"));
     let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 18.0], "AFT", &words);

@@ -6,29 +6,29 @@
 //! longer than the stretched moves as the sheet says.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{curves, extent};
+use super::fairing::{LONG_SIDE, base, curves, extent};
 use super::fairing_arrows::{AFTER, BEFORE, arrow, exaggeration, head, key, ring};
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
+use super::station_names::ROWS;
 use super::view::{BASE, GRID};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Planes;
 use crate::fairing::record::FairRecord;
 use crate::hull::Cut;
 
-/// Room at the sides, above the profile, between the views and below them \[mm\].
-const SIDE: f64 = 26.0;
+/// Room above the profile, between the views and below them \[mm\].
 const HEAD: f64 = 32.0;
 const BETWEEN: f64 = 26.0;
-const FOOT: f64 = 26.0;
+const FOOT: f64 = 29.0;
 
 /// Draws both views.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
 pub fn fairing_arrows_long(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(record, sheet)?.finish("fairing-arrows-long") })
+    Ok(Svg::new(compose(record, sheet)?.finish("fairing-arrows-long")))
 }
 
 /// One of the views: which coordinate of the ship stands upright on it, and how.
@@ -85,7 +85,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
-    let n = drawing_scale(x[1] - x[0], paper[0] - 2.0 * SIDE);
+    let n = drawing_scale(x[1] - x[0], paper[0] - 2.0 * LONG_SIDE);
     let millimetres = 1000.0 / f64::from(n);
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
     let room = paper[1] - HEAD - BETWEEN - FOOT;
@@ -129,10 +129,10 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
             let style = TextStyle::new(LETTERS, Anchor::Middle);
             let name: String = caption::plain(&station.name).chars().take(9).collect();
             let window = Rectangle::new(4.0, 18.0, paper[0] - 4.0, paper[1] - 12.0);
-            let places = [[foot[0], foot[1] + 3.0], [foot[0], foot[1] + 6.4]];
+            let places = ROWS.map(|down| [foot[0], foot[1] + down]);
             placer.name_point(&mut canvas, &name, &style, &places, &window);
         }
-        canvas.line(view.at([x[0], 0.0, low[2]]), view.at([x[1], 0.0, low[2]]), &BASE);
+        canvas.line(view.at([x[0], 0.0, base(z)]), view.at([x[1], 0.0, base(z)]), &BASE);
     }
     let mut drawn: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for (k, [before, after]) in pairs.iter().enumerate() {

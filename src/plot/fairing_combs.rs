@@ -1,18 +1,37 @@
-//! The combs of a faired table: which lines bear them, and their scales. Lines around the ship (stations) have one scale and lines along
-//! her (waterlines, buttocks, diagonals) another, in all figures, before and after.
+//! The combs of a faired table: which lines bear them, and their scales. Stations, waterlines, buttocks and diagonals have a scale each,
+//! which is the same on every sheet of a report, before and after.
 
-use super::comb::CombScale;
+use super::comb::{CombScale, LONGEST};
+use super::fairing_curves::{self, Along, moved_most};
+use super::fairing_long;
 use crate::fairing::inspect::{Comb, Planes, combs};
 use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Hull};
+use std::thread;
 
 /// Teeth of a comb; its tips are joined.
 pub(super) const TEETH: usize = 241;
 /// Most stations and most waterlines that bear combs where none are asked for: evenly among all, the first and the last not.
 const MOST: [usize; 2] = [8, 7];
 
-/// Part of the teeth of stations, and of all other lines, that are short; the ends of these turn sharply.
+/// Part of the teeth of stations, and of all other lines, that are short on a plan; the ends of these turn sharply.
 const SHORT: [f64; 2] = [0.9, 0.75];
+/// Length of a short tooth on a plan, as a part of the longest.
+const USUAL: f64 = 0.5;
+/// Part of the teeth that have room on the sheets with a panel for each station or waterline, and with a strip for each other line.
+const MOST_TEETH: [f64; 2] = [0.9, 0.96];
+/// What the lines of a scale are called.
+const KINDS: [&str; 4] = ["stations", "waterlines", "buttocks", "diagonals"];
+
+/// Number of the kind of a plane among [`KINDS`].
+fn kind(cut: &Cut) -> usize {
+    match cut {
+        Cut::Station { .. } => 0,
+        Cut::Waterline { .. } => 1,
+        Cut::Buttock { .. } => 2,
+        _ => 3,
+    }
+}
 
 /// A line that bears a comb.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +47,7 @@ pub enum CombLine {
 }
 
 /// Evenly `most` of `count` lines, without the first and the last where there are more.
-fn some(count: usize, most: usize) -> Vec<usize> {
+pub(super) fn some(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
     }
@@ -40,12 +59,12 @@ fn some(count: usize, most: usize) -> Vec<usize> {
 pub struct FairingCombs {
     pub(super) buttocks: Vec<Cut>,
     pub(super) diagonals: Vec<Cut>,
-    pub(super) before: Vec<Comb>,
-    pub(super) after: Vec<Comb>,
-    /// Scale of the combs of stations.
-    pub(super) around: CombScale,
-    /// Scale of the combs of all other lines.
-    pub(super) along: CombScale,
+    /// The lines that bear combs on the plans.
+    shown: Vec<Cut>,
+    before: Vec<Comb>,
+    after: Vec<Comb>,
+    /// Scales of the combs of [`KINDS`].
+    scales: [CombScale; 4],
 }
 
 impl FairingCombs {
@@ -58,7 +77,7 @@ impl FairingCombs {
         let mut diagonals: Vec<Cut> = planes.diagonals.iter().map(|&height| Cut::Diagonal { height, angle }).collect();
         let station = |k: usize| super::fairing::station_cut(record, record.lines.stations[k].x);
         let waterline = |k: usize| Cut::Waterline { z: record.lines.waterlines[k] };
-        let cuts: Vec<Cut> = if chosen.is_empty() {
+        let shown: Vec<Cut> = if chosen.is_empty() {
             let stations = some(record.lines.stations.len(), MOST[0]).into_iter().map(station);
             let waterlines = some(record.lines.waterlines.len(), MOST[1]).into_iter().map(waterline);
             stations.chain(waterlines).chain(buttocks.iter().copied()).chain(diagonals.iter().copied()).collect()
@@ -71,30 +90,53 @@ impl FairingCombs {
             };
             chosen.iter().map(cut).collect()
         };
-        for cut in &cuts {
+        for cut in &shown {
             match cut {
                 Cut::Buttock { .. } if !buttocks.contains(cut) => buttocks.push(*cut),
                 Cut::Diagonal { .. } if !diagonals.contains(cut) => diagonals.push(*cut),
                 _ => {}
             }
         }
+        let mut cuts = shown.clone();
+        for cut in [Along::Ship, Along::Height].into_iter().flat_map(|along| moved_most(record, along)) {
+            if !cuts.contains(&cut) {
+                cuts.push(cut);
+            }
+        }
         let of = |hull: &Hull| combs(hull, &cuts, TEETH, record.tolerance());
-        let (before, after) = (of(&record.before), of(&record.after));
-        let scale = |around: bool| {
-            let own = move |comb: &&Comb| matches!(comb.cut, Cut::Station { .. }) == around;
-            CombScale::fitting(before.iter().chain(&after).filter(own), SHORT[usize::from(!around)])
-        };
-        Self { buttocks, diagonals, around: scale(true), along: scale(false), before, after }
+        let (before, after) = thread::scope(|scope| {
+            let other = scope.spawn(|| of(&record.before));
+            let after = of(&record.after);
+            (other.join().unwrap_or_default(), after)
+        });
+        let scales = std::array::from_fn(|k| {
+            let own = || before.iter().chain(&after).filter(move |comb| kind(&comb.cut) == k);
+            let plan = || CombScale::fitting(own(), SHORT[usize::from(k > 0)], USUAL * LONGEST);
+            let strips = |room| CombScale::fitting(own(), MOST_TEETH[usize::from(k > 1)], room);
+            if k < 2 { plan().coarser(strips(fairing_curves::LONGEST)) } else { strips(fairing_long::LONGEST) }
+        });
+        Self { buttocks, diagonals, shown, before, after, scales }
     }
 
     /// The scale of the lines that `cut` is one of.
     pub(super) fn scale(&self, cut: &Cut) -> CombScale {
-        if matches!(cut, Cut::Station { .. }) { self.around } else { self.along }
+        self.scales[kind(cut)]
     }
 
-    /// The combs on some planes, before and after.
+    /// That scale, for the sheet.
+    pub(super) fn words(&self, cut: &Cut) -> String {
+        format!("combs of {} on every sheet, before and after: {}", KINDS[kind(cut)], self.scale(cut).words())
+    }
+
+    /// The combs that plans show on some planes, before and after.
     pub(super) fn on(&self, cuts: &[Cut]) -> [Vec<&Comb>; 2] {
-        [&self.before, &self.after].map(|list| list.iter().filter(|comb| cuts.contains(&comb.cut)).collect())
+        let shown = |comb: &&Comb| self.shown.contains(&comb.cut) && cuts.contains(&comb.cut);
+        [&self.before, &self.after].map(|list| list.iter().filter(shown).collect())
+    }
+
+    /// The combs of one plane, before and after.
+    pub(super) fn of(&self, cut: Cut) -> [Vec<&Comb>; 2] {
+        [&self.before, &self.after].map(|list| list.iter().filter(|comb| comb.cut == cut).collect())
     }
 }
 

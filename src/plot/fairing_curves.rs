@@ -7,11 +7,11 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
 use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
-use super::fairing_combs::{FairingCombs, TEETH};
+use super::fairing_combs::FairingCombs;
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
-use crate::fairing::inspect::{Comb, combs};
+use crate::fairing::inspect::Comb;
 use crate::fairing::job::Change;
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
@@ -30,7 +30,7 @@ const WORDS: f64 = 6.0;
 const STRIP: f64 = 0.34;
 const AXIS: f64 = 8.0;
 /// Longest tooth of a comb \[mm\].
-const LONGEST: f64 = 7.0;
+pub(super) const LONGEST: f64 = 7.0;
 /// Offsets of a line that is shown, at least.
 const LEAST: usize = 4;
 const BAR: Pen = Pen::new(0.35, "#9c9c9c");
@@ -42,7 +42,7 @@ const LIGHT: Pen = Pen::new(0.08, "#c8c8c8");
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
 pub fn fairing_waterlines(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, combs, sheet, Along::Ship).map(|canvas| Svg { text: canvas.finish("fairing-waterlines") }))
+    Ok(compose(record, combs, sheet, Along::Ship).map(|canvas| Svg::new(canvas.finish("fairing-waterlines"))))
 }
 
 /// The stations that moved most.
@@ -50,7 +50,7 @@ pub fn fairing_waterlines(record: &FairRecord, combs: &FairingCombs, sheet: Shee
 /// # Errors
 /// [`PlotError`] when nothing can be drawn.
 pub fn fairing_stations(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, combs, sheet, Along::Height).map(|canvas| Svg { text: canvas.finish("fairing-stations") }))
+    Ok(compose(record, combs, sheet, Along::Height).map(|canvas| Svg::new(canvas.finish("fairing-stations"))))
 }
 
 /// What the lines run along.
@@ -129,25 +129,24 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, along: Along) -> Option<Canvas> {
+/// The planes of the lines that moved most.
+pub(super) fn moved_most(record: &FairRecord, along: Along) -> Vec<Cut> {
+    chosen(record, along).into_iter().map(|line| line.cut).collect()
+}
+
+pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, along: Along) -> Option<Canvas> {
     let lines = chosen(record, along);
-    if lines.is_empty() {
-        return None;
-    }
+    let first = lines.first()?.cut;
     let paper = sheet.room();
-    let cuts: Vec<Cut> = lines.iter().map(|line| line.cut).collect();
-    let tolerance = record.tolerance();
-    let [before, after] = [&record.before, &record.after].map(|hull| combs(hull, &cuts, TEETH, tolerance));
-    let scale = cuts.first().map_or(shared.along, |cut| shared.scale(cut));
-    let scale = scale.lowered(before.iter().chain(&after), LONGEST);
+    let scale = combs.scale(&first).within(LONGEST);
     let mut canvas = Canvas::new(paper[0], paper[1]);
     let [title, plural, axis] = along.words();
     let name: String = caption::plain(&record.name).chars().take(60).collect();
     let middle = TextStyle::new(4.5, Anchor::Middle);
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
-        "combs before and after: {}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
-        scale.words()
+        "{}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
+        combs.words(&first)
     );
     canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let size = [
@@ -158,8 +157,7 @@ pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, 
         let left = GAP + (size[0] + GAP) * (k % GRID[0]) as f64;
         let top = HEAD + (size[1] + GAP) * (k / GRID[0]) as f64;
         let place = Rectangle::new(left + NAMES, top, left + size[0], top + size[1]);
-        let of = |list: &[Comb]| list.iter().filter(|comb| comb.cut == line.cut).cloned().collect::<Vec<_>>();
-        panel(&mut canvas, record, (along, line), [&of(&before), &of(&after)], scale, &place, axis);
+        panel(&mut canvas, record, (along, line), combs.of(line.cut), scale, &place, axis);
     }
     let y = paper[1] - 5.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
@@ -169,9 +167,9 @@ pub(super) fn compose(record: &FairRecord, shared: &FairingCombs, sheet: Sheet, 
 }
 
 /// A range of numbers on a side of a frame.
-struct Range {
-    low: f64,
-    high: f64,
+pub(super) struct Range {
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
 impl Range {
@@ -190,12 +188,12 @@ fn panel(
     canvas: &mut Canvas,
     record: &FairRecord,
     (along, line): (Along, &Line<'_>),
-    [before, after]: [&[Comb]; 2],
+    [before, after]: [Vec<&Comb>; 2],
     scale: CombScale,
     place: &Rectangle,
     axis: &str,
 ) {
-    let turns = |list: &[Comb]| list.iter().map(|comb| comb.inflections.len()).sum::<usize>();
+    let turns = |list: &[&Comb]| list.iter().map(|comb| comb.inflections.len()).sum::<usize>();
     let used =
         line.offsets.iter().filter_map(|c| c.tolerance.filter(|t| *t > 0.0).map(|t| (c.after - c.before).abs() / t));
     let used = used.fold(0.0, f64::max);
@@ -205,8 +203,8 @@ fn panel(
         1e3 * line.moves[0],
         1e3 * line.moves[1],
         100.0 * used.min(1.0),
-        turns(before),
-        turns(after)
+        turns(&before),
+        turns(&after)
     );
     canvas.text([place.left - NAMES + 6.0, place.top + 1.6], &words, &TextStyle::new(LETTERS, Anchor::Start));
     let strip_top = place.bottom - AXIS - STRIP * place.height();
@@ -230,7 +228,7 @@ fn panel(
         ]
     };
     canvas.begin_clip(&upper);
-    for (list, pens) in [(before, &BEFORE_COMB), (after, &AFTER_COMB)] {
+    for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
         for comb in list {
             scale.draw(canvas, comb, on, pens);
         }
@@ -269,9 +267,9 @@ fn square([x, y]: [f64; 2], half: f64) -> [[f64; 2]; 4] {
     [[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]]
 }
 
-/// Figures at the left side of a frame.
-fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
-    let step = nice_step(range.high - range.low, 5.0);
+/// Figures at the left side of a frame, no more of them than keep apart.
+pub(super) fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
+    let step = nice_step(range.high - range.low, (frame.height() / (1.4 * LETTERS)).clamp(1.0, 5.0));
     let style = TextStyle::new(LETTERS, Anchor::End);
     for value in multiples(step, range.low, range.high) {
         let y = frame.bottom - range.share(value) * frame.height();

@@ -1,35 +1,66 @@
-//! Buttocks and diagonals before and after fairing with combs at one scale. Neither was used in the fit: they are the independent
-//! check. Diagonals are in their true shape. Heights and distances are stretched by a whole number, which is printed; curvatures are those
-//! of the ship.
+//! Buttocks and diagonals before and after fairing, a strip each, with combs at one scale. Neither was used in the fit: they are the
+//! independent check. Diagonals are in their true shape. Where there are more than a sheet has strips for, every second or third of them is
+//! shown, which the sheet says; heights and distances may be stretched by a whole number, which is printed; curvatures are those of the
+//! ship.
 
-use super::canvas::{Anchor, Canvas, TextStyle};
-use super::fairing::{Plan, curves, draw, extent, title};
-use super::fairing_combs::FairingCombs;
-use super::label::Preference;
+use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
+use super::fairing::{Drawn, LONG_SIDE, Plan, curves, draw, extent, title};
+use super::fairing_combs::{FairingCombs, some};
+use super::fairing_curves::{Range, figures};
+use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
-use super::view::{BASE, GRID};
+use super::station_names::ROWS;
+use super::view::GRID;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::hull::Cut;
 
-/// Room at the sides, above and below the drawing \[mm\].
-const SIDE: f64 = 26.0;
-const HEAD: f64 = 44.0;
-const FOOT: f64 = 44.0;
+/// Room above and below the strips \[mm\].
+const HEAD: f64 = 22.0;
+const FOOT: f64 = 34.0;
+/// Most strips of a sheet, and room over each for its words \[mm\].
+const MOST: usize = 4;
+const WORDS: f64 = 7.5;
+/// Longest tooth of a comb \[mm\]: the room above and below a line in its strip.
+pub(super) const LONGEST: f64 = 10.0;
 
-/// From a point of the ship to metres along the ship and across the drawing.
-type Project = fn(&Cut, [f64; 3]) -> [f64; 2];
+/// Which lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Buttocks,
+    Diagonals,
+}
+
+impl Kind {
+    /// From a point of the ship to metres along the ship and across the drawing.
+    fn project(cut: &Cut, p: [f64; 3]) -> [f64; 2] {
+        match cut {
+            Cut::Diagonal { height, .. } => [p[0], p[1].hypot(p[2] - height)],
+            _ => [p[0], p[2]],
+        }
+    }
+
+    /// Title, what is stretched, what the strips are, and the axis across.
+    fn words(self) -> [&'static str; 4] {
+        match self {
+            Self::Buttocks => ["BUTTOCKS", "heights", "buttocks by y from the centreplane", "z [m]"],
+            Self::Diagonals => [
+                "DIAGONALS IN TRUE SHAPE",
+                "distances",
+                "diagonals by z at the centreplane; distances in their planes",
+                "distance [m]",
+            ],
+        }
+    }
+}
 
 /// Buttocks in the profile, before and after.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without buttocks.
 pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg {
-        text: compose(record, combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]])?
-            .finish("fairing-buttocks"),
-    })
+    Ok(Svg::new(compose(record, combs, sheet, Kind::Buttocks)?.finish("fairing-buttocks")))
 }
 
 /// Diagonals in their true shape, before and after.
@@ -37,22 +68,40 @@ pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
 /// # Errors
 /// [`PlotError::Chart`] for a hull without diagonals.
 pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    let expanded: Project = |cut, p| match cut {
-        Cut::Diagonal { height, .. } => [p[0], p[1].hypot(p[2] - height)],
-        _ => [p[0], p[1]],
-    };
-    Ok(Svg {
-        text: compose(record, combs, sheet, "DIAGONALS IN TRUE SHAPE", &combs.diagonals, expanded)?
-            .finish("fairing-diagonals"),
-    })
+    Ok(Svg::new(compose(record, combs, sheet, Kind::Diagonals)?.finish("fairing-diagonals")))
 }
 
 /// Name of a plane: its distance or height.
 fn name(cut: &Cut) -> String {
     match cut {
-        Cut::Buttock { y } => format!("y {y:.2} m"),
-        Cut::Diagonal { height, .. } => format!("from z {height:.2} m"),
+        Cut::Buttock { y } => format!("buttock {y:.2} m"),
+        Cut::Diagonal { height, .. } => format!("diagonal from z {height:.2} m"),
         _ => String::new(),
+    }
+}
+
+/// The planes that get a strip: those with combs where only some have them, evenly as many as there are strips.
+fn shown(combs: &FairingCombs, all: &[Cut]) -> Vec<Cut> {
+    let bearing: Vec<Cut> = all.iter().copied().filter(|cut| !combs.on(&[*cut])[1].is_empty()).collect();
+    let from = if bearing.is_empty() { all } else { &bearing };
+    some(from.len(), MOST).into_iter().map(|k| from[k]).collect()
+}
+
+/// The part of a strip that its line runs in, its combs left aside.
+struct Strip {
+    frame: Rectangle,
+    /// x at the left edge, and the least height or distance \[m\].
+    from: [f64; 2],
+    millimetres: f64,
+    stretch: f64,
+}
+
+impl Strip {
+    fn at(&self, [along, across]: [f64; 2]) -> [f64; 2] {
+        [
+            self.frame.left + self.millimetres * (along - self.from[0]),
+            self.frame.bottom - self.stretch * self.millimetres * (across - self.from[1]),
+        ]
     }
 }
 
@@ -60,66 +109,79 @@ pub(super) fn compose(
     record: &FairRecord,
     combs: &FairingCombs,
     sheet: Sheet,
-    words: &'static str,
-    cuts: &[Cut],
-    project: Project,
+    kind: Kind,
 ) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
+    let all = if kind == Kind::Buttocks { &combs.buttocks } else { &combs.diagonals };
+    let cuts = shown(combs, all);
     let fine = 1e-3 * record.after.particulars().breadth;
-    let points: Vec<[f64; 2]> = cuts
+    let points = cuts
         .iter()
-        .flat_map(|cut| curves(&record.after, *cut, fine).into_iter().flatten().map(|p| project(cut, p)))
-        .collect();
+        .flat_map(|cut| curves(&record.after, *cut, fine).into_iter().flatten().map(|p| Kind::project(cut, p)));
+    let start = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    let bounds = points.fold(start, |b, p| [0, 1].map(|d| [b[d][0].min(p[d]), b[d][1].max(p[d])]));
     let nothing = || PlotError::Chart("no plane cuts the side".to_owned());
-    let (x, ..) = extent(record).filter(|_| !points.is_empty()).ok_or_else(nothing)?;
-    let bounds = |axis: usize| {
-        let start = (f64::INFINITY, f64::NEG_INFINITY);
-        points.iter().map(|p| p[axis]).fold(start, |(a, b), v| (a.min(v), b.max(v)))
-    };
-    let ((low, high), (bottom, top)) = (bounds(0), bounds(1));
-    let (low, high) = (low.min(x[0]), high.max(x[1]));
-    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
-    let n = drawing_scale(high - low, room[0]);
+    let (x, ..) = extent(record).filter(|_| bounds[0][0].is_finite()).ok_or_else(nothing)?;
+    let (low, high) = (bounds[0][0].min(x[0]), bounds[0][1].max(x[1]));
+    let [bottom, top] = bounds[1];
+    let n = drawing_scale(high - low, paper[0] - 2.0 * LONG_SIDE);
     let millimetres = 1000.0 / f64::from(n);
-    let buttocks = matches!(cuts.first(), Some(Cut::Buttock { .. }));
-    let across = if buttocks { "heights" } else { "distances" };
-    let heights = if buttocks {
-        "buttocks by y [m] from the centreplane"
-    } else {
-        "diagonals by z [m] at the centreplane; girths in their planes"
-    };
-    let stretch = (room[1] / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
+    let pitch = (paper[1] - HEAD - FOOT) / cuts.len() as f64;
+    let room = pitch - WORDS - 2.0 * LONGEST;
+    let stretch = (room / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
+    let [words, across, heights, axis] = kind.words();
     let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, combs, title: words, scale, heights, room: paper };
+    let plan = Plan { record, combs, title: words, scale, heights, room: paper, longest: LONGEST };
     let left = 0.5 * (paper[0] - millimetres * (high - low));
-    let floor = paper[1] - FOOT - 0.5 * (room[1] - stretch * millimetres * (top - bottom)).max(0.0);
-    let place = move |p: [f64; 2]| [left + millimetres * (p[0] - low), floor - stretch * millimetres * (p[1] - bottom)];
+    let height = stretch * millimetres * (top - bottom);
     let mut canvas = Canvas::new(paper[0], paper[1]);
-    for station in &record.lines.stations {
-        canvas.line(place([station.x, bottom]), place([station.x, top]), &GRID);
-    }
-    canvas.line(place([low, bottom]), place([high, bottom]), &BASE);
-    let at = move |cut: &Cut| {
-        let cut = *cut;
-        move |p: [f64; 3]| place(project(&cut, p))
-    };
-    let drawn = draw(&mut canvas, &plan, cuts, 0.01 / (stretch * millimetres), &at);
-    title(&mut canvas, &plan, &drawn);
-    let mut placer = drawn.placer();
-    let window = super::canvas::Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    let style = TextStyle::new(LETTERS, Anchor::Middle);
-    for station in &record.lines.stations {
-        let [px, py] = place([station.x, bottom]);
-        let word: String = caption::plain(&station.name).chars().take(9).collect();
-        placer.name_point(&mut canvas, &word, &style, &[[px, py + 12.0], [px, py + 15.4]], &window);
-    }
-    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    let mut drawn: Option<Drawn> = None;
     for (k, cut) in cuts.iter().enumerate() {
-        let Some(curve) = drawn.curves.iter().position(|(other, _)| *other == k) else { continue };
-        let preferred = Preference { part: 0.3 + 0.12 * ((k % 3) as f64), crossings: 3, beside: false };
-        placer.name_curve(&mut canvas, curve, &name(cut), &style, preferred, &window);
+        let upper = HEAD + pitch * k as f64;
+        let middle = upper + WORDS + 0.5 * (pitch - WORDS);
+        let frame =
+            Rectangle::new(left, middle - 0.5 * height, left + millimetres * (high - low), middle + 0.5 * height);
+        let strip = Strip { frame, from: [low, bottom], millimetres, stretch };
+        for station in &record.lines.stations {
+            canvas.line(strip.at([station.x, bottom]), strip.at([station.x, top]), &GRID);
+        }
+        figures(&mut canvas, &strip.frame, &Range { low: bottom, high: top }, axis);
+        let at = |cut: &Cut| {
+            let (cut, strip) = (*cut, &strip);
+            move |p: [f64; 3]| strip.at(Kind::project(&cut, p))
+        };
+        let one = draw(&mut canvas, &plan, std::slice::from_ref(cut), 0.01 / (stretch * millimetres), &at);
+        drawn = Some(match drawn {
+            Some(others) => others.joined(one),
+            None => one,
+        });
+        let [before, after] =
+            combs.on(&[*cut]).map(|list| list.iter().map(|comb| comb.inflections.len()).sum::<usize>());
+        let bears = if combs.on(&[*cut])[1].is_empty() {
+            String::new()
+        } else {
+            format!("    inflections {before} → {after}")
+        };
+        let style = TextStyle::new(LETTERS, Anchor::Start);
+        canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut)), &style);
     }
-    canvas.text([14.0, paper[1] - 16.0], "AFT", &TextStyle::new(3.2, Anchor::Start));
-    canvas.text([paper[0] - 14.0, paper[1] - 16.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
+    let drawn = drawn.ok_or_else(nothing)?;
+    title(&mut canvas, &plan, &drawn);
+    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    let mut placer = LabelPlacer::default();
+    for station in &record.lines.stations {
+        let px = left + millimetres * (station.x - low);
+        let word: String = caption::plain(&station.name).chars().take(9).collect();
+        let places = ROWS.map(|down| [px, paper[1] - FOOT + down]);
+        placer.name_point(&mut canvas, &word, &style, &places, &window);
+    }
+    if cuts.len() < all.len() {
+        let plural = if kind == Kind::Buttocks { "buttocks" } else { "diagonals" };
+        let words = format!("{} of {} {plural}; the lines plan has all of them", cuts.len(), all.len());
+        canvas.text([0.5 * paper[0], paper[1] - 17.5], &words, &style);
+    }
+    canvas.text([14.0, paper[1] - 17.5], "AFT", &TextStyle::new(3.2, Anchor::Start));
+    canvas.text([paper[0] - 14.0, paper[1] - 17.5], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     Ok(canvas)
 }

@@ -37,7 +37,7 @@ const INWARD: [f64; 3] = [33.0, 102.0, 172.0];
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
 pub fn fairing_moves(record: &FairRecord) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(record)?.finish("fairing-moves") })
+    Ok(Svg::new(compose(record)?.finish("fairing-moves")))
 }
 
 /// The map on the sheet.
@@ -182,7 +182,7 @@ fn draw_cells(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
     for change in &record.changes {
         let place = map.place(change);
         let middle = [0.5 * (place.left + place.right), 0.5 * (place.top + place.bottom)];
-        if size >= LETTERS {
+        if size >= LETTERS && !change.suspect {
             canvas.text(middle, &map.number(change), &TextStyle::new(size, Anchor::Middle));
         }
         marks(canvas, change, &place);

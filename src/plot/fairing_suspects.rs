@@ -4,7 +4,7 @@
 //! them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{extent, midship, station_cut, whole_curves};
+use super::fairing::{base, extent, midship, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
@@ -46,7 +46,7 @@ const PROPOSED: Pen = Pen::new(0.7, "#2166ac");
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
 pub fn fairing_suspects(record: &FairRecord, sheet: Sheet) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record, sheet)?.map(|canvas| Svg { text: canvas.finish("suspects") }))
+    Ok(compose(record, sheet)?.map(|canvas| Svg::new(canvas.finish("suspects"))))
 }
 
 fn circle(at: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
@@ -79,7 +79,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
         canvas.line([centre - millimetres * breadth, y], [centre + millimetres * breadth, y], &GRID);
     }
     canvas.line(at(x[0], 0.0, z[0]), at(x[0], 0.0, z[1]), &BASE);
-    canvas.line(at(x[0], breadth, z[0]), at(x[1], breadth, z[0]), &BASE);
+    canvas.line(at(x[0], breadth, base(z)), at(x[1], breadth, base(z)), &BASE);
     let mut placer = LabelPlacer::default();
     for (k, station) in record.lines.stations.iter().enumerate() {
         let own = record.doubts.iter().any(|doubt| doubt.station == k);

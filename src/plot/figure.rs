@@ -2,10 +2,15 @@
 
 use super::canvas::Canvas;
 use super::sheet::Sheet;
-use super::{diagram_sheet, hydrostatics, lines, png, sectional_area, sections};
+use super::{diagram_sheet, hydrostatics, lines, outline, png, sectional_area, sections};
 use crate::hull::Hull;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
-use std::sync::OnceLock;
+use resvg::usvg::Tree;
+use std::fmt;
+use std::sync::{Arc, OnceLock};
+
+/// How far a table goes beyond the deck edge before its curves end there, as a part of its range.
+const EDGE: f64 = 1e-3;
 
 /// Why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -57,27 +62,71 @@ pub struct FigureInputs<'a> {
 }
 
 impl FigureInputs<'_> {
-    /// Hydrostatics over the range of draughts of the table, so dense that curves through them look smooth.
+    /// Least and largest draught of the table \[m\].
+    fn range(&self) -> [f64; 2] {
+        let draughts = self.curves.rows.iter().map(|row| row.draught).filter(|draught| draught.is_finite());
+        draughts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], d| [a.min(d), b.max(d)])
+    }
+
+    /// The draught at which `rows` of [`FigureInputs::dense_rows`] end, where it is that at which the deck edge goes under \[m\]; none
+    /// where they go as far as the table.
+    pub(super) fn immersed_edge(&self, rows: &[Hydrostatics]) -> Option<f64> {
+        let [low, high] = self.range();
+        rows.last().map(|row| row.draught).filter(|edge| *edge < high - EDGE * (high - low))
+    }
+
+    /// Hydrostatics over the range of draughts of the table, so dense that curves through them look smooth; up to the lowest point of the
+    /// deck edge, where the table goes beyond it: form without a superstructure says nothing there.
     pub(super) fn dense_rows(&self) -> Result<Vec<Hydrostatics>, PlotError> {
         const ROWS: usize = 120;
-        let draughts = self.curves.rows.iter().map(|row| row.draught).filter(|draught| draught.is_finite());
-        let (low, high) = draughts.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
+        let [low, high] = self.range();
         if low >= high {
             return Err(PlotError::TooFewDraughts(self.curves.rows.len().min(1)));
         }
-        let draughts: Vec<f64> = (0..ROWS).map(|k| low + (high - low) * k as f64 / (ROWS - 1) as f64).collect();
-        let rows = || CurvesOfForm::new(self.hull, &draughts, &self.curves.conventions).rows;
+        let rows = || {
+            let edge = outline::lowest_deck_edge(self.hull);
+            let end = if low < edge && edge < high - EDGE * (high - low) { edge } else { high };
+            let draughts: Vec<f64> = (0..ROWS).map(|k| low + (end - low) * k as f64 / (ROWS - 1) as f64).collect();
+            CurvesOfForm::new(self.hull, &draughts, &self.curves.conventions).rows
+        };
         Ok(self.dense.map_or_else(rows, |kept| kept.get_or_init(rows).clone()))
     }
 }
 
 /// A finished drawing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone)]
 pub struct Svg {
-    pub(super) text: String,
+    text: String,
+    /// As it was read for a picture or a document.
+    tree: OnceLock<Arc<Tree>>,
+}
+
+impl fmt::Debug for Svg {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Svg").field("text", &self.text).finish()
+    }
+}
+
+impl PartialEq for Svg {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
 }
 
 impl Svg {
+    pub(super) fn new(text: String) -> Self {
+        Self { text, tree: OnceLock::new() }
+    }
+
+    /// The drawing as resvg reads it, which takes as long as some pictures do: once.
+    pub(super) fn tree(&self) -> Result<Arc<Tree>, PlotError> {
+        if let Some(tree) = self.tree.get() {
+            return Ok(Arc::clone(tree));
+        }
+        let tree = Arc::new(png::tree(&self.text)?);
+        Ok(Arc::clone(self.tree.get_or_init(|| tree)))
+    }
+
     /// The SVG document; its size is in millimetres.
     #[must_use]
     pub fn as_str(&self) -> &str {
@@ -89,7 +138,7 @@ impl Svg {
     /// # Errors
     /// [`PlotError::PictureSize`] when the picture would be empty or have a side of more than 20000 pixels.
     pub fn to_png(&self, dots_per_inch: f64) -> Result<Vec<u8>, PlotError> {
-        png::render(&self.text, dots_per_inch)
+        png::render(self.tree()?.as_ref(), dots_per_inch)
     }
 }
 
@@ -159,7 +208,7 @@ impl Figure {
     /// # Errors
     /// [`PlotError`] when there is nothing to draw.
     pub fn draw(self, inputs: &FigureInputs) -> Result<Svg, PlotError> {
-        Ok(Svg { text: self.compose(inputs)?.finish(self.key()) })
+        Ok(Svg::new(self.compose(inputs)?.finish(self.key())))
     }
 
     /// Draws the figure as large as `sheet` lets it be; only lines plan and body plan, which have a scale, become larger than on A3.
@@ -172,7 +221,7 @@ impl Figure {
             Self::Sections => sections::draw(inputs, sheet)?,
             _ => self.compose(inputs)?,
         };
-        Ok(Svg { text: canvas.finish(self.key()) })
+        Ok(Svg::new(canvas.finish(self.key())))
     }
 
     pub(super) fn compose(self, inputs: &FigureInputs) -> Result<Canvas, PlotError> {

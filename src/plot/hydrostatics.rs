@@ -1,7 +1,7 @@
 //! Hydrostatic curves in panels: one draught axis, related quantities together.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::chart::{Axis, Chart, Series, colour};
+use super::chart::{Axis, Chart, DESIGN, EDGE, Level, Series, colour};
 use super::label::LabelPlacer;
 use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
@@ -105,6 +105,10 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let draught = inputs.design.draught;
     let (low, high) = rows.iter().fold((draught, draught), |(a, b), row| (a.min(row.draught), b.max(row.draught)));
     let left = Axis::new("draught T [m]", if low < 0.35 * high { 0.0 } else { low }, high, 10.0);
+    let (design, immersed) = (caption::design_waterline(inputs), inputs.immersed_edge(&rows));
+    let edge = immersed.map_or(String::new(), caption::immersed_edge);
+    let mut levels = vec![Level { at: draught, name: &design, pen: DESIGN }];
+    levels.extend(immersed.map(|at| Level { at, name: &edge, pen: EDGE }));
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let title = format!("HYDROSTATIC CURVES – {}", caption::plain(inputs.hull.name()));
     canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
@@ -121,7 +125,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             text_size: TEXT,
         };
         let mut placer = LabelPlacer::default();
-        chart.draw(&mut canvas, &mut placer, &series, Some((draught, &caption::design_waterline(inputs))))?;
+        chart.draw(&mut canvas, &mut placer, &series, &levels)?;
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)

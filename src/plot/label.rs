@@ -45,11 +45,17 @@ pub(super) struct Preference {
     pub(super) beside: bool,
 }
 
+/// Chords of a curve that are looked at together.
+const PIECE: usize = 16;
+
 /// Keeps the text of a drawing apart, and off the curves.
 #[derive(Debug, Default)]
 pub(super) struct LabelPlacer {
     curves: Vec<Vec<[f64; 2]>>,
+    /// The rectangles around the curves.
     bounds: Vec<Rectangle>,
+    /// The rectangles around every [`PIECE`] chords of them.
+    pieces: Vec<Vec<Rectangle>>,
     taken: Vec<Rectangle>,
     leaders: Vec<[[f64; 2]; 2]>,
 }
@@ -57,8 +63,11 @@ pub(super) struct LabelPlacer {
 impl LabelPlacer {
     /// Curves that names keep off.
     pub(super) fn add_curve(&mut self, points: &[[f64; 2]]) {
+        let around = |part: &[[f64; 2]]| bounds(part).grown(1e-6);
+        let parts = (0..points.len().saturating_sub(1)).step_by(PIECE);
+        self.pieces.push(parts.map(|k| around(&points[k..(k + PIECE + 1).min(points.len())])).collect());
+        self.bounds.push(around(points));
         self.curves.push(points.to_vec());
-        self.bounds.push(bounds(points).grown(1e-6));
     }
 
     /// A place that is taken.
@@ -71,12 +80,20 @@ impl LabelPlacer {
         self.curves.len()
     }
 
+    /// The chords of a curve that may be in `place`.
+    fn chords(&self, curve: usize, place: &Rectangle) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        let points = &self.curves[curve];
+        let near = self.bounds[curve].overlaps(place).then(|| self.pieces[curve].iter().enumerate());
+        let near = near.into_iter().flatten().filter(|(_, around)| around.overlaps(place));
+        near.flat_map(move |(k, _)| {
+            points[PIECE * k..(PIECE * (k + 1) + 1).min(points.len())].windows(2).map(|w| [w[0], w[1]])
+        })
+    }
+
     fn crossings(&self, place: &Rectangle, own: Option<usize>) -> usize {
-        self.curves
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| Some(*k) != own && self.bounds[*k].overlaps(place))
-            .map(|(_, curve)| curve.windows(2).filter(|w| crosses(place, w[0], w[1])).count().min(3))
+        (0..self.curves.len())
+            .filter(|k| Some(*k) != own)
+            .map(|k| self.chords(k, place).filter(|[a, b]| crosses(place, *a, *b)).take(3).count())
             .sum()
     }
 
@@ -170,8 +187,7 @@ impl LabelPlacer {
                     }
                     let around = bounds(&leader);
                     let crossed = (0..self.curves.len())
-                        .filter(|&k| k != curve && self.bounds[k].overlaps(&around))
-                        .filter(|&k| self.curves[k].windows(2).any(|w| meet(leader, [w[0], w[1]])))
+                        .filter(|&k| k != curve && self.chords(k, &around).any(|chord| meet(leader, chord)))
                         .count();
                     let cost = length + CROSSING * crossed as f64;
                     if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
@@ -190,7 +206,7 @@ impl LabelPlacer {
     }
 
     /// Writes `name` at the first of `places` inside `window` that is off every text, leader and curve, or else at that of them
-    /// off text which meets fewest curves; with a thread of `pen` from `from` unless it is the first place. False when there is
+    /// off text which meets fewest curves, a thread over other text counting as three; with a thread of `pen` from `from` unless it is the first place. False when there is
     /// none.
     #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
     pub(super) fn name_off_curves(
@@ -203,18 +219,28 @@ impl LabelPlacer {
         (from, pen): ([f64; 2], &Pen),
     ) -> bool {
         let foot = |at: [f64; 2]| [at[0], at[1] + 0.5 * style.size];
-        let free = places.iter().enumerate().filter_map(|(k, &at)| {
+        type Found = ((usize, usize), [f64; 2], Rectangle);
+        let mut best: Option<Found> = None;
+        for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style).grown(0.12 * style.size);
             let apart =
                 Rectangle { left: place.left - 0.3 * style.size, right: place.right + 0.3 * style.size, ..place };
+            if !window.contains(&place) || !self.is_free(&apart) {
+                continue;
+            }
             let thread = [from, foot(at)];
             let clear = k == 0
                 || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
                     && !self.leaders.iter().any(|&other| meet(thread, other));
-            let free = window.contains(&place) && self.is_free(&apart);
-            free.then(|| ((self.crossings(&place, None), !clear, k), at, apart))
-        });
-        let Some(((.., k), at, place)) = free.min_by_key(|(order, ..)| *order) else { return false };
+            let order = (self.crossings(&place, None) + 3 * usize::from(!clear), k);
+            if best.as_ref().is_none_or(|(least, ..)| order < *least) {
+                best = Some((order, at, apart));
+            }
+            if order.0 == 0 {
+                break;
+            }
+        }
+        let Some(((_, k), at, place)) = best else { return false };
         self.take(place);
         if k > 0 {
             canvas.line(from, foot(at), pen);

@@ -5,9 +5,9 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::LongStyle;
 use super::scale::{drawing_scale, drawing_scales};
-use super::sheet::Sheet;
+use super::sheet::{LETTERS, Sheet};
 use super::title_block::{self, Scales};
-use super::view::{BEFORE, View};
+use super::view::{BEFORE, STATION, View};
 use super::{FigureInputs, PlotError, body_plan, profile};
 
 /// Distance of drawings from the frame and from each other [mm].
@@ -149,7 +149,10 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
     let largest = extents.body_scale(&room);
     let arrange = |body_scale: u32| {
         // What the body plan leaves parts the views.
-        let gap = GAP + 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+        let spare = 0.4 * (body_height - extents.body_height(body_scale)).max(0.0);
+        // ... but for the table over the title block.
+        let table = inner.bottom - title_block::SIZE[1] - GAP - extents.table[1];
+        let gap = GAP + spare.min(0.5 * (table - inner.top - profile - half) - GAP).max(0.0);
         let left = inner.left + 0.5 * (inner.width() - width);
         let upper = Rectangle::new(left, inner.top, left + width, inner.top + profile);
         let lower = Rectangle::new(left, upper.bottom + gap, left + width, upper.bottom + gap + half);
@@ -181,6 +184,23 @@ fn draw_before(
     }
 }
 
+/// Right edge of what stands inside the frame \[mm\].
+fn inner_right(frame: &Rectangle) -> f64 {
+    frame.right - GAP
+}
+
+/// What is grey and what is not, up to `end`.
+fn key(canvas: &mut Canvas, end: [f64; 2]) {
+    let style = TextStyle::new(LETTERS, Anchor::End);
+    let [mut x, y] = end;
+    for (pen, words) in [(&STATION, "black and colours: after"), (&BEFORE, "grey: before fairing")] {
+        canvas.text([x, y], words, &style);
+        x = Canvas::text_place([x, y], words, &style).left - 2.0;
+        canvas.line([x - 12.0, y], [x, y], pen);
+        x -= 20.0;
+    }
+}
+
 /// Draws the sheet.
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
 pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotError> {
@@ -202,6 +222,9 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
         canvas.text([place.left + 1.0, place.top + 2.0], &format!("{text}   1 : {scale}"), &title);
     };
     name(&mut canvas, &layout.profile, "PROFILE", layout.scale);
+    if before.is_some() {
+        key(&mut canvas, [inner_right(&frame), layout.profile.top + 2.0]);
+    }
     let base = layout.profile.bottom - profile::END_ROOM + grid.height[0].min(0.0) * millimetres;
     let view = View::new([origin_x, base], layout.scale);
     if let Some(before) = &before {

@@ -66,6 +66,11 @@ pub(super) fn deck_at_side(hull: &Hull) -> Vec<[f64; 3]> {
         .collect()
 }
 
+/// Height of the lowest point of the deck at side \[m\]: a draught beyond it floods the deck edge.
+pub(super) fn lowest_deck_edge(hull: &Hull) -> f64 {
+    deck_at_side(hull).iter().map(|point| point[2]).fold(f64::INFINITY, f64::min)
+}
+
 /// The keel line (x, z) from aft to forward below the deck; on a level hull its ends say all.
 fn keel_line(hull: &Hull) -> Vec<[f64; 2]> {
     if hull.is_level() {

@@ -14,13 +14,15 @@ use crate::fairing::record::FairRecord;
 const SHEET: [f64; 2] = [240.0, 160.0];
 /// How far the chart goes beyond the deviation of the fair hull.
 const BEYOND: f64 = 2.5;
+/// Room for half a mark, as a part of an axis.
+const MARK: f64 = 0.02;
 
 /// Draws the front; none where the weight was given and nothing was tried.
 ///
 /// # Errors
 /// [`PlotError`] when the chart cannot be drawn.
 pub fn pareto_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
-    Ok(compose(record)?.map(|canvas| Svg { text: canvas.finish("pareto") }))
+    Ok(compose(record)?.map(|canvas| Svg::new(canvas.finish("pareto"))))
 }
 
 pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> {
@@ -47,15 +49,17 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
     let marks = [start, Some(fair), chosen];
     let heights = || front.iter().chain(marks.iter().flatten()).map(|at| at[1]);
     let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+    // Marks at the ends of the axes stand inside the frame.
+    let (end, room) = (last.max(fair[0]), MARK * (high - low));
     let chart = Chart {
         frame: Rectangle::new(26.0, 28.0, SHEET[0] - 16.0, SHEET[1] - 24.0),
         bottom: Axis::exact(
             "deviation of the offsets, RMS [mm]",
-            0.0,
-            last.max(fair[0]),
-            nice_step(last.max(fair[0]), 12.0),
+            -MARK * end,
+            (1.0 + MARK) * end,
+            nice_step(end, 12.0),
         ),
-        left: Axis::new("log10 of the energy", low, high, 8.0),
+        left: Axis::new("log10 of the energy", low - room, high + room, 8.0),
         top: None,
         right: None,
         text_size: 2.8,
@@ -80,7 +84,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         dash: None,
         name_at: 0.75,
     }];
-    chart.draw(&mut canvas, &mut placer, &series, None)?;
+    chart.draw(&mut canvas, &mut placer, &series, &[])?;
     for at in places {
         canvas.fill(&Rectangle::new(at[0] - 0.6, at[1] - 0.6, at[0] + 0.6, at[1] + 0.6), "#0072b2");
     }

@@ -1,8 +1,8 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give the same bytes.
 
 use super::figure::Svg;
-use super::sheet::{ROOM, Sheet, Titles, footed, framed};
-use super::{PlotError, caption, png};
+use super::sheet::{ROOM, Sheet, Titles, framed, numbered_over};
+use super::{PlotError, caption};
 use krilla::geom::{Size, Transform};
 use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
@@ -10,6 +10,7 @@ use krilla::surface::Surface;
 use krilla::{Document, SerializeSettings};
 use krilla_svg::{SurfaceExt, SvgSettings};
 use resvg::usvg::Tree;
+use std::sync::Arc;
 
 /// Points of a PDF in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
@@ -60,7 +61,7 @@ pub struct Heading<'a> {
 /// A figure that was read, with its size \[mm\] and its number.
 struct Read<'a> {
     titles: Titles<'a>,
-    tree: Tree,
+    tree: Arc<Tree>,
     size: [f64; 2],
 }
 
@@ -77,7 +78,7 @@ impl Read<'_> {
         corner: [f64; 2],
     ) -> Result<(), PlotError> {
         let frame = framed(sheet, paper, &self.titles);
-        place(surface, &png::tree(frame.as_str())?, corner)?;
+        place(surface, frame.tree()?.as_ref(), corner)?;
         let [width, height] = self.size;
         // A figure covers what is under it: it stays off the frame.
         let left = corner[0] + 0.5 * (sheet.size()[0] - width);
@@ -114,7 +115,7 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
     let metadata = Metadata::new().title(heading.ship.to_owned()).creator(caption::program()).language("en".to_owned());
     document.set_metadata(metadata);
     let read = |(k, figure): (usize, &Page<'a>)| -> Result<Read<'a>, PlotError> {
-        let tree = png::tree(figure.svg.as_str())?;
+        let tree = figure.svg.tree()?;
         let number = [k + 1, figures.len()];
         let Heading { ship, source, date } = *heading;
         let titles = Titles { ship, title: figure.title, caption: figure.caption, number, source, date };
@@ -143,7 +144,7 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
                 return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0]);
             }
             place(surface, &figure.tree, [0.0, 0.0])?;
-            place(surface, &png::tree(footed(sheet, &figure.titles).as_str())?, [0.0, 0.0])
+            place(surface, numbered_over(sheet, &figure.titles).tree()?.as_ref(), [0.0, 0.0])
         })?;
     }
     document.finish().map_err(|found| error(format!("{found:?}")))

@@ -1,7 +1,7 @@
 //! The two long views of a lines plan: profile (sheer plan) and half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::label::{LabelPlacer, Preference};
+use super::label::{LabelPlacer, Preference, length};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
 use super::{FigureInputs, outline};
@@ -160,7 +160,7 @@ pub(super) fn draw_profile(
     canvas.end_group();
 }
 
-/// Names a curve near both of its ends, clear of other curves; once, where it meets fewest, when there is no clear place.
+/// Names a curve near both of its ends, clear of other curves; once, with a leader or where it meets fewest, when there is no clear place.
 fn name_twice(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
@@ -172,7 +172,7 @@ fn name_twice(
 ) {
     let clear = |part| Preference { part, crossings: 0, beside: false };
     let ends = [part, 1.0 - part].map(|part| placer.name_curve(canvas, curve, name, style, clear(part), window));
-    if ends == [false, false] {
+    if ends == [false, false] && !placer.name_by_leader(canvas, curve, name, style, &THREAD, window) {
         let preference = Preference { crossings: 2, ..clear(part) };
         placer.name_curve(canvas, curve, name, style, preference, window);
     }
@@ -202,13 +202,18 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
         }
     }
     for plane in &grid.diagonals {
-        for (k, curve) in plane.curves.iter().enumerate() {
-            let expanded = curve.iter().map(|point| {
-                let [x, s] = LinesGrid::expanded(point, plane.at);
-                [x, -s]
-            });
-            placer.add_curve(&view.draw(canvas, expanded, &DIAGONAL));
-            owners.push((k < plane.on_side).then_some((plane, &DIAGONAL)));
+        let expanded = |point: &[f64; 3]| {
+            let [x, s] = LinesGrid::expanded(point, plane.at);
+            [x, -s]
+        };
+        let placed: Vec<_> =
+            plane.curves.iter().map(|curve| view.draw(canvas, curve.iter().map(expanded), &DIAGONAL)).collect();
+        // Its longest piece bears the name, of those on the side where there are such.
+        let pieces = if plane.on_side > 0 { plane.on_side } else { placed.len() };
+        let longest = (0..pieces).max_by(|a, b| length(&placed[*a]).total_cmp(&length(&placed[*b])));
+        for (k, line) in placed.iter().enumerate() {
+            placer.add_curve(line);
+            owners.push((Some(k) == longest).then_some((plane, &DIAGONAL)));
         }
     }
     let mut deck: Vec<_> = grid.deck.iter().map(|p| [p[0], p[1]]).collect();

@@ -3,6 +3,7 @@
 use super::canvas::Canvas;
 use super::fairing_combs::FairingCombs;
 use super::fairing_curves::Along;
+use super::fairing_long::Kind;
 use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
@@ -112,23 +113,27 @@ fn figures_of_faired_tables_keep_their_text_apart() {
     let combs = FairingCombs::new(&record, &[]);
     let mut found = Vec::new();
     for sheet in Sheet::ALL {
+        let mut scales = std::collections::BTreeSet::new();
         let figures = [
             ("arrows", fairing_arrows::compose(&record, sheet)),
             ("long arrows", fairing_arrows_long::compose(&record, sheet)),
             ("body plan", fairing::body_plan(&record, &combs, sheet)),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
-            (
-                "buttocks",
-                fairing_long::compose(&record, &combs, sheet, "BUTTOCKS", &combs.buttocks, |_, p| [p[0], p[2]]),
-            ),
+            ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),
+            ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals)),
             ("suspects", fairing_suspects::compose(&record, sheet).map(Option::unwrap)),
             ("waterlines", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap())),
             ("stations", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap())),
         ];
         for (name, canvas) in figures {
             let name = format!("{name} on {}", sheet.as_str());
-            found.extend(faults_within(sheet.room(), &name, &canvas.unwrap()));
+            let canvas = canvas.unwrap();
+            let words = canvas.texts().iter().filter_map(|text| text.content.split("combs of ").nth(1));
+            scales.extend(words.filter_map(|words| Some(words[..words.find("1/m")?].to_owned())));
+            found.extend(faults_within(sheet.room(), &name, &canvas));
         }
+        // One scale for each kind of line, whatever the sheet.
+        assert_eq!(scales.len(), 4, "{scales:?}");
     }
     let moves = fairing_moves::compose(&record).unwrap();
     let words: Vec<&str> = moves.texts().iter().map(|text| text.content.as_str()).collect();

@@ -1,16 +1,16 @@
 //! Scales: of drawings, of the curves of a diagram sheet, and of axes.
 
-/// Scales of drawings, 1 : n, that a scale rule has: those of ISO 5455 and the steps between them that drawing offices use.
-pub const DRAWING_SCALES: [u32; 16] = [20, 25, 30, 40, 50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 750, 1000];
+/// Scales of drawings, 1 : n, that a scale rule has: those of ISO 5455 and its 1:25 and 1:250.
+pub const DRAWING_SCALES: [u32; 8] = [20, 25, 50, 100, 200, 250, 500, 1000];
 
-/// Every scale that a drawing can have, from the largest: [`DRAWING_SCALES`] and steps of 1, 2, 5 on both sides.
+/// Every scale that a drawing can have, from the largest: [`DRAWING_SCALES`] and its steps on both sides.
 pub(super) fn drawing_scales() -> impl Iterator<Item = u32> {
-    let large = [1500, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
+    let large = [2000, 2500, 5000, 10_000, 20_000, 25_000, 50_000, 100_000];
     [1, 2, 5, 10].into_iter().chain(DRAWING_SCALES).chain(large)
 }
 
 /// The largest scale of [`DRAWING_SCALES`] at which `extent` [m] fits into `room` [mm]; past 1:1000 the list goes on with
-/// 1500, 2000, 5000, ..., and below 1:20 with 10, 5, 2, 1.
+/// 2000, 2500, 5000, ..., and below 1:20 with 10, 5, 2, 1.
 pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
     let needed = 1000.0 * extent / room;
     drawing_scales().find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9)).unwrap_or(1_000_000)
@@ -44,12 +44,6 @@ pub fn sheet_scale(value: f64, target: f64) -> f64 {
     round_up(value / target, &[1.0, 2.0, 2.5, 4.0, 5.0, 10.0])
 }
 
-/// Scale of the draughts of a diagram sheet, which are read at its rulers: not below `raw`, and never so large that more than a
-/// quarter of the height is left over.
-pub(super) fn draught_scale(raw: f64) -> f64 {
-    round_up(raw, &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0])
-}
-
 /// Step of 1, 2, 2.5 or 5 times a power of ten that divides `range` into at most `count` parts.
 pub(super) fn nice_step(range: f64, count: f64) -> f64 {
     round_up(range / count, &[1.0, 2.0, 2.5, 5.0, 10.0])
@@ -78,9 +72,9 @@ mod tests {
     #[test]
     fn a_scale_of_the_list_that_just_fits_is_taken() {
         assert_eq!(drawing_scale(40.0, 400.0), 100);
-        assert_eq!(drawing_scale(40.1, 400.0), 125);
-        assert_eq!(drawing_scale(110.0, 400.0), 300);
-        assert_eq!(drawing_scale(250.0, 400.0), 750);
+        assert_eq!(drawing_scale(40.1, 400.0), 200);
+        assert_eq!(drawing_scale(90.0, 400.0), 250);
+        assert_eq!(drawing_scale(250.0, 400.0), 1000);
         assert_eq!(drawing_scale(650.0, 400.0), 2000);
     }
 
@@ -100,15 +94,6 @@ mod tests {
         for (raw, scale) in raw_and_scale {
             let found = sheet_scale(raw * 100.0, 100.0);
             assert!((found - scale).abs() <= 1e-15 * scale, "{raw}: {found}");
-        }
-    }
-
-    #[test]
-    fn draughts_fill_three_quarters_of_the_sheet() {
-        for k in 1..200 {
-            let raw = 0.01 * f64::from(k);
-            let part = raw / draught_scale(raw);
-            assert!((0.75 - 1e-9..=1.0 + 1e-9).contains(&part), "{raw}: {part}");
         }
     }
 

@@ -5,13 +5,15 @@ use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
 use super::{FigureInputs, PlotError, caption, outline};
-use crate::hull::{Hull, SectionalAreaCurve};
+use crate::hull::SectionalAreaCurve;
 use crate::hydrostatics::CurvesOfForm;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [300.0, 170.0];
 /// Stations along the immersed length at which the curve is taken.
 const STATIONS: usize = 401;
+/// How far inside the ends of the immersed length the curve begins, as a part of it.
+const INSIDE: f64 = 1e-4;
 /// Intervals between the perpendiculars.
 const INTERVALS: f64 = 20.0;
 
@@ -20,11 +22,11 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (hull, design) = (inputs.hull, inputs.design);
     let length = hull.particulars().length_between_perpendiculars;
     let [aft, fore] = outline::immersed_length(hull, design.draught);
-    let stations: Vec<f64> = (0..STATIONS).map(|k| aft + (fore - aft) * k as f64 / (STATIONS - 1) as f64).collect();
+    // A hair inside the ends, so that a transom or a blunt bow begins with its area.
+    let (first, whole) = (aft + INSIDE * (fore - aft), (1.0 - 2.0 * INSIDE) * (fore - aft));
+    let stations: Vec<f64> = (0..STATIONS).map(|k| first + whole * k as f64 / (STATIONS - 1) as f64).collect();
     let curve = SectionalAreaCurve::new(hull, design.draught, &stations);
-    let mut points = vec![[aft, 0.0]];
-    points.extend(curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]));
-    points.push([fore, 0.0]);
+    let points = upright_ends(&curve, [aft, fore]);
 
     let (low, high) = (aft.min(0.0), fore.max(length));
     let room = 0.02 * (high - low);
@@ -67,11 +69,12 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let mut series =
         vec![Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
     if let Some(before) = inputs.before {
-        let old = before_fairing(before, design.draught, &stations);
-        let apart =
-            old.points.iter().zip(&curve.areas).map(|(point, area)| (area - point[1]).abs()).fold(0.0, f64::max);
+        let old = SectionalAreaCurve::new(before, design.draught, &stations);
+        let apart = old.areas.iter().zip(&curve.areas).map(|(old, new)| (new - old).abs()).fold(0.0, f64::max);
         // The dashes stand on the curve after fairing, so that both are seen where they are one.
-        series.push(old);
+        let points = upright_ends(&old, outline::immersed_length(before, design.draught));
+        let dash = Some([2.4, 1.2]);
+        series.push(Series { name: "before", points, secondary: false, colour: colour::VERMILION, dash, name_at: 0.8 });
         let words = format!("the areas before and after differ by {apart:.3} m² at most");
         canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
         let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
@@ -79,18 +82,19 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             mark_centre(&mut canvas, &mut placer, &chart, ("LCB before", x), 2.0, !aft);
         }
     }
-    chart.draw(&mut canvas, &mut placer, &series, None)?;
+    chart.draw(&mut canvas, &mut placer, &series, &[])?;
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(canvas)
 }
 
-/// The curve of the hull before fairing.
-fn before_fairing(before: &Hull, draught: f64, stations: &[f64]) -> Series {
-    let curve = SectionalAreaCurve::new(before, draught, stations);
-    let points = curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]).collect();
-    let dash = Some([2.4, 1.2]);
-    Series { name: "before", points, secondary: false, colour: colour::VERMILION, dash, name_at: 0.8 }
+/// The points of a curve, which goes upright where the hull begins and ends with an area.
+fn upright_ends(curve: &SectionalAreaCurve, [aft, fore]: [f64; 2]) -> Vec<[f64; 2]> {
+    let inside: Vec<[f64; 2]> = curve.stations.iter().zip(&curve.areas).map(|(&x, &area)| [x, area]).collect();
+    let end = |x: f64, point: Option<&[f64; 2]>| [[x, 0.0], [x, point.map_or(0.0, |p| p[1])]];
+    let [low, first] = end(aft, inside.first());
+    let [high, last] = end(fore, inside.last());
+    [low, first].into_iter().chain(inside).chain([last, high]).collect()
 }
 
 /// The parallel middle body, shaded from keel to curve.
@@ -150,4 +154,23 @@ fn coefficients(inputs: &FigureInputs) -> String {
         parts.push(format!("LCB {percent:+.2} % L_PP from midship"));
     }
     parts.join("    ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parametric::analytic::{Dimensions, rectangular_box};
+
+    #[test]
+    fn a_box_begins_and_ends_with_its_area() {
+        let dimensions = Dimensions { length: 40.0, breadth: 12.0, draught: 3.0, depth: 5.0 };
+        let hull = rectangular_box("box", &dimensions).unwrap().hull;
+        let curve = SectionalAreaCurve::new(&hull, 3.0, &[0.01, 20.0, 39.99]);
+        let points = upright_ends(&curve, [0.0, 40.0]);
+        assert_eq!(points.len(), 7);
+        let expected = [[0.0, 0.0], [0.0, 36.0], [40.0, 36.0], [40.0, 0.0]];
+        for (found, expected) in [points[0], points[1], points[5], points[6]].iter().zip(expected) {
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+        }
+    }
 }

@@ -97,10 +97,10 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
         |text: &str, size: f64| Canvas::text_place([0.0, 0.0], text, &TextStyle::new(size, Anchor::Start)).width();
     let heading = format!("{} – {}", caption::plain(titles.ship), titles.title);
     let size = 3.8 * (room / wide(&heading, 3.8).max(1.0)).min(1.0);
-    canvas.text([columns[0] + 4.0, top + 4.2], &heading, &TextStyle::new(size, Anchor::Start));
+    canvas.text([columns[0] + 4.0, top + 3.7], &heading, &TextStyle::new(size, Anchor::Start));
     let small = TextStyle::new(LETTERS, Anchor::Start);
     for (k, line) in wrapped(titles.caption, |line| wide(line, small.size) <= room).iter().take(LINES).enumerate() {
-        canvas.text([columns[0] + 4.0, top + 8.6 + 3.7 * k as f64], line, &small);
+        canvas.text([columns[0] + 4.0, top + 7.9 + 3.6 * k as f64], line, &small);
     }
     let lines = [numbered(titles, paper), titles.source.to_owned(), stamped(titles)];
     for (k, line) in lines.iter().enumerate() {
@@ -111,7 +111,7 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
             &TextStyle { size: LETTERS * fitted, ..small },
         );
     }
-    Svg { text: canvas.finish(titles.title) }
+    Svg::new(canvas.finish(titles.title))
 }
 
 /// `drawing 3 of 24   A3, true size`.
@@ -125,13 +125,15 @@ fn stamped(titles: &Titles<'_>) -> String {
     titles.date.map_or_else(caption::program, |date| format!("{}   {date}", caption::program()))
 }
 
-/// For a drawing that is a sheet with its own frame: a line under the frame that says which drawing it is.
-pub(super) fn footed(sheet: Sheet, titles: &Titles<'_>) -> Svg {
+/// For a drawing that is a sheet with its own frame and title block: in that, which drawing it is.
+pub(super) fn numbered_over(sheet: Sheet, titles: &Titles<'_>) -> Svg {
     let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
-    let line = format!("{}   {}   {}", numbered(titles, sheet), titles.source, stamped(titles));
-    canvas.text([width - MARGIN, height - 0.5 * MARGIN], &line, &TextStyle::new(LETTERS, Anchor::End));
-    Svg { text: canvas.finish_clear(titles.title) }
+    let date = titles.date.map_or(String::new(), |date| format!("   {date}"));
+    let line = format!("{}{date}", numbered(titles, sheet));
+    let frame = sheet.frame();
+    title_block::draw_number(&mut canvas, &line, [frame.right, frame.bottom]);
+    Svg::new(canvas.finish_clear(titles.title))
 }
 
 /// Words in lines that fit.

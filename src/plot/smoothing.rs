@@ -54,7 +54,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     let mut placer = LabelPlacer::default();
     let points = trials.iter().map(|(_, point)| *point).collect();
     let series = [Series { name: "", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.5 }];
-    chart.draw(&mut canvas, &mut placer, &series, None)?;
+    chart.draw(&mut canvas, &mut placer, &series, &[])?;
     let dot = |canvas: &mut Canvas, at: [f64; 2], half: f64, fill: &'static str| {
         canvas.fill(&Rectangle::new(at[0] - half, at[1] - half, at[0] + half, at[1] + half), fill);
     };
@@ -81,5 +81,5 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
-    Ok(Some(Svg { text: canvas.finish("lcurve") }))
+    Ok(Some(Svg::new(canvas.finish("lcurve"))))
 }

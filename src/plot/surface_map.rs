@@ -8,10 +8,11 @@
 //! jumps by a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so that what the surface is made with
 //! is not taken for a bump. Between the points of the map the curvature, or the angle of the reflection, is linear.
 
-use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::canvas::{Anchor, Canvas, HAIR, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart};
 use super::label::LabelPlacer;
-use super::scale::{decimals, nice_step};
+use super::map_legend::Legend;
+use super::scale::nice_step;
 use super::sheet::ROOM;
 use super::zero_lines::zero_lines;
 use super::{PlotError, Svg, caption};
@@ -23,9 +24,9 @@ use std::thread;
 /// Columns and rows of the grid, about.
 const GRID: [usize; 2] = [221, 91];
 /// Steps of colour on each side of white.
-const STEPS: i32 = 7;
+pub(super) const STEPS: i32 = 7;
 /// Part of the surface that the full colours hold.
-const SHARE: f64 = 0.95;
+pub(super) const SHARE: f64 = 0.95;
 /// Curvature that is none, in 1/B (mean) and 1/B^2 (Gaussian).
 const FLAT: f64 = 1e-9;
 /// Height of a chart \[mm\].
@@ -34,9 +35,8 @@ const HEIGHT: f64 = 78.0;
 const PITCH: f64 = 104.0;
 /// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step of colour.
 const ZERO: f64 = 0.25 / (STEPS * STEPS) as f64;
-/// Size of the text, and width of a field of the legend \[mm\].
-const TEXT: f64 = 3.1;
-const SWATCH: f64 = 14.0;
+/// Size of the text \[mm\].
+pub(super) const TEXT: f64 = 3.1;
 /// Distance of the signs of curvature on the sheet \[mm\].
 const SIGNS: f64 = 9.0;
 /// Dark stripes to a turn of the reflected ray.
@@ -44,8 +44,13 @@ const STRIPES: f64 = 16.0;
 /// Least angle between the tangent planes of the two sides of a line that is a knuckle \[rad\].
 const KNUCKLE: f64 = 0.005;
 /// Lines across which curvature jumps, and knuckles.
-const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
-const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
+pub(super) const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
+pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
+/// Stations beyond which girths begin at the stern or stem profile, and how far inside the ends they are marked, in lengths of the hull.
+pub(super) const KEEL_END: Pen = Pen::new(0.3, "#000000").dashed(&[0.5, 0.9]);
+const MARKED: f64 = 5e-3;
+/// Where there is no side.
+pub(super) const NO_SIDE: &str = "#d9d9d9";
 
 /// What is mapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +85,7 @@ impl SurfaceMapKind {
         }
     }
 
-    fn unit(self) -> &'static str {
+    pub(super) fn unit(self) -> &'static str {
         match self {
             Self::Gaussian => "1/m²",
             _ => "1/m",
@@ -104,8 +109,8 @@ impl SurfaceMapKind {
 
     /// What is painted one over the other: a colour with the ranges of values, of those between `low` and `high`, that have it.
     fn layers(self, full: f64) -> Vec<(String, Ranges)> {
+        let all: Ranges = Box::new(|_, _| vec![[f64::NEG_INFINITY, f64::INFINITY]]);
         if self == Self::Zebra {
-            let all: Ranges = Box::new(|_, _| vec![[f64::NEG_INFINITY, f64::INFINITY]]);
             let dark: Ranges = Box::new(|low, high| {
                 let first = (0.5 * (low - 1.0)).ceil() as i64;
                 (first..)
@@ -121,11 +126,12 @@ impl SurfaceMapKind {
             let range = if k > 0 { [level(k), f64::INFINITY] } else { [f64::NEG_INFINITY, -level(-k)] };
             Box::new(move |_, _| vec![range])
         };
-        let steps = (1..=STEPS).flat_map(|k| [k, -k]).map(|k| (self.colour(k), beyond(k)));
-        if full > 0.0 { steps.collect() } else { Vec::new() }
+        let steps = if full > 0.0 { STEPS } else { 0 };
+        let steps = (1..=steps).flat_map(|k| [k, -k]).map(|k| (self.colour(k), beyond(k)));
+        [(self.colour(0), all)].into_iter().chain(steps).collect()
     }
 
-    fn colour(self, step: i32) -> String {
+    pub(super) fn colour(self, step: i32) -> String {
         if self == Self::Zebra {
             return if step == 0 { "#1a1a1a" } else { "#f4f4f4" }.to_owned();
         }
@@ -150,6 +156,8 @@ struct Side<'a> {
 pub struct SurfaceMaps {
     name: String,
     breadth: f64,
+    /// x of the ends of the keel \[m\].
+    keel: [f64; 2],
     after: SurfaceMap,
     before: Option<SurfaceMap>,
 }
@@ -166,7 +174,10 @@ impl SurfaceMaps {
             }),
             None => (map(hull), None),
         };
-        Self { name: hull.name().to_owned(), breadth: hull.particulars().breadth, after, before }
+        let surface = hull.surface();
+        let ((u0, u1), (v0, _)) = (surface.u().domain(), surface.v().domain());
+        let keel = [u0, u1].map(|u| surface.eval(u, v0)[0]);
+        Self { name: hull.name().to_owned(), breadth: hull.particulars().breadth, keel, after, before }
     }
 }
 
@@ -175,7 +186,7 @@ impl SurfaceMaps {
 /// # Errors
 /// [`PlotError::Chart`] when the chart cannot be drawn.
 pub fn surface_map(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(maps, kind)?.finish(kind.key()) })
+    Ok(Svg::new(compose(maps, kind)?.finish(kind.key())))
 }
 
 pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas, PlotError> {
@@ -194,10 +205,12 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
     let points = || sides.iter().flat_map(|side| &side.map.points);
     let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.at[0]), b.max(p.at[0])));
     let girth = points().map(|p| p.girth).fold(0.0, f64::max);
-    let mut canvas = Canvas::new(ROOM[0], 22.0 + PITCH * sides.len() as f64 + 20.0);
+    let foot = 22.0 + PITCH * sides.len() as f64;
+    let ends: Vec<f64> = maps.keel.into_iter().filter(|x| (x - low).min(high - x) > MARKED * (high - low)).collect();
+    let mut canvas = Canvas::new(ROOM[0], foot + 29.0);
     let title = format!("{} – {}", kind.title(), caption::plain(&maps.name));
     canvas.text([0.5 * ROOM[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
-    let words = "the side developed: girth of each station from the centreplane";
+    let words = "the side developed: girth of each station from the centreplane, or from the stern or stem profile where it has no keel";
     canvas.text([0.5 * ROOM[0], 15.0], words, &TextStyle::new(TEXT, Anchor::Middle));
     for (k, side) in sides.iter().enumerate() {
         let top = 28.0 + PITCH * k as f64;
@@ -209,6 +222,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
             right: None,
             text_size: TEXT,
         };
+        canvas.fill(&chart.frame, NO_SIDE);
         draw_cells(&mut canvas, &chart, side.map, kind, full);
         if kind != SurfaceMapKind::Zebra && full > 0.0 {
             let place = |at: [f64; 2]| chart.place(at);
@@ -218,20 +232,29 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
             }
         }
         draw_breaks(&mut canvas, &chart, side.map, jumps, jump);
+        for &x in &ends {
+            let [at, _] = chart.place([x, 0.0]);
+            canvas.line([at, chart.frame.bottom], [at, chart.frame.top], &KEEL_END);
+        }
         let columns = side.map.columns();
         for row in [0, side.map.rows - 1] {
             let edge = (0..columns).map(|i| side.map.point(i, row));
             let edge: Vec<[f64; 2]> = edge.map(|p| chart.place([p.at[0], p.girth])).collect();
             canvas.polyline(&edge, &Pen::new(0.35, "#000000"));
         }
-        chart.draw(&mut canvas, &mut LabelPlacer::default(), &[], None)?;
+        chart.draw(&mut canvas, &mut LabelPlacer::default(), &[], &[])?;
         let style = TextStyle::new(3.2, Anchor::Start);
         canvas.text([26.0, top - 3.4], side.heading, &style);
     }
-    let more = sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0);
-    legend(&mut canvas, kind, full, more, 22.0 + PITCH * sides.len() as f64 + 2.0);
-    let corner = [ROOM[0] - 6.0, 22.0 + PITCH * sides.len() as f64 + 16.0];
-    canvas.text(corner, &caption::program(), &TextStyle::new(TEXT, Anchor::End));
+    let legend = Legend {
+        kind,
+        full,
+        more: sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0),
+        ends: !ends.is_empty(),
+        pair: before.is_some(),
+    };
+    legend.draw(&mut canvas, foot + 1.0);
+    canvas.text([ROOM[0] - 6.0, foot + 25.5], &caption::program(), &TextStyle::new(TEXT, Anchor::End));
     Ok(canvas)
 }
 
@@ -261,6 +284,7 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
         })
     };
     for (colour, ranges) in kind.layers(full) {
+        let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
         let mut areas: Vec<Vec<[f64; 2]>> = Vec::new();
         for j in 0..map.rows - 1 {
             let mut run: Option<usize> = None;
@@ -280,14 +304,29 @@ fn draw_cells(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, kind: Surfac
                     continue;
                 }
                 if let Some(from) = run.take() {
-                    let below = (from..=i).map(|i| places[i * map.rows + j]);
-                    let above = (from..=i).rev().map(|i| places[i * map.rows + j + 1]);
-                    areas.push(below.chain(above).collect());
+                    // A hair wider and higher than its cells, which is drawn far quicker than a line around them.
+                    let along = |k: usize| {
+                        if k == from {
+                            -HAIR
+                        } else if k == i {
+                            HAIR
+                        } else {
+                            0.0
+                        }
+                    };
+                    let grown = |k: usize, row: usize, by: f64| {
+                        let [x, y] = places[k * map.rows + row];
+                        [x + along(k), y + by]
+                    };
+                    let below = (from..=i).map(|k| grown(k, j, HAIR));
+                    let above = (from..=i).rev().map(|k| grown(k, j + 1, -HAIR));
+                    runs.push(below.chain(above).collect());
                 }
                 areas.extend(parts.into_iter().filter(|part| part.len() > 2));
             }
         }
-        canvas.edged_areas(&areas, &colour);
+        canvas.areas(&runs, &colour, false);
+        canvas.areas(&areas, &colour, true);
     }
 }
 
@@ -371,51 +410,4 @@ fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize
             }
         }
     }
-}
-
-fn legend(canvas: &mut Canvas, kind: SurfaceMapKind, full: f64, more: usize, y: f64) {
-    let style = TextStyle::new(TEXT, Anchor::Start);
-    let lower = y + 7.0;
-    let mut x = 26.0;
-    let jumps = if more > 0 {
-        format!("curvature may jump at {more} more lines of the surface")
-    } else {
-        "curvature jumps across a line of the surface".to_owned()
-    };
-    for (pen, words) in [(&JUMP, jumps.as_str()), (&KNUCKLE_LINE, "knuckle")] {
-        canvas.line([x, lower], [x + 11.0, lower], pen);
-        canvas.text([x + 13.0, lower], words, &style);
-        x += 17.0 + Canvas::text_place([0.0, 0.0], words, &style).width();
-    }
-    if kind == SurfaceMapKind::Zebra {
-        let words = "reflections of lamps along the ship, seen from abeam: a kink is a break of curvature, a step a break of the tangent plane";
-        canvas.text([26.0, y], words, &style);
-        return;
-    }
-    let share = format!("full colours: the size that {:.0} % of the side do not pass", 100.0 * SHARE);
-    canvas.text([x + 8.0, lower], &share, &style);
-    if full <= 0.0 {
-        canvas.text([26.0, y], "0 all over the side", &style);
-        return;
-    }
-    x = 26.0;
-    let digits = decimals(nice_step(full.max(f64::MIN_POSITIVE), 20.0));
-    for step in -STEPS..=STEPS {
-        let place = Rectangle::new(x, y - 3.0, x + SWATCH, y + 3.0);
-        canvas.fill(&place, &kind.colour(step));
-        canvas.rectangle(&place, &Pen::new(0.08, "#808080"));
-        let value = full * (f64::from(step) / f64::from(STEPS)).powi(2).copysign(f64::from(step));
-        let text = if step == 0 { "0".to_owned() } else { format!("{value:+.digits$}") };
-        let ink = if step.abs() > 5 { "#ffffff" } else { "#000000" };
-        // The smallest steps have no figures of their own.
-        if step == 0 || step.abs() % 2 == 1 && step.abs() > 2 {
-            canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle::new(TEXT, Anchor::Middle).coloured(ink));
-        }
-        x += SWATCH;
-    }
-    let words = match kind {
-        SurfaceMapKind::Gaussian => "+ orange: convex both ways; white: developable; - blue: saddle; black: 0",
-        _ => "+ orange: convex outward; - blue: hollow; black: 0",
-    };
-    canvas.text([x + 3.0, y], &format!("{}   {words}", kind.unit()), &style);
 }

@@ -75,7 +75,7 @@ const HEIGHTS: Words = Words {
 /// # Errors
 /// [`PlotError::Chart`] for a table without cells.
 pub fn suspects_figure(table: &OffsetTable, result: &Suspects) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(table, result, &OFFSETS)?.finish("suspects") })
+    Ok(Svg::new(compose(table, result, &OFFSETS)?.finish("suspects")))
 }
 
 /// Draws the suspects among heights at buttocks.
@@ -84,7 +84,7 @@ pub fn suspects_figure(table: &OffsetTable, result: &Suspects) -> Result<Svg, Pl
 /// [`PlotError::Chart`] for a table without such heights.
 pub fn suspect_heights_figure(table: &OffsetTable, result: &Suspects) -> Result<Svg, PlotError> {
     let grid = height_grid(table).ok_or_else(|| PlotError::Chart("the table has no heights".to_owned()))?;
-    Ok(Svg { text: compose(&grid, result, &HEIGHTS)?.finish("suspect heights") })
+    Ok(Svg::new(compose(&grid, result, &HEIGHTS)?.finish("suspect heights")))
 }
 
 pub(super) fn compose(table: &OffsetTable, result: &Suspects, words: &Words) -> Result<Canvas, PlotError> {

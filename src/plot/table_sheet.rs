@@ -58,5 +58,5 @@ pub fn table_figure(title: &str, note: &str, heads: &[&str], words: usize, rows:
     }
     canvas.rectangle(&Rectangle::new(left, HEAD, left + width, bottom), &Pen::new(0.35, "#000000"));
     canvas.text([ROOM[0] - 6.0, bottom + FOOT - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
-    Svg { text: canvas.finish("table") }
+    Svg::new(canvas.finish("table"))
 }

@@ -107,6 +107,10 @@ fn every_waterline_is_named_in_the_half_breadth_plan() {
             let named = canvas.texts().iter().any(|text| text.content == plane.name);
             assert!(named, "{}: {} bears no name", hull.name(), plane.name);
         }
+        for plane in &grid.diagonals {
+            let names = canvas.texts().iter().filter(|text| text.content == plane.name).count();
+            assert!((1..=2).contains(&names), "{}: {} bears {names} names", hull.name(), plane.name);
+        }
         let document = canvas.finish("half-breadths");
         assert!(
             document.contains("stroke-width=\"0.55\" stroke-dasharray"),
@@ -135,8 +139,8 @@ fn figures_bear_the_names_of_their_lines() {
             &[
                 "frigate",
                 "LINES PLAN",
-                "PROFILE   1 : 300",
-                "BODY PLAN   1 : 125",
+                "PROFILE   1 : 500",
+                "BODY PLAN   1 : 100",
                 "AP",
                 "FP",
                 "DWL  4.40 m",
@@ -222,6 +226,7 @@ fn pictures_are_of_the_size_of_a_page() {
     for figure in Figure::ALL {
         let svg = with_inputs(&hull, |inputs| figure.draw(inputs)).unwrap();
         let png = svg.to_png(figure.dots_per_inch()).unwrap();
+        assert!(png.windows(4).any(|bytes| bytes == b"pHYs"), "{}: no resolution", figure.key());
         assert!(png.len() < 1_000_000, "{}: {} bytes", figure.key(), png.len());
         let width = u32::from_be_bytes(png[16..20].try_into().unwrap());
         assert!((1200..=3500).contains(&width), "{}: {width} pixels", figure.key());
@@ -245,5 +250,46 @@ fn curves_need_two_draughts() {
         FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
     for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
         assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
+    }
+}
+
+#[test]
+fn curves_end_where_the_deck_edge_goes_under() {
+    let hull = ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]);
+    let p = hull.particulars();
+    let table = CurvesOfForm::new(&hull, &[0.5 * p.draught, p.draught, 1.3 * p.depth], &Conventions::default());
+    let inputs =
+        FigureInputs { hull: &hull, before: None, design: &table.rows[1], curves: &table, source: None, dense: None };
+    let rows = inputs.dense_rows().unwrap();
+    let edge = inputs.immersed_edge(&rows).unwrap();
+    assert!((edge - p.depth).abs() < 0.05 * p.depth, "{edge}");
+    assert!(rows.iter().all(|row| row.draught <= edge + 1e-9));
+    for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
+        let canvas = figure.compose(&inputs).unwrap();
+        let named = canvas.texts().iter().any(|text| text.content.starts_with("deck edge goes under at "));
+        assert!(named, "{}", figure.key());
+    }
+    with_inputs(&hull, |inputs| assert_eq!(inputs.immersed_edge(&inputs.dense_rows().unwrap()), None));
+}
+
+#[test]
+fn names_of_sections_stand_on_their_side_of_the_centre_line() {
+    for hull in &hulls() {
+        let canvas = with_inputs(hull, |inputs| Figure::Sections.compose(inputs)).unwrap();
+        let texts = canvas.texts();
+        let centre =
+            texts.iter().find(|text| text.content == "CL").map(|text| 0.5 * (text.place.left + text.place.right));
+        let centre = centre.unwrap();
+        // The names over the deck; those on the curves may stand across the line.
+        let top = texts.iter().filter(|text| text.content.starts_with("WL ")).map(|text| text.place.top);
+        let top = top.fold(f64::INFINITY, f64::min);
+        for text in texts.iter().filter(|text| names_stations(&text.content) && text.place.bottom < top) {
+            let first = text.content.split([' ', '½']).next().unwrap_or_default().parse::<i32>();
+            match first {
+                Ok(first) if first > 10 => assert!(text.place.left > centre, "{}: {text:?}", hull.name()),
+                Ok(first) if first < 10 => assert!(text.place.right < centre, "{}: {text:?}", hull.name()),
+                _ => {}
+            }
+        }
     }
 }

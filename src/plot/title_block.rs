@@ -9,6 +9,8 @@ use super::{FigureInputs, caption};
 pub(super) const SIZE: [f64; 2] = [138.0, 57.0];
 /// Where its second column begins, as a part of its width.
 const SPLIT: f64 = 0.59;
+/// Height of a row of its text [mm]; six rows are filled, the seventh is for the number of the drawing.
+const ROW_OF_TEXT: f64 = 5.2;
 const FRAME: Pen = Pen::new(0.35, "#000000");
 const RULE: Pen = Pen::new(0.13, "#000000");
 
@@ -71,10 +73,16 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
             // Long names of files are set smaller rather than over the edge.
             let fitted = room / Canvas::text_place([0.0, 0.0], text, &style).width().max(1.0);
             let style = TextStyle { size: style.size * fitted.min(1.0), ..style };
-            canvas.text([x, block.top + 13.7 + 5.2 * row as f64], text, &style);
+            canvas.text([x, block.top + 13.7 + ROW_OF_TEXT * row as f64], text, &style);
         }
     }
     draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.4]);
+}
+
+/// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free for it.
+pub(super) fn draw_number(canvas: &mut Canvas, text: &str, corner: [f64; 2]) {
+    let at = [corner[0] - SIZE[0] + 3.0, corner[1] - SIZE[1] + 13.7 + 6.0 * ROW_OF_TEXT];
+    canvas.text(at, text, &TextStyle::new(LETTERS, Anchor::Start));
 }
 
 /// A bar of 100 mm, to check the scale of a print.
@@ -93,14 +101,18 @@ pub(super) fn draw_check_bar(canvas: &mut Canvas, at: [f64; 2]) {
 const ROW: f64 = 4.4;
 /// Room between the columns of the table [mm].
 const APART: f64 = 1.8;
-/// Waterlines past which a table may leave out every second of them.
-const MANY: usize = 8;
+/// Waterlines past which a table may leave out every second of them, and three of four.
+const MANY: [usize; 2] = [8, 16];
 /// Width of its first column [mm].
 const FIRST_COLUMN: f64 = 29.0;
 
-/// Width with every second station, and height with every second waterline where there are many [mm].
+/// Width with every second station, and height with every second or fourth waterline where there are many [mm].
 pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
-    let rows = if grid.waterlines.len() > MANY { thinned(grid).len() } else { waterlines(grid).len() };
+    let rows = match grid.waterlines.len() {
+        count if count > MANY[1] => thinned(grid, 4).len(),
+        count if count > MANY[0] => thinned(grid, 2).len(),
+        _ => waterlines(grid).len(),
+    };
     [FIRST_COLUMN + column(grid) * every_second(grid).len() as f64, table_height(rows)]
 }
 
@@ -125,11 +137,11 @@ fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
 }
 
 /// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; of all
-/// waterlines, or of every second of them and the design waterline.
+/// waterlines, or of every second or fourth of them and the design waterline.
 pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
     let hull = inputs.hull;
     let fits = |planes: &Vec<&GridPlane>| table_height(planes.len()) <= room.height() + 1e-9;
-    let Some(planes) = [waterlines(grid), thinned(grid)].into_iter().find(fits) else { return };
+    let Some(planes) = [waterlines(grid), thinned(grid, 2), thinned(grid, 4)].into_iter().find(fits) else { return };
     let height = table_height(planes.len());
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
     let width = |count: usize| FIRST_COLUMN + column(grid) * count as f64;
@@ -141,7 +153,7 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
     let right = left + width(stations.len());
     let style = TextStyle::new(LETTERS, Anchor::End);
     let head = TextStyle { anchor: Anchor::Start, ..style };
-    canvas.text([left, top - 2.8], "HALF-BREADTHS [m]", &TextStyle { size: 3.5, ..head });
+    canvas.text([left, top - 2.8], "HALF-BREADTHS [m] of the surface", &TextStyle { size: 3.5, ..head });
     let row_at = |row: usize| top + ROW * (row as f64 + 0.5);
     canvas.text([left + 1.0, row_at(0)], "station", &head);
     for (column, station) in stations.iter().enumerate() {
@@ -176,9 +188,9 @@ fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
     planes
 }
 
-/// Every second of the whole waterlines, with the design waterline among them.
-fn thinned(grid: &LinesGrid) -> Vec<&GridPlane> {
-    let even = |plane: &&GridPlane| (plane.at / grid.waterline_spacing).round() as i64 % 2 == 0;
+/// One of `step` of the whole waterlines, with the design waterline among them.
+fn thinned(grid: &LinesGrid, step: i64) -> Vec<&GridPlane> {
+    let even = |plane: &&GridPlane| (plane.at / grid.waterline_spacing).round() as i64 % step == 0;
     let whole = grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).filter(even);
     let mut planes: Vec<_> = whole.chain([&grid.design_waterline]).collect();
     planes.sort_by(|a, b| a.at.total_cmp(&b.at));

@@ -1,7 +1,7 @@
 //! The page that `fair` prints: what moved, what holds and at which price, what bends, and the proof.
 
 use super::fair::{FairJob, FairOutputs};
-use super::page::{WIDTH, fixed, wrapped};
+use super::page::{WIDTH, fixed, fixed_sign, wrapped};
 use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::held::Held;
@@ -213,12 +213,6 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         };
         page.push_str(&wrapped(&line, 2));
     }
-}
-
-fn fixed_sign(value: f64, decimals: usize, unit: &str) -> String {
-    let text = fixed(value, decimals);
-    let plain = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
-    if text.starts_with('-') || plain { format!("{text}{unit}") } else { format!("+{text}{unit}") }
 }
 
 /// The page of `fair`, at most 80 columns wide.

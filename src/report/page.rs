@@ -26,6 +26,13 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// The same with its sign and unit.
+pub(super) fn fixed_sign(value: f64, decimals: usize, unit: &str) -> String {
+    let text = fixed(value, decimals);
+    let plain = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
+    if text.starts_with('-') || plain { format!("{text}{unit}") } else { format!("+{text}{unit}") }
+}
+
 /// The longitudinal centre of buoyancy as the conventions have it printed; empty when it is not defined.
 pub(super) fn lcb(row: &Hydrostatics, conventions: &Conventions, length: f64) -> String {
     row.lcb.filter(|x| x.is_finite()).map(|x| fixed(conventions.lcb_reference.lcb(x, length), 3)).unwrap_or_default()

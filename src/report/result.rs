@@ -27,6 +27,8 @@ pub struct JobResult {
     pub draughts: Vec<f64>,
     /// The faired table, and `fairing.json`.
     pub fairing: Option<(FairRecord, Value)>,
+    /// What was asked of the hull at its design draught: keys of quantities, and values in their units.
+    pub targets: Vec<(String, f64)>,
     /// `changes.csv`, where there is one.
     pub changes: Option<String>,
     /// What should be known about the files.
@@ -157,6 +159,7 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
         conventions,
         draughts: Vec::new(),
         fairing: None,
+        targets: Vec::new(),
         changes: None,
         notes: Vec::new(),
         inputs,
@@ -201,6 +204,13 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             Some((record, whole))
         }
     };
+    let targets = match &fairing {
+        Some((_, whole)) => held_targets(whole),
+        None => match reader.there("summary.json")? {
+            Some(text) => targets(&json(&folder.join("summary.json"), &text)?["targets"], "requested", str::to_owned),
+            None => Vec::new(),
+        },
+    };
     let p = *hull.particulars();
     let draughts = match reader.there("hydrostatics.csv")? {
         Some(text) => first_column(&folder.join("hydrostatics.csv"), &text)?,
@@ -219,12 +229,39 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
     Ok(JobResult {
         draughts,
         fairing,
+        targets,
         changes,
         notes,
         origin,
         folder: Some(folder),
         ..bare(hull, conventions, reader.inputs)
     })
+}
+
+/// The key and the value `wanted` of every member of a list that has both; `key` is the member `key`.
+fn targets(list: &Value, wanted: &str, key: impl Fn(&str) -> String) -> Vec<(String, f64)> {
+    let one =
+        |target: &Value| Some((key(target["key"].as_str().or(target["kind"].as_str())?), target[wanted].as_f64()?));
+    list.as_array().into_iter().flatten().filter_map(one).collect()
+}
+
+/// What a fairing held of the whole hull, where it is a quantity of the table of hydrostatics.
+fn held_targets(fairing: &Value) -> Vec<(String, f64)> {
+    let key = |kind: &str| match kind {
+        "displacement" => "DISPVOL".to_owned(),
+        "lcb" => "XCB".to_owned(),
+        "block_coefficient" => "CB".to_owned(),
+        "midship_coefficient" => "CM".to_owned(),
+        "kb" => "KB".to_owned(),
+        "waterplane_area" => "AWL".to_owned(),
+        "waterplane_coefficient" => "CWP".to_owned(),
+        "lcf" => "XWL".to_owned(),
+        "km" => "KMT".to_owned(),
+        "gm" => "GMT".to_owned(),
+        "wetted_surface" => "S".to_owned(),
+        other => other.to_owned(),
+    };
+    targets(&fairing["constraints"], "target", key)
 }
 
 /// The draughts of `hydrostatics.csv`.

@@ -14,7 +14,7 @@ use super::result_files::ReportSettings;
 use super::result_page::{Table, condition, constraints};
 use super::verdict::verdict;
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
+use crate::hydrostatics::Hydrostatics;
 use crate::plot::{
     CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
     convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
@@ -77,13 +77,17 @@ fn words(figure: Figure) -> [&'static str; 3] {
             "Its area is the displacement and its centroid the LCB. Shoulders should be no sharper than the hull needs; \
              hollows stand at the ends alone.",
         ],
-        Figure::Hydrostatics => {
-            [key, "Hydrostatic curves", "All curves over one axis of draught; the dash-dot line is the design draught."]
-        }
+        Figure::Hydrostatics => [
+            key,
+            "Hydrostatic curves",
+            "All curves over one axis of draught; the dash-dot line is the design draught. Curves end where the deck edge first goes \
+                 under: beyond it the hull without its superstructure says nothing. A bend of TPC or KM tells of a shoulder or a flare.",
+        ],
         Figure::DiagramSheet => [
             key,
             "Diagram sheet",
-            "The classic sheet: measure from the axis that the legend names and multiply by the scale of the curve.",
+            "The classic sheet: measure from the axis that the foot names and multiply by the scale of the curve. Curves end where the deck \
+             edge first goes under.",
         ],
     }
 }
@@ -183,7 +187,8 @@ fn fairing_jobs<'a>(
             [
                 "fairing-buttocks",
                 "Buttocks before and after",
-                "Buttocks were not used in the fit: humps that show here alone are humps of the surface between the lines.",
+                "Buttocks were not used in the fit, a strip each: humps of the combs that show here alone are humps of the surface between \
+                 the lines.",
             ],
             Box::new(move |sheet| some(fairing_buttocks(record, combs(), sheet))),
         ),
@@ -191,7 +196,8 @@ fn fairing_jobs<'a>(
             [
                 "fairing-diagonals",
                 "Diagonals before and after",
-                "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before.",
+                "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before. Their combs should \
+                 run smoothly from end to end.",
             ],
             Box::new(move |sheet| some(fairing_diagonals(record, combs(), sheet))),
         ),
@@ -270,24 +276,18 @@ fn lines(text: &str) -> Vec<String> {
 }
 
 /// What the fairing came to, in sentences; none of other results.
-fn verdict_figure(result: &JobResult, inputs: &FigureInputs) -> Option<Svg> {
-    let before = condition_before(inputs);
-    let found = verdict(result, [before.as_ref(), Some(inputs.design)]);
+fn verdict_figure(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) -> Option<Svg> {
+    let found = verdict(result, conditions);
     let rows = found.iter().flat_map(|(bad, text)| lines(text).into_iter().map(|line| (*bad, vec![line]))).collect();
     let table = Table { heads: vec![result.hull.name().replace('_', " ")], words: 1, rows };
     sheet("WHAT THE FAIRING CAME TO", "all of it in fairing.json and on report.html", table)
 }
 
-/// The design condition before fairing.
-fn condition_before(inputs: &FigureInputs) -> Option<Hydrostatics> {
-    let rows = |hull| CurvesOfForm::new(hull, &[inputs.design.draught], &inputs.curves.conventions).rows.pop();
-    inputs.before.and_then(rows)
-}
-
 /// The design condition, that before fairing beside it.
-fn condition_figure(inputs: &FigureInputs) -> Option<Svg> {
-    let before = condition_before(inputs);
-    sheet("DESIGN CONDITION", &conventions_line(&inputs.curves.conventions), condition(inputs.design, before.as_ref()))
+fn condition_figure(result: &JobResult, inputs: &FigureInputs, before: Option<&Hydrostatics>) -> Option<Svg> {
+    let title = format!("DESIGN CONDITION – {}", result.hull.name().replace('_', " "));
+    let table = condition(result, inputs.design, before);
+    sheet(&title, &conventions_line(&inputs.curves.conventions), table)
 }
 
 /// What several figures are drawn from, made when the first of them asks for it.
@@ -300,7 +300,7 @@ struct Shared {
 /// What is drawn of a result.
 fn jobs<'a>(
     result: &'a JobResult,
-    inputs: &'a FigureInputs<'a>,
+    (inputs, before): (&'a FigureInputs<'a>, Option<&'a Hydrostatics>),
     shared: &'a Shared,
     chosen: &'a [CombLine],
 ) -> Vec<Job<'a>> {
@@ -313,7 +313,14 @@ fn jobs<'a>(
         "What the fairing came to",
         "Moves, inflections and prices in one look; the sheets that follow prove them.",
     ];
-    jobs.insert(0, Job { words: came, draw: Box::new(|_| Ok(verdict_figure(result, inputs))), scaled: false });
+    jobs.insert(
+        0,
+        Job {
+            words: came,
+            draw: Box::new(move |_| Ok(verdict_figure(result, [before, Some(inputs.design)]))),
+            scaled: false,
+        },
+    );
     let standard = |figure: Figure| Job {
         words: words(figure),
         draw: Box::new(move |sheet| figure.draw_on(inputs, sheet).map(Some)) as Draw<'a>,
@@ -321,8 +328,8 @@ fn jobs<'a>(
     };
     jobs.extend(Figure::ALL.map(standard));
     jobs.push(Job {
-        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught."],
-        draw: Box::new(|_| Ok(condition_figure(inputs))),
+        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits."],
+        draw: Box::new(move |_| Ok(condition_figure(result, inputs, before))),
         scaled: false,
     });
     jobs.push(Job {
@@ -340,20 +347,21 @@ fn jobs<'a>(
             SurfaceMapKind::Gaussian => [
                 kind.key(),
                 "Gaussian curvature",
-                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0. Steps of \
-                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0, grey is \
+                 no side. Along a dashed line the surface has a tangent plane and no more: a step of colour there is hers.",
             ],
             SurfaceMapKind::Mean => [
                 kind.key(),
                 "Mean curvature",
-                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0. Steps of \
-                 colour along a dashed line are those of the surface, which has but a tangent plane there.",
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0, grey is no side. \
+                 Along a dashed line the surface has a tangent plane and no more: a step of colour there is hers.",
             ],
             SurfaceMapKind::Zebra => [
                 kind.key(),
                 "Zebra stripes",
-                "Stripes swing evenly over a fair surface. A kink is a break of curvature: where the surface is made with one its line is dashed. A \
-                 step is a break of the tangent plane: a knuckle, its line heavy.",
+                "Stripes swing evenly over a fair surface. A kink along a dashed line is a jump of curvature the surface is made with, a step \
+                 along a heavy line a knuckle; where the keel ends (dotted) girths begin at the profile, and stripes step though the \
+                 surface does not. Any other kink is a bump.",
             ],
         };
         let draw: Draw<'a> = Box::new(move |_| surface_map(maps(), kind).map(Some));
@@ -369,16 +377,21 @@ type Drawn = (usize, Result<Option<ReportFigure>, Failure>);
 pub(super) fn report_figures(
     result: &JobResult,
     inputs: &FigureInputs<'_>,
+    before: Option<&Hydrostatics>,
     settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
     let shared = Shared::default();
     let chosen = comb_lines(result, settings)?;
-    let jobs = jobs(result, inputs, &shared, &chosen);
+    let jobs = jobs(result, (inputs, before), &shared, &chosen);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
+    // Neighbours are drawn from the same and would wait for each other: one from the second half of the list, then one from the first. The
+    // maps, which take longest, come first.
+    let half = jobs.len().div_ceil(2);
+    let order: Vec<usize> = (0..half).rev().flat_map(|k| [half + k, k]).filter(|k| *k < jobs.len()).collect();
     let work = || {
-        while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|k| Some((k, jobs.get(k)?)))
-        {
+        while let Some(index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let (index, job) = (*index, &jobs[*index]);
             let one = figure(job, settings);
             drawn.lock().unwrap_or_else(PoisonError::into_inner).push((index, one));
         }

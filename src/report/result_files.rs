@@ -57,11 +57,11 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         source: Some(&source),
         dense: Some(&dense),
     };
-    let figures = report_figures(result, &inputs, settings)?;
     let before = result
         .fairing
         .as_ref()
         .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
+    let figures = report_figures(result, &inputs, before.as_ref(), settings)?;
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let pages: Vec<Page<'_>> = figures
         .iter()

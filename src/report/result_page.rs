@@ -8,7 +8,7 @@ use super::page::{fixed, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::verdict;
-use crate::exchange::scene_json;
+use crate::exchange::{NO_MOVE, scene_json};
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
 use crate::hull::Hull;
@@ -88,12 +88,14 @@ fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
     Table { heads, words: 0, rows: curves.rows.iter().map(row).collect() }
 }
 
-/// The design condition, and that before fairing where there is one.
-pub(super) fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) -> Table {
-    let mut table = match before {
-        Some(_) => Table::new(&["quantity", "key", "unit", "before", "after", "difference"], 3),
-        None => Table::new(&["quantity", "key", "unit", "value"], 3),
-    };
+/// The design condition, that before fairing where there is one, and what was asked for where something was.
+pub(super) fn condition(result: &JobResult, design: &Hydrostatics, before: Option<&Hydrostatics>) -> Table {
+    let mut heads = vec!["quantity", "key", "unit"];
+    heads.extend(if before.is_some() { ["before", "after", "difference"].as_slice() } else { &["value"] });
+    if !result.targets.is_empty() {
+        heads.push("target");
+    }
+    let mut table = Table::new(&heads, 3);
     for q in QUANTITIES {
         let Some(value) = (q.value)(design) else { continue };
         let mut cells = vec![q.name.to_owned(), q.key.to_owned(), unit(q.key).to_owned()];
@@ -104,6 +106,10 @@ pub(super) fn condition(design: &Hydrostatics, before: Option<&Hydrostatics>) ->
             cells.push(old.map_or(String::new(), |old| fixed(value - old, q.decimals + 1)));
         } else {
             cells.push(fixed(value, q.decimals));
+        }
+        if !result.targets.is_empty() {
+            let target = result.targets.iter().find(|(key, _)| key == q.key);
+            cells.push(target.map_or(String::new(), |(_, wanted)| fixed(*wanted, q.decimals)));
         }
         table.rows.push((false, cells));
     }
@@ -134,8 +140,10 @@ fn value(value: &Value) -> String {
     if value.as_f64().is_some_and(|number| number.abs() < 1e-9) { "0".to_owned() } else { figures(value, 8) }
 }
 
-fn millimetres(value: &Value, decimals: usize) -> String {
-    value.as_f64().map_or(String::new(), |metres| fixed(1e3 * metres, decimals))
+/// A price \[m\] in millimetres to two figures; what is rounding, of either sign, is 0.
+fn price(value: &Value) -> String {
+    let Some(metres) = value.as_f64() else { return String::new() };
+    if metres < NO_MOVE { "0".to_owned() } else { figures(&(1e3 * metres).into(), 2) }
 }
 
 pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
@@ -156,7 +164,7 @@ pub(super) fn constraints(fairing: &Value) -> Table {
                 value(&held["after"]),
                 figures(&held["residual"], 2),
                 figures(&held["multiplier"], 3),
-                millimetres(&held["price"], 3),
+                price(&held["price"]),
             ],
         ));
     }
@@ -172,7 +180,7 @@ pub(super) fn constraints(fairing: &Value) -> Table {
                 blank(),
                 figures(&rule["violation"], 2),
                 figures(&rule["multiplier"], 3),
-                millimetres(&rule["price"], 3),
+                price(&rule["price"]),
             ],
         ));
     }
@@ -300,7 +308,8 @@ fn viewer(result: &JobResult) -> String {
     }
     html.push_str(
         "</div>\n<p id=\"no-view\" class=\"bad\" hidden>This browser has no WebGL; the figures below show the same.</p>\n\
-         <canvas id=\"view\"></canvas>\n<p id=\"legend\"></p></section>\n",
+         <canvas id=\"view\"></canvas>\n<p id=\"scale\"><span id=\"scale-bar\"></span> <span id=\"scale-words\"></span></p>\n\
+         <p id=\"legend\"></p></section>\n",
     );
     html
 }
@@ -346,7 +355,7 @@ pub(super) fn report_page(
         let told = "<p>Buttocks and diagonals were not used in the fit: they are the independent check.</p>\n";
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(fairing).html())));
     }
-    sections.push(("condition", "Design condition", condition(design, before).html()));
+    sections.push(("condition", "Design condition", condition(result, design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
     if let Some(table) = changes(result) {
         sections.push(("changes", "Every offset before and after", table.html()));
@@ -402,4 +411,16 @@ pub(super) fn report_page(
     html.push_str(&format!("<script type=\"application/json\" id=\"scene\">{}</script>\n", scene(result)));
     html.push_str(&format!("<script>\n{TABLES}</script>\n<script>\n{VIEWER}</script>\n</body></html>\n"));
     html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prices_that_are_rounding_are_nothing() {
+        for (metres, text) in [(-7.7e-7, "0"), (4.9e-7, "0"), (2.6e-6, "0.0026"), (1.7e-4, "0.17"), (0.0123, "12")] {
+            assert_eq!(price(&metres.into()), text);
+        }
+    }
 }

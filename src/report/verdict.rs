@@ -1,6 +1,8 @@
 //! What a fairing came to, in sentences.
 
-use super::page::fixed;
+use serde_json::Value;
+
+use super::page::{fixed, fixed_sign};
 use super::result::JobResult;
 use super::result_page::{list, text};
 use crate::hydrostatics::{Conventions, Hydrostatics};
@@ -8,20 +10,34 @@ use crate::hydrostatics::{Conventions, Hydrostatics};
 /// Curves whose inflections are counted, as files name them.
 const KINDS: [&str; 4] = ["waterlines", "stations", "buttocks", "diagonals"];
 
+/// Most lines that are named.
+const NAMED: usize = 6;
+
 /// Displacement and LCB at the design draught before and after.
 fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conventions) -> String {
     let share = 100.0 * (after.displacement_mass / before.displacement_mass - 1.0);
     let lcb = |row: &Hydrostatics| row.lcb.map_or("-".to_owned(), |x| fixed(x, 3));
-    let moved = after.lcb.zip(before.lcb).map_or(String::new(), |(a, b)| format!(" ({:+.3} m)", a - b));
+    let moved = after.lcb.zip(before.lcb).map_or(String::new(), |(a, b)| format!(" ({})", fixed_sign(a - b, 3, " m")));
     format!(
-        "At T {} m{}: displacement {} → {} t ({share:+.3} %), LCB {} → {} m from AP{moved}.",
+        "At T {} m{}: displacement {} → {} t ({}), LCB {} → {} m from AP{moved}.",
         fixed(after.draught, 3),
         conventions.draught_mark(),
         fixed(before.displacement_mass, 1),
         fixed(after.displacement_mass, 1),
+        fixed_sign(share, 3, " %"),
         lcb(before),
         lcb(after)
     )
+}
+
+/// The lines that bend more often after fairing than `than` says, with the numbers of their inflections.
+fn more_often(fairing: &Value, than: &str) -> Vec<String> {
+    let one = |key: &str, line: &Value| {
+        let (after, most) = line["after"].as_u64().zip(line[than].as_u64())?;
+        let at = fixed(line["at"].as_f64()?, 3);
+        (after > most).then(|| format!("{} {at} m ({after} for {most})", key.trim_end_matches('s')))
+    };
+    KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]).filter_map(move |line| one(key, line))).collect()
 }
 
 /// What the fairing came to, in sentences.
@@ -55,20 +71,21 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     let counts: Vec<String> =
         KINDS.iter().map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after"))).collect();
     lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
-    let all = || KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]));
-    let more_than = |than: &str| {
-        all()
-            .filter(|line| line["after"].as_u64().zip(line[than].as_u64()).is_some_and(|(after, most)| after > most))
-            .count()
-    };
-    let (worse, beyond) = (more_than("before"), more_than("allowed"));
-    if worse > 0 {
-        lines.push((true, format!("{worse} lines bend more often after than before.")));
+    for (than, words) in [("before", "after than before"), ("allowed", "than was asked of them")] {
+        let lines_there = more_often(fairing, than);
+        if !lines_there.is_empty() {
+            let more = lines_there.len().saturating_sub(NAMED);
+            let and = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let named = lines_there[..lines_there.len() - more].join(", ");
+            let count = lines_there.len();
+            let (noun, verb) = if count == 1 { ("line", "bends") } else { ("lines", "bend") };
+            lines.push((true, format!("{count} {noun} {verb} more often {words}: {named}{and}.")));
+        }
     }
-    if beyond > 0 {
-        let text = "lines bend more often than was asked of them, between the places where their signs were imposed or within the dead band \
-                    about no curvature: compare the columns after and allowed.";
-        lines.push((true, format!("{beyond} {text}")));
+    if !more_often(fairing, "allowed").is_empty() {
+        let text = "Such bends lie between the places where the signs of the line were imposed, or within the dead band about no curvature; \
+                    report.html lists every line under Inflections.";
+        lines.push((false, text.to_owned()));
     }
     let prices: Vec<String> = list(&fairing["constraints"]).map(|held| text(&held["words"])).collect();
     if !prices.is_empty() {

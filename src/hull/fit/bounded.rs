@@ -6,7 +6,7 @@
 
 use super::super::HullError;
 use super::FitError;
-use super::monotone::monotone_cubic;
+use super::monotone::{monotone_cubic, monotone_slope};
 use crate::spline::{BsplineCurve, Condition, Energy, KnotVector, MinimumEnergy};
 
 /// Points in which a gap is looked at.
@@ -14,6 +14,9 @@ const LOOKS: usize = 7;
 
 /// A round that multiplies the swing of the control values by more than this is not taken.
 const RUNAWAY: f64 = 3.0;
+
+/// Values that differ by less than this part of the tolerance are equal.
+const EQUAL: f64 = 1e-6;
 
 /// Rounds of pulling back; a round frees neighbours that were held by the swing before.
 const ROUNDS: usize = 4;
@@ -28,8 +31,10 @@ pub(super) struct Line {
     pub(super) limits: Vec<[f64; 2]>,
     /// How far beyond the limits is left alone.
     pub(super) tolerance: f64,
-    /// Indices of the sites at which the slope is 0: edges of flats.
-    pub(super) level: Vec<usize>,
+    /// Indices of sites at which the slope is given, and the slopes.
+    pub(super) slopes: Vec<(usize, f64)>,
+    /// First and last index of what is one value throughout.
+    pub(super) runs: Vec<[usize; 2]>,
 }
 
 impl Line {
@@ -60,10 +65,11 @@ impl Line {
                 [(a - margin).max(low), (b + margin).min(high)]
             })
             .collect();
-        Self { sites, values, slacks, limits, tolerance, level: Vec::new() }
+        Self { sites, values, slacks, limits, tolerance, slopes: Vec::new(), runs: Vec::new() }
     }
 
-    /// Limits only where two neighbouring data agree to `tolerance`.
+    /// Limits only where two neighbouring data agree to `tolerance`. Where they are equal the spline is level: slopes of 0 at the edges
+    /// of such runs, which want a double knot there.
     pub(super) fn flat_kept(sites: Vec<f64>, values: Vec<f64>, tolerance: f64) -> Self {
         let limits = values
             .windows(2)
@@ -75,23 +81,80 @@ impl Line {
                 }
             })
             .collect();
-        Self { slacks: vec![0.0; sites.len()], sites, values, limits, tolerance, level: Vec::new() }
+        let mut line = Self {
+            slacks: vec![0.0; sites.len()],
+            sites,
+            values,
+            limits,
+            tolerance,
+            slopes: Vec::new(),
+            runs: Vec::new(),
+        };
+        let last = line.sites.len() - 1;
+        line.runs = line.equal();
+        line.slopes = line.runs.iter().flatten().filter(|&&k| k > 0 && k < last).map(|&k| (k, 0.0)).collect();
+        line
     }
 
-    /// Values at the sites and slopes of 0.
+    /// First and last index of each run of equal values.
+    fn equal(&self) -> Vec<[usize; 2]> {
+        let mut runs: Vec<[usize; 2]> = Vec::new();
+        for (k, pair) in self.values.windows(2).enumerate() {
+            if (pair[1] - pair[0]).abs() <= EQUAL * self.tolerance {
+                match runs.last_mut() {
+                    Some(run) if run[1] == k => run[1] = k + 1,
+                    _ => runs.push([k, k + 1]),
+                }
+            }
+        }
+        runs
+    }
+
+    /// Where the spline falls below `lowest` between two sites, both get the slopes of the monotone cubic of the data, so that on double
+    /// knots it is that cubic between them. Tells whether there are such gaps.
+    pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64) -> bool {
+        if control.iter().all(|&c| c >= lowest) {
+            return false;
+        }
+        let Ok(curve) = BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect()) else {
+            return false;
+        };
+        let points: Vec<(f64, f64)> = self.sites.iter().copied().zip(self.values.iter().copied()).collect();
+        let falls = |k: usize| {
+            let (a, b) = (self.sites[k], self.sites[k + 1]);
+            (1..=LOOKS).any(|n| curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0] < lowest)
+        };
+        let gaps: Vec<usize> = (0..self.limits.len()).filter(|&k| falls(k)).collect();
+        let before = self.slopes.len();
+        for k in gaps.into_iter().flat_map(|k| [k, k + 1]) {
+            if self.slopes.iter().all(|s| s.0 != k) {
+                self.slopes.push((k, monotone_slope(&points, k)));
+            }
+        }
+        self.slopes.sort_unstable_by_key(|s| s.0);
+        self.slopes.len() > before
+    }
+
+    /// Control values that are one value on each run, where the knots at its edges are double.
+    pub(super) fn flattened(&self, knots: &KnotVector, mut control: Vec<f64>) -> Vec<f64> {
+        for &[from, to] in &self.runs {
+            flatten(knots, &mut control, [self.sites[from], self.sites[to]], self.values[from]);
+        }
+        control
+    }
+
+    /// Values and slopes at the sites.
     fn conditions(&self) -> (Vec<Condition>, Vec<f64>, Vec<f64>) {
         let values = self.sites.iter().map(|&site| Condition { site, order: 0 });
-        let slopes = self.level.iter().map(|&k| Condition { site: self.sites[k], order: 1 });
+        let slopes = self.slopes.iter().map(|&(k, _)| Condition { site: self.sites[k], order: 1 });
         let mut slacks = self.slacks.clone();
-        slacks.resize(self.sites.len() + self.level.len(), 0.0);
+        slacks.resize(self.sites.len() + self.slopes.len(), 0.0);
         (values.chain(slopes).collect(), self.data(), slacks)
     }
 
     /// What the conditions of the problem without limits ask for.
     pub(super) fn data(&self) -> Vec<f64> {
-        let mut data = self.values.clone();
-        data.resize(self.sites.len() + self.level.len(), 0.0);
-        data
+        self.values.iter().copied().chain(self.slopes.iter().map(|s| s.1)).collect()
     }
 
     /// The factored problem without limits.
@@ -187,6 +250,17 @@ impl Line {
             (held, control) = (now, result);
         }
         control
+    }
+}
+
+/// Control values that have part in the curve between two places, of multiplicity two at least, become one value: what differs is
+/// rounding.
+pub(super) fn flatten(knots: &KnotVector, control: &mut [f64], [from, to]: [f64; 2], value: f64) {
+    let reach = knots.degree() + 1;
+    for (k, c) in control.iter_mut().enumerate() {
+        if knots.knots()[k + reach] > from + ONE_KNOT && knots.knots()[k] < to - ONE_KNOT {
+            *c = value;
+        }
     }
 }
 

@@ -38,6 +38,9 @@ const STRIP: f64 = 0.02;
 /// Height of a strip over that of the body below it.
 const HAIR: f64 = 1e-9;
 
+/// Rounds in which rows are kept above the centreplane: what is held in one gap may swing in the next.
+const STEERED: usize = 4;
+
 /// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the ends of
 /// the body below.
 fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Vec<Row>> {
@@ -94,24 +97,12 @@ fn narrowed(row: &Row, below: &[Row]) -> Row {
     copy
 }
 
-/// The hull of prepared rows.
-pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<String>), FitError> {
-    let Rows { rows, mut notes } = prepared;
-    let greatest = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
-    let particulars = particulars::particulars(table, &rows, &mut notes);
-    let deck = particulars::deck(table, &rows, &mut notes)?;
-    let flat = FlatOfSide::new(table, &mut notes);
-    let shape = Shape { flat: flat.as_ref(), transom: table.transom };
-    features::unused(table, flat.as_ref(), &mut notes);
-    let mut parts = Vec::new();
-    for rows in split(table, rows, &mut notes) {
-        parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
-    }
-    // Knots in u that serve every row, and more of them where a row swings.
+/// Knots in u that serve every row, more of them where a row swings, and the control values of all rows.
+fn length_rows(parts: &[Part], greatest: f64) -> Result<(KnotVector, Vec<Vec<f64>>), FitError> {
     let lines = || parts.iter().flat_map(|p| &p.lines);
     let sites: Vec<Vec<f64>> = lines().map(|line| line.sites[1..line.sites.len() - 1].to_vec()).collect();
-    let edges: Vec<f64> =
-        lines().flat_map(|line| line.level.iter().map(|&k| line.sites[k])).filter(|&u| u > 0.0 && u < 1.0).collect();
+    let edges = lines().flat_map(|line| line.slopes.iter().map(|s| line.sites[s.0]));
+    let edges: Vec<f64> = edges.filter(|&u| u > 0.0 && u < 1.0).collect();
     let mut first = with_multiple(&length_knots(&sites)?, &edges, 2)?;
     let free = |knots: &KnotVector| -> Result<(Vec<f64>, bool), FitError> {
         let energy = Energy::new(knots, 2);
@@ -132,16 +123,40 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
     }
     let u = with_knots(&first, middles)?;
     let energy = Energy::new(&u, 2);
+    let rows: Result<Vec<Vec<f64>>, FitError> =
+        lines().map(|line| Ok(line.flattened(&u, line.solve(&energy, line.free(&energy)?)))).collect();
+    Ok((u, rows?))
+}
+
+/// The hull of prepared rows.
+pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<String>), FitError> {
+    let Rows { rows, mut notes } = prepared;
+    let greatest = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
+    let particulars = particulars::particulars(table, &rows, &mut notes);
+    let deck = particulars::deck(table, &rows, &mut notes)?;
+    let flat = FlatOfSide::new(table, &mut notes);
+    let shape = Shape { flat: flat.as_ref(), transom: table.transom };
+    features::unused(table, flat.as_ref(), &mut notes);
+    let mut parts = Vec::new();
+    for rows in split(table, rows, &mut notes) {
+        parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
+    }
+    let mut lined = length_rows(&parts, greatest)?;
+    // Where a row falls below the centreplane between two cells it follows the monotone cubic there.
+    for _ in 0..STEERED {
+        let (u, rows) = &lined;
+        let lines = parts.iter_mut().flat_map(|p| &mut p.lines);
+        let steered = lines.zip(rows).map(|(line, control)| line.steer(u, control, -line.tolerance));
+        if steered.filter(|&steered| steered).count() == 0 {
+            break;
+        }
+        lined = length_rows(&parts, greatest)?;
+    }
+    let (u, rows) = lined;
+    let mut rows = rows.into_iter();
     let mut net = Net::default();
     for part in &mut parts {
-        let mut rows = Vec::with_capacity(part.lines.len());
-        for line in &part.lines {
-            let mut control = line.solve(&energy, line.free(&energy)?);
-            if let [aft, fore] = line.level[..] {
-                part::flatten(&u, &mut control, [line.sites[aft], line.sites[fore]], line.values[aft]);
-            }
-            rows.push(control);
-        }
+        let rows: Vec<Vec<f64>> = rows.by_ref().take(part.lines.len()).collect();
         let Columns { x, y } = part.across(&u, &rows, greatest, flat.as_ref())?;
         net.push(x, y, &part.up);
     }

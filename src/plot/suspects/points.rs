@@ -16,7 +16,7 @@ const REACH: usize = 6;
 /// # Errors
 /// [`PlotError::Chart`] for a table without sections as points.
 pub fn suspect_points_figure(table: &OffsetTable, result: &PointSuspects) -> Result<Svg, PlotError> {
-    Ok(Svg { text: compose(table, result)?.finish("suspect points") })
+    Ok(Svg::new(compose(table, result)?.finish("suspect points")))
 }
 
 fn compose(table: &OffsetTable, result: &PointSuspects) -> Result<Canvas, PlotError> {

@@ -13,6 +13,7 @@
   }
   const KINDS = ["station", "waterline", "buttock", "diagonal"];
   const COLOURS = { station: [0, 0, 0], waterline: [0.04, 0.24, 0.47], buttock: [0.48, 0.18, 0], diagonal: [0, 0.33, 0.24] };
+  const INKS = { station: "black", waterline: "blue", buttock: "brown", diagonal: "green" };
   const state = { azimuth: -0.6, elevation: 0.35, zoom: 1, pan: [0, 0] };
   const input = (id) => document.getElementById(id);
   const on = (id) => { const box = input(id); return !!box && box.checked; };
@@ -302,11 +303,19 @@
         if (!plan && on(kind)) drawLines(set[kind], ink, 1, false);
       }
     }
-    const legend = input("legend");
+    // What is parallel to the screen has one scale.
+    const pixels = 0.5 * fit * canvas.clientWidth, power = Math.pow(10, Math.floor(Math.log10(160 / pixels)));
+    const bar = [5, 2, 1].map((m) => m * power).find((metres) => metres * pixels <= 160) || power;
+    input("scale-bar").style.width = bar * pixels + "px";
+    input("scale-words").textContent = Number(bar.toPrecision(1)) + " m, parallel to the screen";
+    const words = KINDS.filter(on).map((kind) => INKS[kind] + ": " + kind + "s");
+    if (on("combs")) words.push((which ? "grey" : "orange") + ": combs, " + (which ? "before" : "after"));
     const [name, full, unit] = on("gaussian") ? ["Gaussian", scene.full[0], "1/m²"] : ["mean", scene.full[1], "1/m"];
-    legend.textContent = on("gaussian") || on("mean")
-      ? name + " curvature: blue " + -full + " " + unit + " · white 0 · orange +" + full + " " + unit + " (colours go with the root)"
-      : "";
+    if (on("gaussian") || on("mean")) {
+      words.push(name + " curvature: blue " + -full + " " + unit + ", white 0, orange +" + full + " " + unit + " (colours go with the root)");
+    }
+    if (on("zebra")) words.push("stripes: reflections of lamps, the observer before the screen");
+    input("legend").textContent = words.join(" · ");
     state.frames = (state.frames || 0) + 1;
   }
 

@@ -5,7 +5,7 @@
 //! has a crease there, and y(u, v) takes the slope in v that keeps the tangent plane: with g the jump of the slope of the profile,
 //! the jump of y_v is (y_u / x_u) (dx / dx_stern) g.
 
-use super::super::bounded::{Line, ONE_KNOT, carried, with_multiple};
+use super::super::bounded::{Line, carried, flatten, with_multiple};
 use super::super::chart::{Heights, Span, heights, lengths};
 use super::super::features::FlatOfSide;
 use super::super::floor;
@@ -20,10 +20,6 @@ const FLAT_BOTTOM: f64 = 0.05;
 
 /// Swings beyond centreplane and greatest half-breadth that are left alone, over the latter.
 const SWING: f64 = 1e-4;
-
-/// Half-breadths below 0 by less than this part of the greatest one are left alone: a tenth of a millimetre on a ship. Ringing dies down by
-/// a factor of four a waterline, so that a smaller part would ask for knots on nearly all of them.
-const FLOOR: f64 = 1e-5;
 
 /// Control values that are one half-breadth differ by less than this part of it.
 const SAME: f64 = 1e-10;
@@ -132,6 +128,9 @@ impl Part {
         // The waterlines that end on the transom go up to the highest; one alone makes no plane.
         let foot = self.rows.iter().rposition(|r| !r.transom).map_or(0, |j| j + 1);
         let transom = transom.filter(|_| foot + 1 < self.rows.len());
+        // Plumb parts begin and end on double knots.
+        let edges: Vec<f64> = lines.iter().flat_map(|line| line.slopes.iter().map(|s| line.sites[s.0])).collect();
+        self.up = self.up.on(with_multiple(&self.up.knots, &edges, 2)?)?;
         let own = |part: &Self, side: usize| -> Result<KnotVector, FitError> {
             let corner = (side == 0 && transom.is_some() && foot > 0).then(|| part.up.sites[foot]);
             with_multiple(&part.up.knots, corner.as_slice(), 3)
@@ -147,7 +146,7 @@ impl Part {
         for (side, line) in lines.iter().enumerate() {
             let knots = own(self, side)?;
             let energy = Energy::new(&knots, 2);
-            let mut control = line.solve(&energy, line.free(&energy)?);
+            let mut control = line.flattened(&knots, line.solve(&energy, line.free(&energy)?));
             if let Some(plane) = transom.filter(|_| side == 0) {
                 let z = carried(&self.up.knots, &self.up.z, &knots)?;
                 let first = if foot == 0 { 0 } else { knots.knots().partition_point(|&t| t < self.up.sites[foot]) - 1 };
@@ -279,7 +278,7 @@ impl Part {
             }
             self.up = self.up.on(knots)?;
         }
-        let added = floor::lift(u, &self.up.knots, &mut solved, FLOOR * greatest)?;
+        let added = floor::lift(u, &self.up.knots, &mut solved, floor::FLOOR * greatest)?;
         if !added.is_empty() {
             let knots = floor::inserted(&self.up.knots, &self.up.z, &added)?.0;
             self.up = self.up.on(knots)?;
@@ -311,28 +310,17 @@ impl Part {
         if lean.abs() > 0.0 || crease.is_some_and(|c| c.1[i].abs() > 0.0) {
             limits = [f64::NEG_INFINITY, f64::INFINITY];
         }
-        let mut level = None;
+        let mut slopes = Vec::new();
         if let Some(start) = start {
             let k = sites.partition_point(|&v| v < start.at);
             if let Some(value) = start.value {
                 sites.insert(k, start.at);
                 values.insert(k, value);
             }
-            level = Some(k);
+            slopes.push((k, 0.0));
         }
         let slacks = vec![0.0; sites.len()];
-        Line { level: level.into_iter().collect(), ..Line::within(sites, values, slacks, limits, SWING * greatest) }
-    }
-}
-
-/// Control values that have part in the curve between two places, of multiplicity two at least, become one value: what differs is
-/// rounding.
-pub(super) fn flatten(knots: &KnotVector, control: &mut [f64], [from, to]: [f64; 2], value: f64) {
-    let reach = knots.degree() + 1;
-    for (k, c) in control.iter_mut().enumerate() {
-        if knots.knots()[k + reach] > from + ONE_KNOT && knots.knots()[k] < to - ONE_KNOT {
-            *c = value;
-        }
+        Line { slopes, ..Line::within(sites, values, slacks, limits, SWING * greatest) }
     }
 }
 
@@ -367,5 +355,10 @@ fn row_line(row: &Row, span: Span, greatest: f64, flat: Option<&FlatOfSide>) -> 
     let sites = points.iter().map(|p| p.0).collect();
     let values = points.iter().map(|p| p.1).collect();
     let slacks = points.iter().map(|p| p.2).collect();
-    Line { level, ..Line::within(sites, values, slacks, [0.0, greatest], SWING * greatest) }
+    let runs = if let [aft, fore] = level[..] { vec![[aft, fore]] } else { Vec::new() };
+    Line {
+        slopes: level.into_iter().map(|k| (k, 0.0)).collect(),
+        runs,
+        ..Line::within(sites, values, slacks, [0.0, greatest], SWING * greatest)
+    }
 }

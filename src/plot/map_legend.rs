@@ -1,0 +1,102 @@
+//! The legend under the maps of the side of a hull: what colours, lines and grey fields are.
+
+use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::scale::{decimals, nice_step};
+use super::surface_map::{JUMP, KEEL_END, KNUCKLE_LINE, NO_SIDE, SHARE, STEPS, SurfaceMapKind, TEXT};
+
+/// Left edge of the legend, width of a field of colour, and distance of the rows \[mm\].
+const LEFT: f64 = 26.0;
+const SWATCH: f64 = 14.0;
+const ROW: f64 = 6.0;
+
+/// What the legend has to say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Legend {
+    pub(super) kind: SurfaceMapKind,
+    /// Curvature of the full colours.
+    pub(super) full: f64,
+    /// Knot lines at which curvature may jump and that are not marked.
+    pub(super) more: usize,
+    /// Whether ends of the keel are marked.
+    pub(super) ends: bool,
+    /// Whether the hull before fairing is there too.
+    pub(super) pair: bool,
+}
+
+impl Legend {
+    /// Draws the legend, its first row at `y`.
+    pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
+        let style = TextStyle::new(TEXT, Anchor::Start);
+        self.colours(canvas, y);
+        let jumps = if self.more > 0 {
+            format!("curvature may jump at {} more lines of the surface", self.more)
+        } else {
+            "curvature jumps across a line of the surface".to_owned()
+        };
+        let mut x = LEFT;
+        let mut item = |canvas: &mut Canvas, row: f64, pen: Option<&Pen>, words: &str, first: bool| {
+            if first {
+                x = LEFT;
+            }
+            let at = y + row * ROW;
+            if let Some(pen) = pen {
+                canvas.line([x, at], [x + 11.0, at], pen);
+            } else {
+                canvas.fill(&Rectangle::new(x, at - 1.8, x + 11.0, at + 1.8), NO_SIDE);
+            }
+            canvas.text([x + 13.0, at], words, &style);
+            x = Canvas::text_place([x + 13.0, at], words, &style).right + 6.0;
+        };
+        item(canvas, 1.0, Some(&JUMP), &jumps, true);
+        item(canvas, 1.0, Some(&KNUCKLE_LINE), "knuckle", false);
+        item(canvas, 1.0, None, "no side: beyond deck and profiles, or on the flat of bottom, which is plane", false);
+        if self.ends {
+            let words = "end of the keel: beyond it girths begin at the profile; rows step there, and colours and stripes with them, not the \
+                         surface";
+            item(canvas, 2.0, Some(&KEEL_END), words, true);
+        }
+        if self.pair {
+            let words = "before and after have the same net: through the table its lines carry a continuous curvature, after fairing they need \
+                         not, so that dashes may stand after alone";
+            canvas.text([LEFT, y + 3.0 * ROW], words, &style);
+        }
+    }
+
+    /// What the colours are, or what stripes are.
+    fn colours(&self, canvas: &mut Canvas, y: f64) {
+        let (kind, full) = (self.kind, self.full);
+        let style = TextStyle::new(TEXT, Anchor::Start);
+        if kind == SurfaceMapKind::Zebra {
+            let words = "reflections of lamps along the ship, seen from abeam: a kink on a dashed line is a jump of curvature, a step a break of \
+                         the tangent plane";
+            canvas.text([LEFT, y], words, &style);
+            return;
+        }
+        if full <= 0.0 {
+            canvas.text([LEFT, y], "0 all over the side", &style);
+            return;
+        }
+        let mut x = LEFT;
+        let digits = decimals(nice_step(full.max(f64::MIN_POSITIVE), 20.0));
+        for step in -STEPS..=STEPS {
+            let place = Rectangle::new(x, y - 2.6, x + SWATCH, y + 2.6);
+            canvas.fill(&place, &kind.colour(step));
+            canvas.rectangle(&place, &Pen::new(0.08, "#808080"));
+            let value = full * (f64::from(step) / f64::from(STEPS)).powi(2).copysign(f64::from(step));
+            let text = if step == 0 { "0".to_owned() } else { format!("{value:+.digits$}") };
+            let ink = if step.abs() > 5 { "#ffffff" } else { "#000000" };
+            // The smallest steps have no figures of their own.
+            if step == 0 || step.abs() % 2 == 1 && step.abs() > 2 {
+                canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle::new(TEXT, Anchor::Middle).coloured(ink));
+            }
+            x += SWATCH;
+        }
+        let words = match kind {
+            SurfaceMapKind::Gaussian => "+ convex both ways; - saddle; black: 0",
+            _ => "+ convex outward; - hollow; black: 0",
+        };
+        let share = 100.0 * SHARE;
+        let words = format!("{}   {words}; full: what {share:.0} % of the side do not pass", kind.unit());
+        canvas.text([x + 3.0, y], &words, &style);
+    }
+}

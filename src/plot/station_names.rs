@@ -1,0 +1,58 @@
+//! Names of the stations of a table over their sections in a body plan.
+
+use super::body_plan::range;
+use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
+use super::caption;
+use super::label::LabelPlacer;
+use super::sheet::LETTERS;
+use super::view::THREAD;
+use crate::fairing::record::FairRecord;
+
+/// How far below the foot of a view along the ship its names of stations stand, as many rows as it takes for all of them \[mm\].
+pub(super) const ROWS: [f64; 4] = [3.0, 6.6, 10.2, 13.8];
+/// Sections whose upper ends are nearer to each other than this bear one name \[mm\].
+const BESIDE: f64 = 2.4;
+
+/// The names of the stations over the upper ends of their sections, with a thread where they stand aside; those aft of `midship` left of
+/// `centre`, the others right of it. The sections next to the centre line have the first choice of places.
+pub(super) fn name_stations(
+    canvas: &mut Canvas,
+    record: &FairRecord,
+    curves: &[(usize, Vec<[f64; 2]>)],
+    placer: &mut LabelPlacer,
+    window: &Rectangle,
+    [centre, midship]: [f64; 2],
+) {
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
+    let mut shifts: Vec<[f64; 2]> =
+        (0..22).flat_map(|row| (-8..=8).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
+    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
+    let stations = &record.lines.stations;
+    let is_aft = |k: usize| stations[k].x < midship;
+    let (aft, fore): (Vec<usize>, Vec<usize>) = (0..stations.len()).partition(|k| is_aft(*k));
+    // Sections that end side by side bear one name.
+    let mut groups: Vec<([f64; 2], Vec<usize>)> = Vec::new();
+    for k in aft.into_iter().chain(fore.into_iter().rev()) {
+        let ends = curves.iter().filter(|(cut, _)| *cut == k).flat_map(|(_, line)| line);
+        let Some(&end) = ends.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
+        match groups.last_mut() {
+            Some((at, own)) if is_aft(own[0]) == is_aft(k) && (end[0] - at[0]).hypot(end[1] - at[1]) < BESIDE => {
+                own.push(k);
+            }
+            _ => groups.push((end, vec![k])),
+        }
+    }
+    for (end, own) in groups {
+        let room = if is_aft(own[0]) {
+            Rectangle { right: centre - 0.4, ..*window }
+        } else {
+            Rectangle { left: centre + 0.4, ..*window }
+        };
+        let places: Vec<[f64; 2]> =
+            shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
+        let name = |k: usize| caption::plain(&stations[k].name).chars().take(9).collect::<String>();
+        let [first, last] = [own.iter().min(), own.iter().max()].map(|k| k.map_or(String::new(), |k| name(*k)));
+        let name = if first == last { first } else { range(&first, &last) };
+        placer.name_off_curves(canvas, &name, &style, &places, &room, (end, &THREAD));
+    }
+}
