@@ -29,7 +29,9 @@ impl Half<'_> {
         if !new.iter().all(|face| along_normal(sum(face.0), doubled(self.corners(face.1)))) {
             return false;
         }
-        let off = new.iter().map(|&face| self.off(face)).fold(0.0, f64::max);
+        // Sides that stay are as far off as before, and new ones are looked at from one of their triangles.
+        let stays = |a: usize, b: usize| old.iter().any(|(_, corners)| corners.contains(&a) && corners.contains(&b));
+        let off = new.iter().map(|&face| self.off_at(face, |a, b| a < b && !stays(a, b))).fold(0.0, f64::max);
         off <= self.deviation || off <= old.iter().map(|&face| self.off(face)).fold(0.0, f64::max)
     }
 
@@ -281,7 +283,8 @@ impl Half<'_> {
         let least = |half: &Self| faces.iter().map(|face| half.sine(face.1)).fold(f64::INFINITY, f64::min);
         let before = least(self);
         let normals: Vec<[f64; 3]> = faces.iter().map(|face| doubled(self.corners(face.1))).collect();
-        let off = |half: &Self| faces.iter().map(|&face| half.off(face)).fold(0.0, f64::max);
+        // Sides opposite to the vertex stay; the others are looked at from one of their triangles.
+        let off = |half: &Self| faces.iter().map(|&face| half.off_at(face, |a, _| a == v)).fold(0.0, f64::max);
         let (point, border) = (self.points[v], self.on_centreplane(v));
         let mut old_off = None;
         for share in [1.0, 0.5, 0.2] {

@@ -175,6 +175,11 @@ impl Half<'_> {
 
     /// What a triangle leaves the surface by along its normal \[m\], at its middle and at the middles of its sides.
     pub(super) fn off(&self, face: Face) -> f64 {
+        self.off_at(face, |_, _| true)
+    }
+
+    /// The same at its middle and at the middles of those sides, from corner to next corner, that are wanted.
+    pub(super) fn off_at(&self, face: Face, wanted: impl Fn(usize, usize) -> bool) -> f64 {
         let points = self.corners(face.1);
         let normal = doubled(points);
         let size = length(normal);
@@ -182,12 +187,16 @@ impl Half<'_> {
             return 0.0;
         }
         let places = self.places(face);
-        let shares = [[1.0 / 3.0; 3], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
         let at = |share: [f64; 3]| {
             let place = [0, 1].map(|k| (0..3).map(|j| share[j] * places[j][k]).sum::<f64>());
             let flat = [0, 1, 2].map(|k| (0..3).map(|j| share[j] * points[j][k]).sum::<f64>());
             dot(minus(self.body.point(face.0, place), flat), normal).abs() / size
         };
-        shares.into_iter().map(at).fold(0.0, f64::max)
+        let sides = (0..3).filter(|&k| wanted(face.1[k], face.1[(k + 1) % 3])).map(|k| {
+            let mut share = [0.5; 3];
+            share[(k + 2) % 3] = 0.0;
+            at(share)
+        });
+        sides.fold(at([1.0 / 3.0; 3]), f64::max)
     }
 }
