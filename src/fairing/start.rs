@@ -12,6 +12,9 @@ use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
 use crate::hull::{Entry, FitMethod, Hull, OffsetTable};
 
+/// What a net of its own may leave the surface through the table by between offsets, over the breadth.
+const SWING: f64 = 0.05;
+
 /// A cell: (station, waterline).
 type Cell = (usize, usize);
 
@@ -101,7 +104,7 @@ impl Started {
                 }
             }
         }
-        if modelled.surface.own && !modelled.follows(noise) {
+        if modelled.surface.own && (!modelled.follows(noise) || modelled.swings(&cleaned.clean)) {
             modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;
             modelled.search = None;
         }
@@ -165,6 +168,22 @@ impl Modelled {
         let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;
         Ok((proposals, start, surface, search))
+    }
+
+    /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through the table by more
+    /// than a part of the greatest half-breadth. An error that is not left out does that where its neighbours are.
+    fn swings(&self, table: &OffsetTable) -> bool {
+        let Some(search) = &self.search else { return false };
+        let Ok(own) = self.surface.hull_of(&search.smoother.reduced.expand(&search.smoothed.free)) else { return true };
+        let most = SWING * self.before.particulars().breadth;
+        let stations: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
+        stations.windows(2).any(|x| {
+            table.waterlines.windows(2).any(|z| {
+                let (x, z) = (0.5 * (x[0] + x[1]), 0.5 * (z[0] + z[1]));
+                let both = own.half_breadth(x, z).zip(self.before.half_breadth(x, z));
+                both.is_some_and(|(own, before)| (own - before).abs() > most)
+            })
+        })
     }
 
     /// Whether a net of its own follows the table: what remains is the noise of the table.
