@@ -161,9 +161,7 @@ impl Modelled {
                 start = edged(&start, *x, *z)?;
             }
         }
-        // Accepted lines are lines of the net of the fit.
-        let accepted = proposals.iter().any(|proposal| proposal.accepted);
-        let own = !accepted && !job.rules.iter().any(Rule::keeps_the_fit);
+        let own = !job.rules.iter().any(Rule::keeps_the_fit);
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
         let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;

@@ -16,7 +16,7 @@
 use super::adapt::CellEnergies;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::model::{Model, Reading};
-use crate::hull::{Cell, Entry, Hull, HullError, LineKind, OffsetTable};
+use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE, add_product};
 pub use crate::spline::{basis_row, energy, mixed_energy};
@@ -175,7 +175,7 @@ fn is_plain(hull: &Hull) -> bool {
         && (0..columns).all(|j| linear(surface.u(), &(0..rows).map(|i| surface.point(i, j)[0]).collect::<Vec<_>>()))
 }
 
-/// Whether a level hull has plumb ends: it stands over a rectangle.
+/// Whether a level hull has plumb ends and simple knots: it stands over a rectangle and has no lines along which it breaks.
 fn is_rectangular(hull: &Hull) -> bool {
     let surface = hull.surface();
     let [rows, columns] = surface.shape();
@@ -185,10 +185,10 @@ fn is_rectangular(hull: &Hull) -> bool {
     hull.is_level() && plumb(0) && plumb(rows - 1)
 }
 
-/// Whether the fit of a table has features besides its lines: a flat of side, or marked offsets.
-fn has_flats(table: &OffsetTable) -> bool {
-    let marked = |cell: &Cell| cell.marks.tangent || cell.marks.knuckle;
-    table.stations.iter().any(|station| station.flat_of_side.is_some() || station.half_breadths.iter().any(marked))
+/// Whether no knot of a fit is multiple beyond those of as many declared lines: it has no other features of its own.
+fn is_simple(knots: &KnotVector, lines: usize) -> bool {
+    let breaks = knots.breakpoints();
+    breaks[1..breaks.len() - 1].iter().filter(|&&t| knots.multiplicity(t) > 1).count() <= lines
 }
 
 /// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with the
@@ -201,7 +201,7 @@ struct OverRectangle {
 
 impl OverRectangle {
     fn new(table: &OffsetTable, fitted: &Hull) -> Option<Self> {
-        if !is_rectangular(fitted) || has_flats(table) {
+        if !is_rectangular(fitted) {
             return None;
         }
         let [rows, columns] = fitted.surface().shape();
@@ -246,6 +246,10 @@ impl OverRectangle {
             if list.windows(2).any(|w| w[1].at - w[0].at < BESIDE) {
                 return None;
             }
+        }
+        let net = [fitted.surface().u(), fitted.surface().v()];
+        if !(0..2).all(|k| is_simple(net[k], given[k].len())) {
+            return None;
         }
         let forward = (0..up.len()).map(|w| (0..along.len()).map(|s| value(s, w)).collect()).collect();
         let upward = (0..along.len()).map(|s| (0..up.len()).map(|w| value(s, w)).collect()).collect();
