@@ -53,6 +53,15 @@ impl Faults {
         Some(point)
     }
 
+    /// Whether the corners of triangle `index`, from 0, are numbers; if not, this is a fault.
+    pub(super) fn corners(&mut self, index: usize, triangle: &[[f64; 3]; 3]) -> bool {
+        let sound = triangle.iter().flatten().all(|c| c.abs() <= LARGEST);
+        if !sound {
+            self.add(None, "", format!("triangle {} has a corner that is no number of at most 1e8", index + 1));
+        }
+        sound
+    }
+
     pub(super) fn or<T>(self, value: impl FnOnce() -> T) -> Result<T, Vec<RecordFault>> {
         if self.list.is_empty() { Ok(value()) } else { Err(self.list) }
     }

@@ -10,7 +10,7 @@ use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
-use crate::hull::{Entry, FitMethod, Hull, OffsetTable};
+use crate::hull::{Entry, FitMethod, Hull, HullError, OffsetTable};
 
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
@@ -169,10 +169,10 @@ impl Modelled {
     }
 
     /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through the table by more
-    /// than a part of the greatest half-breadth. An error that is not left out does that where its neighbours are.
+    /// than [`SWING`] of the breadth. An error that is not left out does that where its neighbours are.
     fn swings(&self, table: &OffsetTable) -> bool {
         let Some(search) = &self.search else { return false };
-        let Ok(own) = self.surface.hull_of(&search.smoother.reduced.expand(&search.smoothed.free)) else { return true };
+        let Ok(own) = search.hull(&self.surface) else { return true };
         let most = SWING * self.before.particulars().breadth;
         let stations: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
         stations.windows(2).any(|x| {
@@ -219,9 +219,14 @@ impl Search {
         Ok(Self { smoothed: smoother.at(lambda)?, smoother, trials })
     }
 
+    /// The hull of the smoothed net.
+    fn hull(&self, surface: &FairSurface) -> Result<Hull, HullError> {
+        surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))
+    }
+
     /// Half the mean distance \[m\] between two surfaces whose displaced volumes differ.
     pub(super) fn gap(&self, surface: &FairSurface, before: &Hull) -> Result<f64, JobError> {
-        let own = surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))?;
+        let own = self.hull(surface)?;
         let volume = Constraint::Displacement(0.0);
         let p = before.particulars();
         Ok((volume.value(&own) - volume.value(before)).abs() / (2.0 * p.length_between_perpendiculars * p.draught))

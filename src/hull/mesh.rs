@@ -168,14 +168,17 @@ fn lines(hull: &Hull, deviation: f64) -> [Vec<f64>; 2] {
     [cut(&breaks[0], &parts[0]), cut(&breaks[1], &parts[1])]
 }
 
+/// How far a point of the surface lies above the deck \[m\].
+fn above_deck(hull: &Hull, [u, v]: [f64; 2]) -> f64 {
+    let [x, _, z] = hull.surface().eval(u, v);
+    z - hull.deck_height(x)
+}
+
 /// The parameter v at which the line `u` passes the deck at side, its upper end where it stays below.
 pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
     let surface = hull.surface();
     let (mut low, mut high) = surface.v().domain();
-    let above = |v: f64| {
-        let point = surface.eval(u, v);
-        point[2] - hull.deck_height(point[0])
-    };
+    let above = |v: f64| above_deck(hull, [u, v]);
     let slack = 1e-9 * (hull.top() - hull.bottom());
     if above(high) <= slack {
         return high;

@@ -155,13 +155,9 @@ pub(super) fn compose(
             Some(others) => others.joined(one),
             None => one,
         });
-        let [before, after] =
-            combs.on(&[*cut]).map(|list| list.iter().map(|comb| comb.inflections.len()).sum::<usize>());
-        let bears = if combs.on(&[*cut])[1].is_empty() {
-            String::new()
-        } else {
-            format!("    inflections {before} → {after}")
-        };
+        let shown = combs.on(&[*cut]);
+        let [before, after] = [0, 1].map(|k| shown[k].iter().map(|comb| comb.inflections.len()).sum::<usize>());
+        let bears = if shown[1].is_empty() { String::new() } else { format!("    inflections {before} → {after}") };
         let style = TextStyle::new(LETTERS, Anchor::Start);
         canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut)), &style);
     }

@@ -26,11 +26,15 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// The same with its sign, + as well.
+pub(super) fn signed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if text.starts_with('-') || text.chars().all(|c| matches!(c, '0' | '.')) { text } else { format!("+{text}") }
+}
+
 /// The same with its sign and unit.
 pub(super) fn fixed_sign(value: f64, decimals: usize, unit: &str) -> String {
-    let text = fixed(value, decimals);
-    let plain = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
-    if text.starts_with('-') || plain { format!("{text}{unit}") } else { format!("+{text}{unit}") }
+    format!("{}{unit}", signed(value, decimals))
 }
 
 /// The longitudinal centre of buoyancy as the conventions have it printed; empty when it is not defined.

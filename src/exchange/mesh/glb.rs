@@ -4,7 +4,7 @@
 
 use serde_json::{Value, json};
 
-use super::super::fault::{Faults, LARGEST, RecordFault};
+use super::super::fault::{Faults, RecordFault};
 use super::{MOST_TRIANGLES, regions};
 use crate::hull::{HullMesh, Region, TriangleMesh};
 
@@ -210,9 +210,7 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
         }
     }
     for (k, triangle) in corners.iter().enumerate() {
-        if !triangle.iter().flatten().all(|c: &f64| c.abs() <= LARGEST) {
-            faults.add(None, "", format!("triangle {} has a corner that is no number of at most 1e8", k + 1));
-        }
+        faults.corners(k, triangle);
         if faults.is_full() {
             break;
         }

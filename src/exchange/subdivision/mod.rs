@@ -12,12 +12,9 @@ pub(super) use fbm::{is_fbm, read_fbm};
 pub use ftm::write_ftm;
 pub(super) use ftm::{is_ftm, read_ftm};
 
-use super::fault::{Faults, RecordFault};
+use super::fault::{Faults, LARGEST, RecordFault};
 use super::table::{TableProblem, body_faults};
 use crate::hull::{NetEdge, NetFace, NetLayer, NetPointKind, StatedParticulars, SubdivisionNet};
-
-/// Coordinates larger than this are of no ship in any unit.
-const LARGEST: f64 = 1e8;
 
 /// More points, edges or faces than this are of no net drawn by hand.
 const MOST: usize = 200_000;

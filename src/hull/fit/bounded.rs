@@ -7,7 +7,7 @@
 use super::super::HullError;
 use super::FitError;
 use super::monotone::{monotone_cubic, monotone_slope};
-use crate::spline::{BsplineCurve, Condition, Energy, KnotVector, MinimumEnergy};
+use crate::spline::{BsplineCurve, Condition, Energy, KnotVector, MinimumEnergy, SplineError};
 
 /// Points in which a gap is looked at.
 const LOOKS: usize = 7;
@@ -116,15 +116,10 @@ impl Line {
         if control.iter().all(|&c| c >= lowest) {
             return false;
         }
-        let Ok(curve) = BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect()) else {
-            return false;
-        };
-        let points: Vec<(f64, f64)> = self.sites.iter().copied().zip(self.values.iter().copied()).collect();
-        let falls = |k: usize| {
-            let (a, b) = (self.sites[k], self.sites[k + 1]);
-            (1..=LOOKS).any(|n| curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0] < lowest)
-        };
-        let gaps: Vec<usize> = (0..self.limits.len()).filter(|&k| falls(k)).collect();
+        let Ok(curve) = curve_of(knots, control) else { return false };
+        let points = self.points();
+        let gaps: Vec<usize> =
+            (0..self.limits.len()).filter(|&k| self.looks(&curve, k).any(|value| value < lowest)).collect();
         let before = self.slopes.len();
         for k in gaps.into_iter().flat_map(|k| [k, k + 1]) {
             if self.slopes.iter().all(|s| s.0 != k) {
@@ -168,6 +163,17 @@ impl Line {
         Ok(self.problem(energy)?.solve(&self.data()))
     }
 
+    /// Sites and values.
+    fn points(&self) -> Vec<(f64, f64)> {
+        self.sites.iter().copied().zip(self.values.iter().copied()).collect()
+    }
+
+    /// Values of a spline within gap `k`.
+    fn looks(&self, curve: &BsplineCurve<1>, k: usize) -> impl Iterator<Item = f64> {
+        let (a, b) = (self.sites[k], self.sites[k + 1]);
+        (1..=LOOKS).map(move |n| curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0])
+    }
+
     /// Gaps in which the spline leaves its limits, and by how much.
     fn outside(&self, knots: &KnotVector, control: &[f64]) -> Vec<(usize, f64)> {
         // A spline stays within its control values.
@@ -176,14 +182,10 @@ impl Line {
         if control.iter().all(|c| (low..=high).contains(c)) {
             return Vec::new();
         }
-        let Ok(curve) = BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect()) else {
-            return Vec::new();
-        };
+        let Ok(curve) = curve_of(knots, control) else { return Vec::new() };
         let beyond = |k: usize| {
             let [low, high] = self.limits[k];
-            let (a, b) = (self.sites[k], self.sites[k + 1]);
-            let looks = (1..=LOOKS).map(|n| curve.eval(a + (b - a) * n as f64 / (LOOKS + 1) as f64)[0]);
-            looks.map(|value| (low - value).max(value - high)).fold(f64::NEG_INFINITY, f64::max)
+            self.looks(&curve, k).map(|value| (low - value).max(value - high)).fold(f64::NEG_INFINITY, f64::max)
         };
         (0..self.limits.len())
             .filter(|&k| self.limits[k].iter().any(|limit| limit.is_finite()))
@@ -216,7 +218,7 @@ impl Line {
     /// one more datum would make the spline swing elsewhere. A round that makes it swing much more is not
     /// taken.
     pub(super) fn solve(&self, energy: &Energy, free: Vec<f64>) -> Vec<f64> {
-        let points: Vec<(f64, f64)> = self.sites.iter().copied().zip(self.values.iter().copied()).collect();
+        let points = self.points();
         let breaks = energy.knots().breakpoints();
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut control = free;
@@ -251,6 +253,10 @@ impl Line {
         }
         control
     }
+}
+
+fn curve_of(knots: &KnotVector, control: &[f64]) -> Result<BsplineCurve<1>, SplineError> {
+    BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect())
 }
 
 /// Control values that have part in the curve between two places, of multiplicity two at least, become one value: what differs is

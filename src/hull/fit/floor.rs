@@ -14,10 +14,6 @@ use super::super::HullError;
 use super::FitError;
 use crate::spline::{BsplineCurve, KnotVector};
 
-/// Half-breadths below 0 by less than this part of the greatest one are left alone: a tenth of a millimetre on a ship. Ringing dies down by
-/// a factor of four a waterline, so that a smaller part would ask for knots on nearly all of them.
-pub(super) const FLOOR: f64 = 1e-5;
-
 /// Points a span, each way, in which a surface is looked at.
 const LOOKS: usize = 8;
 

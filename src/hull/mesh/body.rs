@@ -4,7 +4,7 @@
 //! A closing face is ruled from the centreplane to an edge of the side, (x, s y, z) with 0 <= s <= 1.
 
 use super::super::form::Hull;
-use super::{Region, deck_parameter};
+use super::{Region, above_deck, deck_parameter};
 use crate::spline::{cross, dot, length};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -134,7 +134,7 @@ impl<'a> Body<'a> {
                 };
                 let turns = |other: f64| {
                     let both = normal(before, other).zip(normal(value, other));
-                    both.is_some_and(|(p, q)| (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]) < CREASE.cos())
+                    both.is_some_and(|(p, q)| dot(p, q) < CREASE.cos())
                 };
                 for span in others.breakpoints().windows(2) {
                     let looks = (0..=LOOKS).map(|k| span[0] + (span[1] - span[0]) * k as f64 / LOOKS as f64);
@@ -177,10 +177,7 @@ impl<'a> Body<'a> {
     /// The same by secants from a guess below the upper edge of the surface; none where they leave it or do not end.
     fn top_near(&self, u: f64, guess: f64) -> Option<f64> {
         let [low, high] = self.ends[1];
-        let above = |v: f64| {
-            let point = self.hull.surface().eval(u, v);
-            point[2] - self.hull.deck_height(point[0])
-        };
+        let above = |v: f64| above_deck(self.hull, [u, v]);
         let slack = DECK * (self.hull.top() - self.hull.bottom());
         let (mut p, mut q) = (guess, guess - 1e-4 * (guess - low));
         let (mut f, mut g) = (above(p), above(q));

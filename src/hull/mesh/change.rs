@@ -61,14 +61,12 @@ impl Half<'_> {
 
     /// A point of the edge a b about halfway, on the surface; none where its parameters give none.
     fn between(&self, a: usize, b: usize) -> Option<([f64; 3], Site)> {
-        let ([f, _], count) = self.beside(a, b);
-        let mut region = self.faces.get(f).copied().flatten()?.0;
-        if self.sites[a].region == Region::Hull && self.sites[b].region == Region::Hull {
-            // Edges of the side are those of the side, whatever face is beyond.
-            let ([f, g], _) = self.beside(a, b);
-            let of_side =
-                [f, g].iter().any(|&k| self.faces.get(k).copied().flatten().is_some_and(|(r, _)| r == Region::Hull));
-            region = if of_side { Region::Hull } else { region };
+        let ([f, g], count) = self.beside(a, b);
+        let region_of = |k: usize| Some(self.faces.get(k).copied().flatten()?.0);
+        let mut region = region_of(f)?;
+        // Edges of the side are those of the side, whatever face is beyond.
+        if [a, b].iter().all(|&v| self.sites[v].region == Region::Hull) && region_of(g) == Some(Region::Hull) {
+            region = Region::Hull;
         }
         let on = |v: usize| self.body.site_on(&self.sites[v], region, self.on_centreplane(v));
         let (p, q) = (on(a), on(b));

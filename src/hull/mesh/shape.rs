@@ -1,6 +1,6 @@
 //! Triangles of a good shape: lengths of edges as the curvature asks, and no angle below a bound but where the body has a sharper corner.
 //!
-//! The wanted length of edges is sqrt(4 d / k) with the deviation d and the largest principal curvature k, at most the half-breadth of a
+//! The wanted length of edges is sqrt(5 d / k) with the deviation d and the largest principal curvature k, at most the half-breadth of a
 //! closing face beside it, and grows by at most a part of the distance. Edges are split, flipped and collapsed to it, vertices moved to the middle
 //! of their neighbours (Botsch and Kobbelt 2004); then each triangle with an angle that is too small is taken by itself: an edge is flipped, a short
 //! one collapsed, a vertex moved, or the longest edge of those that follow from it is split (Rivara 1997), the first that makes it better.

@@ -15,8 +15,8 @@ const SAME: f64 = 1e-2;
 /// Wanted lengths of edges over the deviation, at least.
 const LEAST_SIZE: f64 = 3.0;
 
-/// Four deviations over the curvature: an equilateral triangle of this side leaves a sphere by two thirds of the deviation, and a cylinder
-/// by half of it.
+/// The side whose square is five deviations over the curvature: an equilateral triangle of it leaves a sphere by five sixths of the
+/// deviation, and a cylinder by five eighths.
 fn size_at(curvature: f64, deviation: f64) -> f64 {
     (5.0 * deviation / curvature.max(1e-12)).sqrt().max(LEAST_SIZE * deviation)
 }

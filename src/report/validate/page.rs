@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use super::super::page::fixed;
+use super::super::page::{fixed, signed};
 use super::{Case, Comparison, Tolerance, Verdict};
 use crate::hull::Chart;
 
@@ -15,11 +15,6 @@ const GOAL: f64 = 0.3;
 fn digits(value: f64) -> String {
     let magnitude = if value.abs() > 0.0 { value.abs().log10().floor() } else { 0.0 };
     fixed(value, (4.0 - magnitude).clamp(0.0, 5.0) as usize)
-}
-
-fn signed(value: f64, decimals: usize) -> String {
-    let text = fixed(value, decimals);
-    if text.starts_with('-') || value.abs() < 0.5 * 10f64.powi(-(decimals as i32)) { text } else { format!("+{text}") }
 }
 
 fn tolerance(c: &Comparison) -> String {
