@@ -9,7 +9,7 @@
 //!
 //! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. The triangles are
 //! then brought into shape (`shape`), so that their angles are [`LEAST_ANGLE`] or more and they are off the surface by at most half of the
-//! tolerance, as seen at their middles and those of their sides. Halving the tolerance therefore halves the error of the volume: second
+//! tolerance, as seen at their middles and those of their sides (the whole of it for the last few that have no such angles otherwise). Halving the tolerance therefore halves the error of the volume: second
 //! order in the length of edges. Where the surface has a crease, it is an edge of the mesh; above the last knuckle, or three quarters of the height, below a
 //! deck that cuts the surface, rows are drawn down to the deck.
 //!
@@ -170,7 +170,7 @@ fn lines(hull: &Hull, deviation: f64) -> [Vec<f64>; 2] {
 
 /// How far a point of the surface lies above the deck \[m\].
 fn above_deck(hull: &Hull, [u, v]: [f64; 2]) -> f64 {
-    let [x, _, z] = hull.surface().eval(u, v);
+    let [x, _, z] = hull.surface().point_of_many(u, v);
     z - hull.deck_height(x)
 }
 
@@ -215,8 +215,8 @@ impl HullMesh {
         Ok(mirror::whole(&half))
     }
 
-    /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but on faces that are narrower than
-    /// the deviation over a length, as they may be on hulls laid through tables.
+    /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but where the surface itself is
+    /// folded, as one laid through a table may be.
     #[must_use]
     pub fn slivers(&self) -> usize {
         let known: HashSet<(usize, Region)> = self.sharp_corners.iter().map(|c| (c.vertex, c.region)).collect();

@@ -101,6 +101,23 @@ impl<const D: usize> BsplineSurface<D> {
         })
     }
 
+    /// The point at (u, v) as [`Self::jet`] has it: for many points of a bicubic surface, whose polynomials the first call makes.
+    #[must_use]
+    #[inline]
+    pub fn point_of_many(&self, u: f64, v: f64) -> [f64; D] {
+        if self.u().degree() == 3 && self.v().degree() == 3 {
+            return self.powers().point(self, u, v);
+        }
+        by_degree!(self, point_fixed, (u, v), { self.eval(u, v) })
+    }
+
+    #[inline(never)]
+    fn point_fixed<const K: usize>(&self, u: f64, v: f64) -> [f64; D] {
+        let (first_u, basis_u) = self.u().orders_at_fixed::<K, 1>(u);
+        let (first_v, basis_v) = self.v().orders_at_fixed::<K, 1>(v);
+        combine(&basis_v[0], &self.strips::<K, 1>(first_u, first_v, &basis_u)[0])
+    }
+
     /// Point and first derivatives at (u, v); nothing is allocated.
     #[must_use]
     #[inline]
@@ -264,6 +281,8 @@ mod tests {
                 prop_assert!(close(&s.jet(u, v), &exact), "{:?} {:?}", s.jet(u, v), exact);
                 let t = s.tangents(u, v);
                 let jet = SurfaceJet { point: t.point, du: t.du, dv: t.dv, ..s.jet(u, v) };
+                prop_assert!(close(&jet, &exact));
+                let jet = SurfaceJet { point: s.point_of_many(u, v), ..jet };
                 prop_assert!(close(&jet, &exact));
             }
         }

@@ -29,6 +29,20 @@ impl<const D: usize> std::fmt::Debug for Powers<D> {
 }
 
 impl<const D: usize> Powers<D> {
+    /// The point at (u, v) of the bicubic `surface` to which these polynomials belong.
+    #[inline(never)]
+    pub(super) fn point(&self, surface: &BsplineSurface<D>, u: f64, v: f64) -> [f64; D] {
+        let patches = self.0.get_or_init(|| patches(surface)).as_slice();
+        let ((k, x), (l, y)) = (surface.u().cubic_at(u), surface.v().cubic_at(v));
+        let [a0, a1, a2, a3] = &patches[k * surface.v().cubics().len() + l];
+        let mut point = [0.0; D];
+        for (d, value) in point.iter_mut().enumerate() {
+            let across = |n: usize| ((a3[n][d] * x + a2[n][d]) * x + a1[n][d]) * x + a0[n][d];
+            *value = ((across(3) * y + across(2)) * y + across(1)) * y + across(0);
+        }
+        point
+    }
+
     /// Point, first and second derivatives of the bicubic `surface` to which these polynomials belong.
     #[inline(never)]
     pub(super) fn jet(&self, surface: &BsplineSurface<D>, u: f64, v: f64) -> SurfaceJet<D> {

@@ -207,7 +207,7 @@ impl<'a> Body<'a> {
 
     /// A point of the side; half-breadths that are 0 to rounding, or less, are 0.
     pub(super) fn side(&self, place: [f64; 2]) -> [f64; 3] {
-        let [x, y, z] = self.hull.surface().eval(place[0], self.height(place));
+        let [x, y, z] = self.hull.surface().point_of_many(place[0], self.height(place));
         [x, if y <= self.centreplane { 0.0 } else { y }, z]
     }
 

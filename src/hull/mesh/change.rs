@@ -12,6 +12,9 @@ const TURN: f64 = 0.5;
 const NEAR: f64 = 0.05;
 const FAR: f64 = 0.97;
 
+/// Parts of the way to its goal that a vertex is moved by, the first that serves.
+const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
+
 fn along_normal(sum: [f64; 3], normal: [f64; 3]) -> bool {
     dot(sum, normal) > TURN * length(sum) * length(normal)
 }
@@ -32,7 +35,7 @@ impl Half<'_> {
         // Sides that stay are as far off as before, and new ones are looked at from one of their triangles.
         let stays = |a: usize, b: usize| old.iter().any(|(_, corners)| corners.contains(&a) && corners.contains(&b));
         let off = new.iter().map(|&face| self.off_at(face, |a, b| a < b && !stays(a, b))).fold(0.0, f64::max);
-        off <= self.deviation || off <= old.iter().map(|&face| self.off(face)).fold(0.0, f64::max)
+        off <= self.allowed || off <= old.iter().map(|&face| self.off(face)).fold(0.0, f64::max)
     }
 
     /// Turns the edge a b between two triangles into the other diagonal where that makes their least angle greater.
@@ -244,8 +247,9 @@ impl Half<'_> {
         true
     }
 
-    /// Moves a vertex to where the triangles around it are better, on the surface and on its edge of the body.
-    pub(super) fn relax(&mut self, v: usize) -> bool {
+    /// Moves a vertex to where the triangles around it are better, on the surface and on its edge of the body: towards the middle of its
+    /// neighbours, or with `each` towards one of them.
+    pub(super) fn relax(&mut self, v: usize, each: bool) -> bool {
         if !self.sites[v].is_point() || self.around[v].is_empty() {
             return false;
         }
@@ -266,17 +270,20 @@ impl Half<'_> {
                 return false;
             }
         }
-        let (mut sum, mut weight) = ([0.0; 2], 0.0);
+        let (mut sum, mut weight, mut goals) = ([0.0; 2], 0.0, Vec::new());
         for &other in &ring {
             let share = self.distance(v, other);
             let at = on(other);
             sum = [sum[0] + share * at[0], sum[1] + share * at[1]];
             weight += share;
+            goals.push(at);
         }
         if weight <= 0.0 {
             return false;
         }
-        let goal = sum.map(|c| c / weight);
+        if !each {
+            goals = vec![sum.map(|c| c / weight)];
+        }
         let faces: Vec<Face> = self.around[v].iter().filter_map(|&f| self.faces[f]).collect();
         let least = |half: &Self| faces.iter().map(|face| half.sine(face.1)).fold(f64::INFINITY, f64::min);
         let before = least(self);
@@ -285,7 +292,8 @@ impl Half<'_> {
         let off = |half: &Self| faces.iter().map(|&face| half.off_at(face, |a, _| a == v)).fold(0.0, f64::max);
         let (point, border) = (self.points[v], self.on_centreplane(v));
         let mut old_off = None;
-        for share in [1.0, 0.5, 0.2] {
+        let tries = goals.into_iter().flat_map(|goal| SHARES.map(|share| (goal, share)));
+        for (goal, share) in tries {
             let at = [0, 1].map(|k| place[k] + share * (goal[k] - place[k]));
             let mut new = self.body.point(own.region, at);
             if border {
@@ -302,7 +310,7 @@ impl Half<'_> {
                     .all(|(face, normal)| along_normal(*normal, doubled(self.corners(face.1))));
             if sound {
                 let new_off = off(self);
-                if new_off <= self.deviation {
+                if new_off <= self.allowed {
                     return true;
                 }
                 self.points[v] = point;

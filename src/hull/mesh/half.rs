@@ -28,8 +28,10 @@ pub(super) struct Half<'a> {
     pub(super) free: Vec<usize>,
     /// Triangles at each vertex.
     pub(super) around: Vec<Vec<usize>>,
-    /// What triangles may leave the surface by \[m\].
+    /// Half of the tolerance \[m\].
     pub(super) deviation: f64,
+    /// What changes may leave the surface by \[m\].
+    pub(super) allowed: f64,
 }
 
 /// The sine of the least angle of a triangle, and which corner has it.

@@ -4,7 +4,8 @@
 //! closing face beside it, and grows by at most a part of the distance. Edges are split, flipped and collapsed to it, vertices moved to the middle
 //! of their neighbours (Botsch and Kobbelt 2004); then each triangle with an angle that is too small is taken by itself: an edge is flipped, a short
 //! one collapsed, a vertex moved, or the longest edge of those that follow from it is split (Rivara 1997), the first that makes it better.
-//! The number of passes is bounded, so that it always ends.
+//! Where a few are left that nothing helps, they may be off by the whole tolerance, vertices are moved towards each of their neighbours, and
+//! edges on the way to the longest are split. The number of passes is bounded, so that it always ends.
 
 use super::half::{Half, least_sine};
 use super::{LEAST_ANGLE, Region};
@@ -23,6 +24,10 @@ const ROUNDS: usize = 2;
 
 /// Passes over the triangles with angles that are too small.
 const PASSES: usize = 16;
+
+/// Where so few are left, every means is tried in this many passes.
+const FEW: usize = 32;
+const LAST_PASSES: usize = 40;
 
 /// The first of these in which vertices are taken out wherever that helps.
 const FREE: usize = 4;
@@ -138,7 +143,7 @@ impl Half<'_> {
 
     fn relax_all(&mut self) {
         for v in 0..self.points.len() {
-            self.relax(v);
+            self.relax(v, false);
         }
     }
 
@@ -205,12 +210,13 @@ impl Half<'_> {
         edge((0..3).fold(0, |k, other| if long(other) > long(k) * (1.0 + 1e-9) { other } else { k }))
     }
 
-    /// Splits the edge at the end of the path over longest edges that begins with a triangle.
+    /// Splits the edge at the end of the path over longest edges that begins with a triangle, at last the one before it that can be split.
     fn split_path(&mut self, face: usize) -> bool {
         let mut at = face;
         let Some((_, corners)) = self.faces[at] else { return false };
-        let mut edge = self.longest_edge(corners);
+        let mut path = vec![self.longest_edge(corners)];
         for _ in 0..STEPS {
+            let edge = path[path.len() - 1];
             let ([f, g], count) = self.beside(edge[0], edge[1]);
             if count != 2 {
                 break;
@@ -221,15 +227,15 @@ impl Half<'_> {
             if self.distance(longer[0], longer[1]) <= self.distance(edge[0], edge[1]) * (1.0 + 1e-9) {
                 break;
             }
-            (at, edge) = (next, longer);
+            at = next;
+            path.push(longer);
         }
-        match self.split(edge[0], edge[1]) {
-            Some(middle) => {
-                self.settle(middle);
-                true
-            }
-            None => false,
-        }
+        let tries = if self.is_last() { path.len() } else { 1 };
+        let middle = path.into_iter().rev().take(tries).find_map(|[a, b]| self.split(a, b));
+        middle.is_some_and(|middle| {
+            self.settle(middle);
+            true
+        })
     }
 
     /// Makes one triangle better; whether anything was done.
@@ -253,7 +259,7 @@ impl Half<'_> {
         }
         let mut moved = false;
         for v in corners {
-            moved |= self.relax(v);
+            moved |= self.relax(v, false) || (self.is_last() && self.relax(v, true));
         }
         if !may_split || (moved && self.bad(face, bound).is_none()) {
             return moved;
@@ -261,28 +267,39 @@ impl Half<'_> {
         self.split_path(face)
     }
 
+    /// Whether what is left may be off by the whole tolerance, and every means is tried.
+    fn is_last(&self) -> bool {
+        self.allowed > self.deviation
+    }
+
+    /// Triangles with an angle that is too small, the worst first.
+    fn bad_faces(&self, bound: f64) -> Vec<usize> {
+        let mut list: Vec<(f64, usize)> =
+            (0..self.faces.len()).filter_map(|f| Some((self.bad(f, bound)?, f))).collect();
+        list.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        list.into_iter().map(|(_, face)| face).collect()
+    }
+
     fn mend_all(&mut self, most: usize) {
         let bound = (MARGIN * LEAST_ANGLE).sin();
         let (mut best, mut stalled) = (usize::MAX, 0);
-        for pass in 0..PASSES {
-            let mut list: Vec<(f64, usize)> =
-                (0..self.faces.len()).filter_map(|f| Some((self.bad(f, bound)?, f))).collect();
+        for pass in 0..if self.is_last() { LAST_PASSES } else { PASSES } {
+            let list = self.bad_faces(bound);
             if list.is_empty() {
                 return;
             }
-            list.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
             let list_length = list.len();
             let mut changed = false;
-            for (_, face) in list {
+            for face in list {
                 if self.faces[face].is_none() || self.bad(face, bound).is_none() {
                     continue;
                 }
                 changed |= self.mend(face, bound, pass, pass > 0 && self.count() < most);
             }
             // A part of the body that cannot be meshed so well is not worth more.
-            let fewer = list_length < best - best.div_ceil(20);
+            let fewer = list_length <= best - best.div_ceil(20);
             (best, stalled) = if fewer { (list_length, 0) } else { (best, stalled + 1) };
-            if (!changed && pass > 0) || (stalled >= PATIENCE && pass > FREE) {
+            if (!changed && pass > 0) || (stalled >= PATIENCE && pass > FREE && !self.is_last()) {
                 return;
             }
         }
@@ -351,6 +368,10 @@ impl Half<'_> {
             if !self.follow(most) {
                 break;
             }
+            self.mend_all(most);
+        }
+        if self.bad_faces((MARGIN * LEAST_ANGLE).sin()).len() <= FEW {
+            self.allowed = 2.0 * self.deviation;
             self.mend_all(most);
         }
         self.open_ends();

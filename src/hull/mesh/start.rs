@@ -33,6 +33,7 @@ pub(super) fn half<'a>(body: &'a Body<'a>, [us, ws]: [&[f64]; 2], deviation: f64
         free: Vec::new(),
         around: Vec::new(),
         deviation: 0.5 * deviation,
+        allowed: 0.5 * deviation,
     };
     let mut known = Known::default();
     let (m, n) = (us.len(), ws.len());
