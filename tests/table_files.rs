@@ -145,6 +145,10 @@ fn workbooks_that_cannot_be_read() {
     assert!(message(&workbook(deep, 0)).contains("E312 t.xlsx row 1048576, column 1"));
     assert!(message(&workbook("", 0)).contains("E300 t.xlsx: no sheet of the workbook has cells"));
     assert!(message(&workbook(&sheet("x,1\n0,2\n"), 300 << 20)).contains("E312 t.xlsx: "));
+    // The count of texts would be set aside in memory before one is read.
+    let claim = "<sst xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\" uniqueCount = '99999999999999999999'/>";
+    let lying = archive(&[("xl/SharedStrings.xml", claim.to_owned())], 0);
+    assert!(message(&lying).contains("E312 t.xlsx: the workbook says that it has 18446744073709551615 shared texts"));
     let whole = workbook(&sheet("x,1,2\n0,2,3\n10,3,4\n"), 0);
     for cut in (0..whole.len()).step_by(7) {
         // Cut off anywhere it is refused, or whatever was read has no problem.

@@ -83,6 +83,18 @@ fn nets_of_fits_lose_noise_and_keep_features() {
     assert!(summary.rms[1][0] <= summary.rms[0][0], "{summary}");
 }
 
+/// Two wrong cells side by side on a station, and one whose neighbours look worse than it.
+#[test]
+fn errors_that_hide_each_other_are_found() {
+    for (title, seed, limit) in
+        [("Wigley, 2 mm and 3 swaps", 14, 0.00076), ("middle body, 2 mm and 3 swaps", 20, 0.002)]
+    {
+        let case = cases().into_iter().find(|case| case.title() == title).unwrap();
+        let measured = (case.truth)().measured(&case, seed);
+        assert!(measured.rms[1] <= limit, "{title} {seed}: {:?}", measured.rms);
+    }
+}
+
 #[test]
 fn errors_of_typing_do_not_reach_the_hull() {
     for (name, limit) in [("Wigley", 0.00076), ("S-shaped", 0.0013), ("middle body", 0.0013), ("bilge", 0.0025)] {

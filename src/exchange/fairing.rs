@@ -311,6 +311,11 @@ fn text(table: &OffsetTable, change: &Change) -> String {
     }
 }
 
+/// 0 for what is rounding of it \[m\].
+fn without_noise(value: f64) -> f64 {
+    if value.abs() < 1e-12 { 0.0 } else { value }
+}
+
 /// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first outline), place, before, after, move (outward positive), tolerance,
 /// the share of it that is used, whether it is locked or was left out as a suspect, and its text in the old table and in
 /// `written`, the new one as it is read back.
@@ -348,8 +353,8 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
             cell(Some(change.x)),
             cell(Some(change.z)),
             cell(Some(change.before)),
-            cell(Some(change.after)),
-            cell(Some(moved)),
+            cell(Some(without_noise(change.after))),
+            cell(Some(without_noise(moved))),
             cell(change.tolerance),
             used.map(|used| format!("{used:.3}")).unwrap_or_default(),
             yes(change.locked),

@@ -12,10 +12,15 @@ fn write(notation: Notation, value: Option<f64>) -> String {
     value.filter(|v| v.is_finite()).map_or_else(String::new, |v| notation.write(v))
 }
 
+/// A place of a line, to a nanometre: what is beyond is rounding of how it was computed.
+fn place(notation: Notation, value: f64) -> String {
+    write(notation, Some((value * 1e9).round() / 1e9))
+}
+
 /// Half-breadths. With `endings`, two more rows give x of the stern and of the stem at each waterline.
 #[must_use]
 pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> String {
-    let one = |value: f64| write(notation, Some(value));
+    let one = |value: f64| place(notation, value);
     let mut head = vec![format!("x\\z [{}]", notation.as_str())];
     head.extend(table.waterlines.iter().map(|&z| one(z)));
     let mut text = line(&head);
@@ -38,7 +43,7 @@ pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> St
 /// deck at side and half-breadth there.
 #[must_use]
 pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
-    let one = |value: f64| write(notation, Some(value));
+    let one = |value: f64| place(notation, value);
     let mut head = vec![format!("x\\y [{}]", notation.as_str())];
     head.extend(table.buttocks.iter().map(|&y| one(y)));
     head.extend(["keel", "flat of bottom", "deck at side", "half-breadth at deck"].map(str::to_owned));

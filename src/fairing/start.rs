@@ -99,7 +99,7 @@ impl Started {
             }
             if without.excluded.len() > cleaned.excluded.len() {
                 let again = Modelled::new(job, &without, &found, noise)?;
-                if again.follows(noise) {
+                if again.surface.own && again.follows(noise) {
                     (modelled, cleaned) = (again, without);
                 }
             }
@@ -184,11 +184,12 @@ impl Modelled {
         })
     }
 
-    /// Whether a net of its own follows the table: what remains is the noise of the table.
+    /// Whether a net of its own follows the table: the surface through the table breaks along no lines but those declared (an error bends
+    /// it as a feature of the hull does), and what remains is the noise of the table.
     fn follows(&self, noise: f64) -> bool {
         let least = LEAST_TOLERANCE * self.before.particulars().breadth;
         let remains = self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()));
-        remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
+        self.surface.simple && remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
     }
 
     /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.

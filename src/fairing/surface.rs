@@ -136,6 +136,8 @@ pub struct FairSurface {
     pub anisotropy: f64,
     /// Whether the net is one of its own, not that of the fit.
     pub own: bool,
+    /// Whether the fit that a net of its own replaces breaks along no lines but those declared.
+    pub simple: bool,
     /// Breaks and straight parts along the ship and up, on a net of its own.
     pub courses: [Course; 2],
     /// Whether the chart is the rectangle itself: x linear in u and z linear in v.
@@ -197,6 +199,8 @@ fn is_simple(knots: &KnotVector, lines: usize) -> bool {
 struct OverRectangle {
     lines: [Lines; 2],
     given: [Vec<Break>; 2],
+    /// The fit has no features but those.
+    simple: bool,
 }
 
 impl OverRectangle {
@@ -248,16 +252,14 @@ impl OverRectangle {
             }
         }
         let net = [fitted.surface().u(), fitted.surface().v()];
-        if !(0..2).all(|k| is_simple(net[k], given[k].len())) {
-            return None;
-        }
+        let simple = (0..2).all(|k| is_simple(net[k], given[k].len()));
         let forward = (0..up.len()).map(|w| (0..along.len()).map(|s| value(s, w)).collect()).collect();
         let upward = (0..along.len()).map(|s| (0..up.len()).map(|w| value(s, w)).collect()).collect();
         let lines = [
             Lines { spans: spans(&along, DENSITY[0]), sites: along, values: forward },
             Lines { spans: spans(&up, DENSITY[1]), sites: up, values: upward },
         ];
-        Some(Self { lines, given })
+        Some(Self { lines, given, simple })
     }
 }
 
@@ -306,7 +308,7 @@ impl FairSurface {
         let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
         let smooth = over.is_some();
         let mut courses = [Course::default(), Course::default()];
-        let mut hull = if let Some((OverRectangle { lines, given }, noise)) = &over {
+        let mut hull = if let Some((OverRectangle { lines, given, .. }, noise)) = &over {
             courses = [0, 1].map(|k| lines[k].course(&given[k], *noise));
             let knots = |k: usize| courses[k].knots(&lines[k].sites, lines[k].spans);
             rectangle(fitted, [knots(0)?, knots(1)?])?
@@ -347,6 +349,7 @@ impl FairSurface {
             anisotropy: settings.anisotropy,
             plain,
             own: smooth,
+            simple: over.is_none_or(|(over, _)| over.simple),
             hull,
         })
     }

@@ -208,9 +208,12 @@ impl TriangleMesh {
                 loop {
                     used[at] = true;
                     edges.push(lines[at].1);
-                    let next = begins.get(&lines[at].1).and_then(|list| list.iter().rev().find(|&&k| !used[k]));
+                    // What is used stays so, and is not looked at again.
+                    let next = begins
+                        .get_mut(&lines[at].1)
+                        .and_then(|list| std::iter::from_fn(|| list.pop()).find(|&k| !used[k]));
                     match next {
-                        Some(&next) => at = next,
+                        Some(next) => at = next,
                         None => break,
                     }
                 }

@@ -123,6 +123,20 @@ pub struct Quantity {
     pub value: fn(&Hydrostatics) -> Option<f64>,
 }
 
+impl Quantity {
+    /// Decimals of a value in print: [`Self::decimals`], and up to two more for volumes, areas, masses and moments of boats, so that four figures
+    /// are seen.
+    #[must_use]
+    pub fn decimals_of(&self, value: f64) -> usize {
+        let grows = ["m2", "m3", "m4", "t", "t/cm", "t m/cm", "t m/m"].contains(&self.unit);
+        if !grows || !value.is_finite() || value.abs() < 1e-12 {
+            return self.decimals;
+        }
+        let wanted = 3 - value.abs().log10().floor() as i32;
+        self.decimals.max((wanted.max(0) as usize).min(self.decimals + 2))
+    }
+}
+
 /// Every quantity, in the order of tables. Keys are ITTC computer symbols where there is one.
 pub const QUANTITIES: &[Quantity] = &[
     Quantity {
@@ -571,6 +585,16 @@ pub const QUANTITIES: &[Quantity] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn boats_are_printed_with_four_figures() {
+        let of = |key: &str| QUANTITIES.iter().find(|quantity| quantity.key == key).unwrap();
+        for (key, value, decimals) in
+            [("DISPVOL", 7.214, 3), ("DISPVOL", 489.8, 1), ("DISPVOL", 8322.5, 1), ("MTC", 0.1, 4), ("CB", 0.05, 4)]
+        {
+            assert_eq!(of(key).decimals_of(value), decimals, "{key} {value}");
+        }
+    }
 
     #[test]
     fn keys_are_unique_and_plain() {

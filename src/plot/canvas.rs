@@ -161,8 +161,24 @@ fn pieces(text: &str) -> Vec<(bool, &str)> {
     result
 }
 
+/// Text as markup. Spaces in a run and at the ends become spaces that do not break: browsers make one of others, whatever `xml:space` says.
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    let mut result = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    let mut last = None;
+    while let Some(c) = characters.next() {
+        match c {
+            '&' => result.push_str("&amp;"),
+            '<' => result.push_str("&lt;"),
+            '>' => result.push_str("&gt;"),
+            ' ' if last.is_none_or(|c| c == ' ') || characters.peek().is_none_or(|c| *c == ' ') => {
+                result.push('\u{a0}')
+            }
+            _ => result.push(c),
+        }
+        last = Some(c);
+    }
+    result
 }
 
 /// `value` with at most three decimals, without trailing zeros.
@@ -341,10 +357,7 @@ impl Canvas {
     /// Elements of another SVG writer, its origin at `at`, its unit `unit` millimetres.
     pub(super) fn embed(&mut self, elements: &str, at: [f64; 2], unit: f64) {
         let (x, y) = (number(at[0]), number(at[1]));
-        let _ = writeln!(
-            self.body,
-            "<g transform=\"translate({x} {y}) scale({unit})\" xml:space=\"default\" style=\"white-space:normal\">\n{elements}</g>"
-        );
+        let _ = writeln!(self.body, "<g transform=\"translate({x} {y}) scale({unit})\">\n{elements}</g>");
     }
 
     /// The rectangle that `text` takes at `at`.
@@ -418,7 +431,7 @@ impl Canvas {
         let (w, h) = (number(self.width), number(self.height));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
-             font-family=\"'{}', sans-serif\" xml:space=\"preserve\" style=\"white-space:pre\">\n<title>{}</title>\n{ground}{}</svg>\n",
+             font-family=\"'{}', sans-serif\">\n<title>{}</title>\n{ground}{}</svg>\n",
             font::FAMILY,
             escape(title),
             self.body

@@ -29,7 +29,7 @@ const COLUMNS: [(f64, &str); 7] = [
     (27.0, "waterline [m]"),
     (52.0, "given"),
     (70.0, "proposed"),
-    (88.0, "noises off"),
+    (88.0, "score"),
     (107.0, "what it may be"),
 ];
 /// Height of a row of small plots \[mm\], most rows, and stations and waterlines on each side that they show.

@@ -29,7 +29,7 @@ impl Legend {
         let style = TextStyle::new(TEXT, Anchor::Start);
         self.colours(canvas, y);
         let jumps = if self.more > 0 {
-            format!("curvature may jump at {} more lines of the surface", self.more)
+            format!("curvature may jump at {} lines of the surface that are not drawn", self.more)
         } else {
             "curvature jumps across a line of the surface".to_owned()
         };

@@ -151,6 +151,7 @@ fn coefficients(inputs: &FigureInputs) -> String {
         }
     }
     if let Some(percent) = design.lcb_percent {
+        let percent = if percent.abs() < 0.005 { 0.0 } else { percent };
         parts.push(format!("LCB {percent:+.2} % L_PP from midship"));
     }
     parts.join("    ")

@@ -42,7 +42,7 @@ const SIGNS: f64 = 9.0;
 /// Dark stripes to a turn of the reflected ray.
 const STRIPES: f64 = 16.0;
 /// Least angle between the tangent planes of the two sides of a line that is a knuckle \[rad\].
-const KNUCKLE: f64 = 0.005;
+const KNUCKLE: f64 = 0.02;
 /// Lines across which curvature jumps, and knuckles.
 pub(super) const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
 pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");

@@ -4,6 +4,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::sheet::{LETTERS, Sheet};
 use super::{FigureInputs, caption};
+use crate::hydrostatics::{CoefficientLength, QUANTITIES};
 
 /// Size of the title block [mm].
 pub(super) const SIZE: [f64; 2] = [138.0, 57.0];
@@ -38,6 +39,11 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     canvas.line([block.left, block.top + 9.5], [block.right, block.top + 9.5], &RULE);
 
     let body = if scales.body == scales.long { String::new() } else { format!("   body plan 1 : {}", scales.body) };
+    let printed = |key: &str| {
+        let quantity = QUANTITIES.iter().find(|quantity| quantity.key == key);
+        let value = quantity.and_then(|q| Some((q, (q.value)(design)?)));
+        value.map_or("-".to_owned(), |(q, value)| format!("{value:.0$}", q.decimals_of(value)))
+    };
     let coefficient =
         |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
     let left_column = [
@@ -46,13 +52,19 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         format!("B {:.2} m    D {:.2} m", p.breadth, p.depth),
         format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
         format!(
-            "{}    {}",
+            "{}    {}{}",
             coefficient("C_B", design.block_coefficient),
-            coefficient("C_P", design.prismatic_coefficient)
+            coefficient("C_P", design.prismatic_coefficient),
+            match inputs.curves.conventions.coefficient_length {
+                CoefficientLength::Waterline => " on L_WL",
+                CoefficientLength::BetweenPerpendiculars => "",
+            }
         ),
         format!(
-            "∇ {:.1} m³    Δ {:.1} t    ρ {:.3} t/m³",
-            design.displacement_volume, design.displacement_mass, inputs.curves.conventions.density
+            "∇ {} m³    Δ {} t    ρ {:.3} t/m³",
+            printed("DISPVOL"),
+            printed("DISPM"),
+            inputs.curves.conventions.density
         ),
     ];
     let right_column = [

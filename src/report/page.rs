@@ -13,7 +13,7 @@ pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
     QUANTITIES
         .iter()
         .find(|quantity| quantity.key == key)
-        .and_then(|quantity| (quantity.value)(row).filter(|v| v.is_finite()).map(|v| fixed(v, quantity.decimals)))
+        .and_then(|quantity| (quantity.value)(row).filter(|v| v.is_finite()).map(|v| fixed(v, quantity.decimals_of(v))))
         .unwrap_or_default()
 }
 

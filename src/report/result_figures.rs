@@ -127,7 +127,8 @@ fn fairing_jobs<'a>(
                 "suspects",
                 "Suspects",
                 "Rings are offsets as the table has them, bars run to what is proposed. A slip that explains itself (two digits \
-                 changed over, a foot too much) is a slip; one that does not wants a look at the drawing.",
+                 changed over, a foot too much) is a slip; one that does not wants a look at the drawing. The score is the distance from what \
+                 the neighbours expect over what they are sure of, as standard deviations of a normal law.",
             ],
             Box::new(|sheet| fairing_suspects(record, sheet)),
         ),
@@ -328,7 +329,7 @@ fn jobs<'a>(
     };
     jobs.extend(Figure::ALL.map(standard));
     jobs.push(Job {
-        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits."],
+        words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits (coefficients that are asked for on L_PP are on the length of the others here)."],
         draw: Box::new(move |_| Ok(condition_figure(result, inputs, before))),
         scaled: false,
     });

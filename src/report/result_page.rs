@@ -12,7 +12,7 @@ use crate::exchange::{NO_MOVE, scene_json};
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
 use crate::hull::Hull;
-use crate::hydrostatics::{CurvesOfForm, Hydrostatics, QUANTITIES};
+use crate::hydrostatics::{CoefficientLength, CurvesOfForm, Hydrostatics, QUANTITIES};
 use crate::plot::FONT;
 
 const STYLE: &str = include_str!("html/page.css");
@@ -34,13 +34,11 @@ fn inline(figure: &ReportFigure) -> String {
     // The size is that of the column; the viewBox keeps the proportions.
     let (head, rest) = text.split_at(text.find('>').map_or(0, |end| end + 1));
     let shape = head.find("viewBox=").map_or("", |at| &head[at..]);
-    // Two styles are one too many: the second is not heard.
-    let shape = shape.replace(" style=\"white-space:pre\"", "");
     // Small charts do not fill the column.
     let wide = head.split("width=\"").nth(1).and_then(|rest| rest.split("mm").next()?.parse::<f64>().ok());
     let part = wide.map_or(100.0, |millimetres| (100.0 * millimetres / FULL).clamp(50.0, 100.0));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%;white-space:pre\" {shape}{rest}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%\" {shape}{rest}",
         escape(figure.title)
     )
 }
@@ -82,7 +80,7 @@ fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
     let quantities: Vec<_> = QUANTITIES.iter().filter(defined).collect();
     let heads = quantities.iter().map(|q| format!("{} [{}]", q.key, q.unit)).collect();
     let row = |row: &Hydrostatics| {
-        let cells = quantities.iter().map(|q| (q.value)(row).map_or(String::new(), |v| fixed(v, q.decimals)));
+        let cells = quantities.iter().map(|q| (q.value)(row).map_or(String::new(), |v| fixed(v, q.decimals_of(v))));
         ((row.draught - design).abs() < 1e-9, cells.collect())
     };
     Table { heads, words: 0, rows: curves.rows.iter().map(row).collect() }
@@ -96,20 +94,30 @@ pub(super) fn condition(result: &JobResult, design: &Hydrostatics, before: Optio
         heads.push("target");
     }
     let mut table = Table::new(&heads, 3);
+    // Designs ask for coefficients on L_PP.
+    let length = match (&result.fairing, result.conventions.coefficient_length) {
+        (None, CoefficientLength::Waterline) => design.waterline_length,
+        _ => result.hull.particulars().length_between_perpendiculars,
+    };
+    let shares = |key: &str| match key {
+        "CB" | "CWP" => result.hull.particulars().length_between_perpendiculars / length,
+        _ => 1.0,
+    };
     for q in QUANTITIES {
         let Some(value) = (q.value)(design) else { continue };
         let mut cells = vec![q.name.to_owned(), q.key.to_owned(), unit(q.key).to_owned()];
+        let decimals = q.decimals_of(value);
         if let Some(before) = before {
             let old = (q.value)(before);
-            cells.push(old.map_or(String::new(), |old| fixed(old, q.decimals)));
-            cells.push(fixed(value, q.decimals));
-            cells.push(old.map_or(String::new(), |old| fixed(value - old, q.decimals + 1)));
+            cells.push(old.map_or(String::new(), |old| fixed(old, decimals)));
+            cells.push(fixed(value, decimals));
+            cells.push(old.map_or(String::new(), |old| fixed(value - old, decimals + 1)));
         } else {
-            cells.push(fixed(value, q.decimals));
+            cells.push(fixed(value, decimals));
         }
         if !result.targets.is_empty() {
             let target = result.targets.iter().find(|(key, _)| key == q.key);
-            cells.push(target.map_or(String::new(), |(_, wanted)| fixed(*wanted, q.decimals)));
+            cells.push(target.map_or(String::new(), |(_, wanted)| fixed(wanted * shares(q.key), decimals)));
         }
         table.rows.push((false, cells));
     }
@@ -204,7 +212,7 @@ fn inflections(fairing: &Value) -> Table {
 
 fn suspects(fairing: &Value) -> Table {
     let heads =
-        ["id", "what it may be", "written", "x [m]", "z [m]", "value [m]", "expected [m]", "proposed [m]", "sigmas"];
+        ["id", "what it may be", "written", "x [m]", "z [m]", "value [m]", "expected [m]", "proposed [m]", "score"];
     let mut table = Table::new(&heads, 3);
     for suspect in list(&fairing["suspects"]) {
         let metres = |key: &str| suspect[key].as_f64().map_or(String::new(), |v| fixed(v, 4));

@@ -67,6 +67,16 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     if let [Some(before), Some(after)] = conditions {
         lines.push((false, displacement(before, after, &result.conventions)));
     }
+    if let Some(share) = fairing["rounding"]["volume_share"].as_f64() {
+        lines.push((
+            false,
+            format!(
+                "The table as it is written is rounded by {} mm at most, which is {} of displacement.",
+                fixed(1e3 * fairing["rounding"]["largest"].as_f64().unwrap_or(0.0), 2),
+                fixed_sign(100.0 * share, 4, " %")
+            ),
+        ));
+    }
     let sum = |key: &str, when: &str| list(&fairing["inflections"][key]).filter_map(|l| l[when].as_u64()).sum::<u64>();
     let counts: Vec<String> =
         KINDS.iter().map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after"))).collect();

@@ -3,6 +3,7 @@
 //! in its mesh: transformations of nodes are not heeded, and a file that has some is refused.
 
 use serde_json::{Value, json};
+use std::collections::HashSet;
 
 use super::super::fault::{Faults, RecordFault};
 use super::{MOST_TRIANGLES, regions};
@@ -193,8 +194,14 @@ pub(in super::super) fn read_glb(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
         }
     }
     let mut corners = Vec::new();
+    let mut seen = HashSet::new();
     for (m, mesh) in list(&scene, "meshes").iter().enumerate() {
         for (p, value) in list(mesh, "primitives").iter().enumerate() {
+            // The same triangles again are no others.
+            if !seen.insert(format!("{:?} {:?} {:?}", value.get("mode"), value.get("attributes"), value.get("indices")))
+            {
+                continue;
+            }
             match primitive(&scene, binary, value) {
                 Some(found) => corners.extend(found),
                 None => faults.add(

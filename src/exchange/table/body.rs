@@ -163,10 +163,21 @@ pub fn read_body<'a>(
             ));
             notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
             let size = extent(&surfaces);
-            let (nested, deviation) = TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH);
-            let triangles = nested[1].triangles.len();
-            problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
-            framed(nested.to_vec(), &settings, &Given { unit, axes: None, surfaces: true }, &mut problems)
+            match TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH) {
+                Ok((nested, deviation)) => {
+                    let triangles = nested[1].triangles.len();
+                    problems.note(format!("within {:.1e} m of them: {triangles} triangles", deviation * unit));
+                    framed(nested.to_vec(), &settings, &Given { unit, axes: None, surfaces: true }, &mut problems)
+                }
+                Err(count) => {
+                    let message = format!(
+                        "the surfaces bend so often that {count} triangles would not follow them, expected at most {}",
+                        4 * ENOUGH
+                    );
+                    problems.error("E350", Place::FILE, message, "Give the surfaces of the hull alone, or a mesh");
+                    Vec::new()
+                }
+            }
         }
     };
     Some(problems.finish().map(|notes| ReadBody {
@@ -369,43 +380,66 @@ fn found_axes(
     Some(frame)
 }
 
-/// Lines whose ends are within `slack` of each other as one, the nearest ends first.
-fn joined(mut lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
-    let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
-    loop {
-        let mut nearest: Option<(f64, usize, usize, [bool; 2])> = None;
-        for i in 0..lines.len() {
-            for j in i..lines.len() {
-                if lines[i].closed || lines[j].closed {
-                    continue;
-                }
-                for ends in [[false, false], [false, true], [true, false], [true, true]] {
-                    if i == j && ends != [true, false] {
-                        continue;
-                    }
-                    let end = |line: &MeshLine, last: bool| line.points[if last { line.points.len() - 1 } else { 0 }];
-                    let distance = apart(end(&lines[i], ends[0]), end(&lines[j], ends[1]));
-                    if distance <= slack && nearest.is_none_or(|found| distance < found.0) {
-                        nearest = Some((distance, i, j, ends));
-                    }
-                }
+/// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of n ends near each other
+/// all pairs are looked at, of others those that are within `slack` across.
+fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
+    // End 2 k is the first point of line k, 2 k + 1 its last.
+    let end = |e: usize| {
+        let points = &lines[e / 2].points;
+        points[if e % 2 == 0 { 0 } else { points.len() - 1 }]
+    };
+    let mut ends: Vec<usize> = (0..2 * lines.len()).filter(|&e| !lines[e / 2].closed).collect();
+    ends.sort_by(|&a, &b| end(a)[0].total_cmp(&end(b)[0]));
+    let mut pairs = Vec::new();
+    for (n, &a) in ends.iter().enumerate() {
+        let p = end(a);
+        for &b in ends[n + 1..].iter().take_while(|&&b| end(b)[0] - p[0] <= slack) {
+            let distance = (p[0] - end(b)[0]).hypot(p[1] - end(b)[1]);
+            if distance <= slack {
+                pairs.push((distance, a.min(b), a.max(b)));
             }
         }
-        let Some((_, i, j, [last, other_last])) = nearest else { return lines };
-        if i == j {
-            lines[i].closed = true;
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut mates = vec![None; 2 * lines.len()];
+    for (_, a, b) in pairs {
+        if mates[a].is_none() && mates[b].is_none() {
+            (mates[a], mates[b]) = (Some(b), Some(a));
+        }
+    }
+    let mut used = vec![false; lines.len()];
+    let mut result = Vec::with_capacity(lines.len());
+    for k in 0..lines.len() {
+        if used[k] {
             continue;
         }
-        let mut other = lines.remove(j);
-        let line = &mut lines[i];
-        if !last {
-            line.points.reverse();
+        // Back to the loose end of its chain, or once round.
+        let mut from = 2 * k;
+        while let Some(mate) = mates[from] {
+            from = mate ^ 1;
+            if from == 2 * k {
+                break;
+            }
         }
-        if other_last {
-            other.points.reverse();
+        let mut chain = MeshLine { points: Vec::new(), closed: lines[k].closed };
+        let mut at = Some(from);
+        while let Some(entered) = at {
+            let line = &lines[entered / 2];
+            used[entered / 2] = true;
+            if entered % 2 == 0 {
+                chain.points.extend(&line.points);
+            } else {
+                chain.points.extend(line.points.iter().rev());
+            }
+            at = mates[entered ^ 1];
+            if at == Some(from) {
+                chain.closed = true;
+                break;
+            }
         }
-        line.points.extend(other.points);
+        result.push(chain);
     }
+    result
 }
 
 impl ReadBody {

@@ -82,21 +82,23 @@ pub(super) fn halves(loop_points: &[OutlinePoint]) -> Option<Halves> {
 
 /// Separates the branches of a half section: it is cut where it runs along the centreplane between two wider parts.
 pub(super) fn branches(half: Vec<OutlinePoint>) -> Vec<Vec<OutlinePoint>> {
-    let wide = |points: &[OutlinePoint]| points.iter().any(|p| !on_centreplane(p));
     let mut pieces: Vec<Vec<OutlinePoint>> = vec![Vec::new()];
     // Up to its first wide point a branch may run along the centreplane: the stem below a section, for example.
     let last_wide = half.iter().rposition(|p| !on_centreplane(p)).unwrap_or(0);
+    let mut wide = false;
     for (i, &p) in half.iter().enumerate() {
         if let Some(piece) = pieces.last()
             && i <= last_wide
-            && wide(piece)
+            && wide
             && on_centreplane(&p)
             && piece.last().is_some_and(|before| on_centreplane(before) && (before.z - p.z).abs() > ON_CENTREPLANE)
         {
             pieces.push(Vec::new());
+            wide = false;
         }
         if let Some(piece) = pieces.last_mut() {
             piece.push(p);
+            wide |= !on_centreplane(&p);
         }
     }
     pieces.retain(|piece| !piece.is_empty());

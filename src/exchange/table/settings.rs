@@ -137,7 +137,10 @@ pub(super) enum Value {
 /// The candidate nearest to a word, when it is near.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     let word = word.to_lowercase();
+    // Distances take the product of the lengths.
+    let near = |c: &&str| c.len().abs_diff(word.len()) <= 1 + c.len().min(word.len()) / 4;
     candidates
+        .filter(near)
         .map(|c| (strsim::osa_distance(&word, &c.to_lowercase()), c))
         .filter(|(distance, c)| *distance <= 1 + c.len().min(word.len()) / 4 && *distance < word.chars().count())
         .min_by_key(|(distance, _)| *distance)

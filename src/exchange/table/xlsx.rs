@@ -6,10 +6,11 @@
 //! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to hold
 //! more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
 
-use std::io::Cursor;
+use std::io::{Cursor, Read as _};
 
 use calamine::{DataRef, Reader as _, Xlsx};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
+use zip::ZipArchive;
 
 use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
 use super::problem::{Field, Place, Problems};
@@ -37,6 +38,29 @@ fn unpacked(bytes: &[u8]) -> u64 {
     sum
 }
 
+/// The most texts that a part of shared texts says it has: memory is set aside for so many before any is read.
+fn claimed_texts(bytes: &[u8]) -> u64 {
+    const CLAIM: &[u8] = b"uniqueCount";
+    let Ok(mut archive) = ZipArchive::new(Cursor::new(bytes)) else { return 0 };
+    let mut most = 0;
+    for k in 0..archive.len() {
+        let Ok(part) = archive.by_index(k) else { continue };
+        if !part.name().is_ok_and(|name| name.to_lowercase().ends_with("sharedstrings.xml")) {
+            continue;
+        }
+        let mut text = Vec::new();
+        // What cannot be unpacked is told by the reader of the workbook.
+        let _ = part.take(MOST_UNPACKED).read_to_end(&mut text);
+        let places = text.windows(CLAIM.len()).enumerate().filter(|(_, window)| *window == CLAIM).map(|(at, _)| at);
+        for at in places {
+            let digits = text[at + CLAIM.len()..].iter().copied().skip_while(|c| b" \t\r\n=\"'".contains(c));
+            let number = digits.take_while(u8::is_ascii_digit);
+            most = number.fold(0_u64, |n, c| n.saturating_mul(10).saturating_add(u64::from(c - b'0'))).max(most);
+        }
+    }
+    most
+}
+
 /// The rows of a workbook, and the name of their sheet.
 pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
     let stated = unpacked(bytes);
@@ -45,6 +69,13 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             "{} bytes, unpacked {stated}; a workbook has at most {LARGEST_TABLE}, unpacked {MOST_UNPACKED}",
             bytes.len()
         );
+        problems.error("E312", Place::FILE, message, "");
+        return None;
+    }
+    let claimed = claimed_texts(bytes);
+    if claimed > MOST_CELLS as u64 {
+        let message =
+            format!("the workbook says that it has {claimed} shared texts; a table has at most {MOST_CELLS} cells");
         problems.error("E312", Place::FILE, message, "");
         return None;
     }
@@ -130,8 +161,9 @@ fn comments(grid: &mut Grid) {
 /// The rows as lines of CSV, comments among them.
 pub(super) fn lines(grid: &Grid) -> String {
     let mut text = String::new();
+    let mut comments = grid.comments.iter().peekable();
     for (index, row) in grid.rows.iter().enumerate() {
-        if let Some((_, comment)) = grid.comments.iter().find(|(line, _)| *line == index + 1) {
+        if let Some((_, comment)) = comments.next_if(|(line, _)| *line == index + 1) {
             text += &format!("# {comment}");
         }
         for (place, field) in row.iter().enumerate() {

@@ -51,6 +51,9 @@ const HEARD: f64 = 9.0;
 const AT_END: f64 = 4.0;
 /// The same beside the end of a run.
 const NEAR_END: f64 = 1.5;
+/// Mean square of what stands in for a cell that is set aside, over that of a prediction beside it: side by side such cells would
+/// otherwise confirm each other.
+const STAND_IN: f64 = 25.0;
 /// Independent residuals among those of overlapping stencils.
 const INDEPENDENT: f64 = 0.75;
 /// Most degrees of freedom that the table as a whole lends to a cell.
@@ -131,6 +134,8 @@ pub(super) struct Judge {
     pub(super) grid: Grid,
     directions: [Direction; 2],
     masked: Vec<bool>,
+    /// How many are masked.
+    set_aside: usize,
     floor2: f64,
     /// Reading noise and roughness of the table as a whole, squared \[m²\].
     pub(super) sigma2: f64,
@@ -282,7 +287,7 @@ impl Judge {
         let directions = Along::BOTH.map(|along| Direction::new(&grid, along));
         let masked = vec![false; grid.len()];
         let floor2 = quantum * quantum / 12.0;
-        let mut judge = Self { grid, directions, masked, floor2, sigma2: floor2, prior_freedom: 1.0 };
+        let mut judge = Self { grid, directions, masked, set_aside: 0, floor2, sigma2: floor2, prior_freedom: 1.0 };
         for direction in &mut judge.directions {
             (0..judge.grid.len()).for_each(|cell| direction.refresh(cell, &judge.grid.value));
             (0..judge.grid.len()).for_each(|cell| direction.level(cell, &judge.masked));
@@ -294,6 +299,7 @@ impl Judge {
     /// Gives a cell a value, and says whether it stands for the cell or stands in for it.
     pub(super) fn set(&mut self, cell: usize, value: f64, masked: bool) {
         self.grid.value[cell] = value;
+        self.set_aside = self.set_aside + usize::from(masked) - usize::from(self.masked[cell]);
         self.masked[cell] = masked;
         let (row, column) = self.grid.place(cell);
         let (rows, width) = (self.grid.x.len(), self.grid.z.len());
@@ -357,6 +363,17 @@ impl Judge {
         }
     }
 
+    /// How much greater the mean square of a prediction is for what it takes from cells that are set aside: 1 + STAND_IN sum w^2.
+    fn doubt(&self, d: usize, q: usize, cell: usize) -> f64 {
+        if self.set_aside == 0 {
+            return 1.0;
+        }
+        let predictor = if q < PREDICTORS.len() { q } else { q - PREDICTORS.len() };
+        let stencil = self.directions[d].stencils[predictor][cell].as_ref();
+        let taken = stencil.into_iter().flat_map(Stencil::iter).filter(|&(other, _)| self.masked[other]);
+        1.0 + STAND_IN * taken.map(|(_, weight)| weight * weight).sum::<f64>()
+    }
+
     /// What one direction says: of the predictors with the smallest scales the one that the value offends least.
     fn direction(&self, d: usize, cell: usize) -> Option<Witness> {
         let mut best: [Option<Witness>; JURY] = [None; JURY];
@@ -365,7 +382,7 @@ impl Judge {
             let Some(mut w) = heard.witness(&self.directions[d], q, cell) else { continue };
             let noise = w.gain * self.sigma2;
             w.scale2 = (self.prior_freedom * noise + w.freedom * w.scale2) / (self.prior_freedom + w.freedom);
-            w.scale2 = w.scale2.max(w.gain * self.floor2);
+            w.scale2 = w.scale2.max(w.gain * self.floor2) * self.doubt(d, q, cell);
             w.freedom += self.prior_freedom;
             let Some(at) = best.iter().position(|b| b.is_none_or(|b| w.scale2 < b.scale2)) else { continue };
             best[at..].rotate_right(1);

@@ -329,7 +329,7 @@ impl Search<'_> {
                 break;
             }
             kept = self.hear_again(&mut found);
-            if self.exchange(&mut found) {
+            if self.exchange(&mut found) | self.merge(&mut found) {
                 kept = self.hear_again(&mut found);
             }
         }
@@ -340,8 +340,8 @@ impl Search<'_> {
         kept
     }
 
-    /// Cells about two neighbours that say which of them is wrong.
-    fn region(&self, cells: [usize; 2]) -> Vec<usize> {
+    /// Cells about neighbours that say which of them is wrong.
+    fn region(&self, cells: &[usize]) -> Vec<usize> {
         let mut list = Vec::new();
         for (steps, lines) in (-REACH..=REACH).flat_map(|s| (-REACH..=REACH).map(move |l| (s, l))) {
             if steps.abs().min(lines.abs()) <= 1 {
@@ -369,7 +369,7 @@ impl Search<'_> {
 
     /// How much the cost falls when `other` is set aside in the place of `cell`, and the value that then stands in for it.
     fn gain_of_exchange(&mut self, cell: usize, other: usize) -> Option<(f64, f64)> {
-        let region = self.region([cell, other]);
+        let region = self.region(&[cell, other]);
         let stand_in = self.judge.grid.value[cell];
         let kept = self.cost(&region);
         let mine = self.take_back(cell).map(|verdict| self.cost_of_wrong(&verdict));
@@ -408,6 +408,66 @@ impl Search<'_> {
                 *at = other;
                 changed = true;
             }
+        }
+        changed
+    }
+
+    /// How much the cost falls when `other` alone is set aside in the place of two, and the value that then stands in for it.
+    fn gain_of_merging(&mut self, pair: [usize; 2], other: usize) -> Option<(f64, f64)> {
+        let region = self.region(&[pair[0], pair[1], other]);
+        let stand_ins = pair.map(|cell| self.judge.grid.value[cell]);
+        let kept = self.cost(&region);
+        let mine = [0, 1].map(|k| {
+            let verdict = self.take_back(pair[k]);
+            self.judge.set(pair[k], stand_ins[k], true);
+            verdict.map(|verdict| self.cost_of_wrong(&verdict))
+        });
+        pair.into_iter().for_each(|cell| self.judge.set(cell, self.written[cell], false));
+        let mut result = None;
+        if let ([Some(one), Some(two)], Some(theirs)) = (mine, self.judge.verdict(other)) {
+            self.judge.set(other, self.written[other] - theirs.residual, true);
+            self.impute(other);
+            let merged = self.cost(&region) + self.cost_of_wrong(&theirs);
+            result = Some((kept + one + two - merged, self.judge.grid.value[other]));
+            self.judge.set(other, self.written[other], false);
+        }
+        (0..2).for_each(|k| self.judge.set(pair[k], stand_ins[k], true));
+        result
+    }
+
+    /// Exchanges two suspects for one cell beside both where that explains the neighbourhood better: both sides of a wrong cell may have
+    /// looked worse than it.
+    fn merge(&mut self, found: &mut Vec<usize>) -> bool {
+        let mut changed = false;
+        let beside = |grid: &Grid, cell: usize| {
+            EXCHANGES.map(|(steps, lines)| grid.shifted(Along::Station, cell, steps, lines)).into_iter().flatten()
+        };
+        let pairs: Vec<[usize; 2]> =
+            found.iter().enumerate().flat_map(|(k, &a)| found[..k].iter().map(move |&b| [b, a])).collect();
+        for pair in pairs {
+            if pair.iter().any(|&cell| !self.judge.is_masked(cell)) {
+                continue;
+            }
+            let others: Vec<usize> = beside(&self.judge.grid, pair[0])
+                .filter(|&other| !self.judge.is_masked(other) && beside(&self.judge.grid, pair[1]).any(|b| b == other))
+                .collect();
+            let mut best: Option<(f64, usize, f64)> = None;
+            for other in others {
+                let Some((gain, value)) = self.gain_of_merging(pair, other) else { continue };
+                if gain > best.map_or(EXCHANGED, |b| b.0) {
+                    best = Some((gain, other, value));
+                }
+            }
+            let Some((_, other, value)) = best else { continue };
+            let beliefs = pair.map(|cell| {
+                self.judge.set(cell, self.written[cell], false);
+                std::mem::take(&mut self.beliefs[cell])
+            });
+            self.judge.set(other, value, true);
+            self.beliefs[other] = beliefs[0].max(beliefs[1]);
+            found.retain(|cell| !pair.contains(cell));
+            found.push(other);
+            changed = true;
         }
         changed
     }

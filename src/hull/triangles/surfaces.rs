@@ -172,22 +172,29 @@ impl TriangleMesh {
         Self::from_corners(corners.into_iter())
     }
 
-    /// Two such meshes, the second with every edge halved, and their deviation \[m\]: `deviation`, doubled until the first has about
+    /// Two such meshes, the second with every edge halved, and their deviation \[m\]: `deviation`, doubled up to eight times until the first has
     /// `enough` triangles.
-    #[must_use]
-    pub fn nested(surfaces: &[BsplineSurface<4>], deviation: f64, enough: usize) -> ([Self; 2], f64) {
+    ///
+    /// # Errors
+    /// How many triangles there would be, where these are more than four times `enough` even so.
+    pub fn nested(surfaces: &[BsplineSurface<4>], deviation: f64, enough: usize) -> Result<([Self; 2], f64), usize> {
         let bends: Vec<Bends<'_>> = surfaces.iter().map(Bends::of).collect();
+        let count = |deviation: f64| bends.iter().map(|bends| bends.count(deviation)).fold(0, usize::saturating_add);
         let mut deviation = deviation;
         for _ in 0..DOUBLINGS {
-            if bends.iter().map(|bends| bends.count(deviation)).fold(0, usize::saturating_add) > enough {
+            if count(deviation) > enough {
                 deviation *= 2.0;
             }
+        }
+        let least = count(deviation);
+        if least > enough.saturating_mul(4) {
+            return Err(least);
         }
         let meshes = [1, 2].map(|times| {
             let mut corners = Vec::new();
             bends.iter().for_each(|bends| bends.triangles(deviation, times, &mut corners));
             Self::from_corners(corners.into_iter())
         });
-        (meshes, deviation)
+        Ok((meshes, deviation))
     }
 }

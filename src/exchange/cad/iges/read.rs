@@ -24,6 +24,9 @@ const SILENT: [usize; 25] = [
 /// Curves of a file at most.
 const MOST_CURVES: usize = 20_000;
 
+/// Lines of parameters of a transformation at most: twelve numbers and what follows them.
+const MATRIX: usize = 24;
+
 /// Whether these are the first lines of an IGES file: 80 columns, the 73rd of which is S.
 pub(in super::super::super) fn is_iges(bytes: &[u8]) -> bool {
     let line = bytes.split(|&b| matches!(b, b'\n' | b'\r')).next().unwrap_or_default();
@@ -139,16 +142,23 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
     read.unit = unit.is_finite().then_some(unit);
     let directory = entries(of(b'D'), &mut faults);
     let body = of(b'P');
-    let text = |entry: &Entry| -> Vec<u8> {
-        let lines = body.iter().skip(entry.pointer.saturating_sub(1)).take(entry.count);
+    // Each line of parameters belongs to one entity.
+    let claimed = directory.values().map(|entry| entry.count.min(body.len())).fold(0, usize::saturating_add);
+    if claimed > 2 * body.len() {
+        let message = format!("the entities claim {claimed} lines of parameters, there are {}", body.len());
+        faults.add(None, "D section", message);
+        return Err(faults.list);
+    }
+    let text = |entry: &Entry, most: usize| -> Vec<u8> {
+        let lines = body.iter().skip(entry.pointer.saturating_sub(1)).take(entry.count.min(most));
         lines.flat_map(|(_, line)| &line[..64]).copied().collect()
     };
     let mut others: BTreeMap<usize, usize> = BTreeMap::new();
     let mut points = 0;
     let of_entry = |entry: &Entry| {
-        let list = parameters(&text(entry), delimiters);
+        let list = parameters(&text(entry, usize::MAX), delimiters);
         let transformation = directory.get(&entry.transformation).filter(|_| entry.transformation > 0);
-        let place = transformation.map(|entry| numbers(&parameters(&text(entry), delimiters)));
+        let place = transformation.map(|entry| numbers(&parameters(&text(entry, MATRIX), delimiters)));
         (list, place)
     };
     for (name, entry) in &directory {
@@ -190,7 +200,7 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         faults.add(None, "", format!("no B-spline surfaces (entity 128) and no curves (126){there}"));
     }
     // 143, and 144 (surface, 1 where its outer edge is not that of the surface, number of inner edges, ...).
-    let cuts = |entry: &Entry| match numbers(&of_entry(entry).0)[..] {
+    let cuts = |entry: &Entry| match numbers(&parameters(&text(entry, 2), delimiters))[..] {
         [_, _, outer, inner, ..] => outer > 0.0 || inner > 0.0,
         _ => false,
     };

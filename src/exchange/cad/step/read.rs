@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::super::super::fault::{Faults, RecordFault};
 use super::super::surfaces::{CadSurfaces, MOST_POINTS, surface};
-use crate::spline::BsplineSurface;
+use crate::spline::{BsplineSurface, MAX_DEGREE};
 
 /// Lists in lists, at most.
 const DEEPEST: usize = 16;
@@ -319,7 +319,7 @@ fn whole(value: &Value, most: usize) -> Option<usize> {
 /// Knots with their multiplicities as one sequence.
 fn knots(multiplicities: &Value, values: &Value) -> Option<Vec<f64>> {
     let (times, values) = (numbers(multiplicities)?, numbers(values)?);
-    let fits = times.len() == values.len() && times.iter().all(|&t| (1.0..=100.0).contains(&t));
+    let fits = times.len() == values.len() && times.iter().all(|&t| (1.0..=MAX_DEGREE as f64 + 1.0).contains(&t));
     fits.then(|| times.iter().zip(&values).flat_map(|(&t, &value)| std::iter::repeat_n(value, t as usize)).collect())
 }
 

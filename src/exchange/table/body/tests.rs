@@ -1,5 +1,6 @@
 use super::super::Severity;
 use super::*;
+use crate::spline::KnotVector;
 
 /// A box of corners (0, -3, 0) and (40, 3, 4) with its deck, as OBJ in axes that `place` gives.
 fn brick(place: impl Fn([f64; 3]) -> [f64; 3]) -> String {
@@ -95,4 +96,35 @@ fn an_open_body_is_told() {
     // The sections end at the edge.
     assert!(table.stations.iter().all(|station| (station.outlines[0][2].z - 4.0).abs() < 1e-12));
     assert!(table.stations.iter().all(|station| station.outlines[0].len() == 3), "{:?}", table.stations[3].outlines);
+}
+
+#[test]
+fn lines_are_joined_end_to_end() {
+    let line = |points: &[[f64; 2]]| MeshLine { points: points.to_vec(), closed: false };
+    // A strip upside down between two others, a ring of two halves, a line for itself.
+    let lines = vec![
+        line(&[[0.0, 0.0], [1.0, 0.0]]),
+        line(&[[2.0, 0.0], [1.01, 0.0]]),
+        line(&[[10.0, 0.0], [11.0, 1.0], [12.0, 0.0]]),
+        line(&[[2.0, 0.01], [3.0, 0.0]]),
+        line(&[[10.0, 0.01], [11.0, -1.0], [12.0, 0.01]]),
+        line(&[[20.0, 0.0], [21.0, 0.0]]),
+    ];
+    let found = joined(lines, 0.1);
+    assert_eq!(found.len(), 3);
+    assert_eq!(found[0].points, [[0.0, 0.0], [1.0, 0.0], [1.01, 0.0], [2.0, 0.0], [2.0, 0.01], [3.0, 0.0]]);
+    assert!(!found[0].closed && found[1].closed && !found[2].closed);
+    assert_eq!(found[1].points.len(), 6);
+    // Ten thousand strips one above the other are one line.
+    let strips = (0..10_000_u32).map(|k| line(&[[f64::from(k), 0.0], [f64::from(k) + 0.99, 0.0]])).collect();
+    assert_eq!(joined(strips, 0.02).len(), 1);
+}
+
+#[test]
+fn surfaces_that_would_need_too_many_triangles_are_not_built() {
+    let knots = KnotVector::uniform(1, 1).unwrap();
+    let points = vec![[0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0], [1.0, 0.0, 0.0, 1.0], [1.0, 1.0, 2.0, 1.0]];
+    let surface = [BsplineSurface::new(knots.clone(), knots, points).unwrap()];
+    assert!(TriangleMesh::nested(&surface, 1e-3, 100_000).is_ok());
+    assert!(TriangleMesh::nested(&surface, 1e-3, 0).unwrap_err() > 0);
 }
