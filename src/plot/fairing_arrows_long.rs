@@ -150,7 +150,7 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
         let mark = TextStyle { anchor: Anchor::Start, ..style };
         canvas.text([to[0] + 1.0, to[1]], conventions.draught_mark().trim(), &mark);
     }
-    for &height in &record.lines.waterlines {
+    for &height in record.lines.waterlines.iter().filter(|height| **height <= z[1]) {
         let [from, to] = [profile.at(aft(height)), profile.at(fore(height))];
         canvas.line(from, to, &GRID);
         placer.name_point(&mut canvas, &short(height), &style, &[[from[0] - 2.0, from[1]]], &window);
@@ -191,6 +191,24 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
         }
     }
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    let small = TextStyle::new(3.2, Anchor::Start);
+    let words = [
+        format!(
+            "PROFILE    buttocks by y; arrows: how far they rise or fall, {:.1} mm at most, 1 mm of arrow = {} mm",
+            1000.0 * highest,
+            profile.move_a_millimetre
+        ),
+        format!(
+            "HALF-BREADTH PLAN    waterlines by z [m]; arrows: moves of the offsets, 1 mm of arrow = {} mm",
+            plan.move_a_millimetre
+        ),
+    ];
+    let start = left.min(LONG_SIDE);
+    canvas.text([start, HEAD - 7.0], &words[0], &small);
+    canvas.text([start, plan.at([x[0], breadth, 0.0])[1] - 6.0], &words[1], &small);
+    for text in canvas.texts() {
+        placer.take(text.place);
+    }
     drawn.iter().map(|(_, line)| line).chain(&outlines).for_each(|line| placer.add_curve(line));
     let style = TextStyle::new(LETTERS, Anchor::Middle);
     let names = buttocks.iter().map(|y| format!("y {y:.2} m"));
@@ -204,26 +222,11 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
             placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
         }
     }
-    let style = TextStyle::new(3.2, Anchor::Start);
-    let words = [
-        format!(
-            "PROFILE    buttocks by y; arrows: how far they rise or fall, {:.1} mm at most, 1 mm of arrow = {} mm",
-            1000.0 * highest,
-            profile.move_a_millimetre
-        ),
-        format!(
-            "HALF-BREADTH PLAN    waterlines by z [m]; arrows: moves of the offsets, 1 mm of arrow = {} mm",
-            plan.move_a_millimetre
-        ),
-    ];
-    let start = left.min(LONG_SIDE);
-    canvas.text([start, HEAD - 7.0], &words[0], &style);
-    canvas.text([start, plan.at([x[0], breadth, 0.0])[1] - 6.0], &words[1], &style);
     let stretched =
         if stretch > 1.0 { format!(", breadths and heights drawn {stretch:.0} times as large") } else { String::new() };
     head(&mut canvas, record, paper, &format!("scale 1:{n}{stretched}"));
     let y = paper[1] - 14.0;
-    canvas.text([14.0, y], "AFT", &style);
+    canvas.text([14.0, y], "AFT", &small);
     canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);
