@@ -157,7 +157,7 @@ fn draw_grid(
         let right = TextStyle { anchor: Anchor::Start, ..style };
         names.name_point(canvas, &label, &right, &[[frame.right + 1.0, y]], &room);
         if plane.name == design.name {
-            name_assumed(canvas, inputs, &mut names, frame, y, text_size);
+            name_assumed(canvas, inputs, &mut names, frame, y, (text_size, true));
         }
     }
     // Name and distance side by side, in two rows, or the name alone, the same for all.

@@ -12,8 +12,8 @@ use super::view::{DESIGN, GRID, OUTLINE};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
 use crate::hull::{Hull, SectionalAreaCurve, keel_height};
 
-/// Room at the sides of the profile \[mm\].
-const SIDE: f64 = 26.0;
+/// Room aft and forward of the profile \[mm\].
+const SIDES: [f64; 2] = [20.0, 14.0];
 /// Upper edge of the profile, and its largest height \[mm\].
 const TOP: f64 = 30.0;
 const HEIGHT: f64 = 130.0;
@@ -21,8 +21,8 @@ const HEIGHT: f64 = 130.0;
 const INTERVALS: usize = 20;
 /// Heights of a curve.
 const LEVELS: usize = 60;
-/// Width of the largest area, in distances of stations.
-const WIDEST: f64 = 2.6;
+/// Width of the largest area, in distances of stations, at most.
+const WIDEST: f64 = 3.2;
 /// Most waterlines of the table.
 const ROWS: f64 = 11.0;
 /// Height of a row of the table \[mm\].
@@ -102,10 +102,10 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         .flat_map(|row| row.iter().zip(&table.stations))
         .filter_map(|(area, x)| Some(x + WIDEST * spacing * (*area)? / largest));
     let end = reach.fold(high, f64::max) + 0.2 * spacing;
-    let room = ROOM[0] - 2.0 * SIDE;
+    let room = ROOM[0] - SIDES[0] - SIDES[1];
     let contracted = drawing_scale(end - low, room);
     let across = 1000.0 / f64::from(contracted);
-    let left = 0.5 * (ROOM[0] - across * (end - low));
+    let left = SIDES[0] + 0.5 * (room - across * (end - low));
     let at = |x: f64, z: f64| [left + across * (x - low), floor - upward * (z - bottom)];
     let scale = sheet_scale(largest, WIDEST * spacing * across);
     let height = floor + 26.0 + ROW * (table.heights.len() + 2) as f64 + 10.0;

@@ -1,6 +1,6 @@
 //! The diagram sheet: the classic sheet of hydrostatic curves, read with a scale rule.
 //!
-//! A frame of 240 mm x 175 mm, or as high as the draughts need at their scale, with the draught upwards and three axes: AP at 0,
+//! A frame of 240 mm x 200 mm, or as high as the draughts need at their scale, with the draught upwards and three axes: AP at 0,
 //! midship (L_PP / 2) at 120 mm, FP at 240 mm.
 //! Areas, volumes, inertias and heights are measured forward from AP, centres and the moment to trim from midship, form
 //! coefficients aft from FP (1 mm = 0.025). The scale of a curve is its largest value over its target length, rounded up
@@ -13,14 +13,15 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{DESIGN, EDGE, Level, draw_level};
 use super::label::{LabelPlacer, Preference};
 use super::scale::sheet_scale;
+use super::view::THREAD;
 use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Width of the frame [mm].
 const WIDTH: f64 = 240.0;
-/// Largest height of the frame, and the least one, beside which the legend has room [mm].
-const HEIGHT: f64 = 175.0;
-const LOWEST: f64 = 130.0;
+/// Largest height of the frame, and what the legend takes beside it [mm].
+const HEIGHT: f64 = 200.0;
+const LEGEND: f64 = 134.0;
 /// Form coefficients: this much a millimetre.
 const COEFFICIENT_SCALE: f64 = 0.025;
 /// Below this part of the design draught KM_L and KM_T may leave the frame.
@@ -168,9 +169,9 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let draught = inputs.design.draught;
     let highest = rows.iter().map(|row| row.draught).fold(draught, f64::max);
     let draught_scale = sheet_scale(highest, HEIGHT);
-    let frame_height = (5.0 * (highest / draught_scale / 5.0).ceil()).clamp(LOWEST, HEIGHT);
+    let frame_height = (5.0 * (highest / draught_scale / 5.0).ceil()).min(HEIGHT);
     let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + frame_height);
-    let mut canvas = Canvas::new(356.0, frame.bottom + 23.0);
+    let mut canvas = Canvas::new(356.0, (frame.bottom + 13.0).max(frame.top + LEGEND) + 10.0);
     let height = |draught: f64| frame.bottom - draught / draught_scale;
 
     let title = TextStyle::new(5.0, Anchor::Middle);
@@ -202,14 +203,13 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     }
     for (k, curve) in CURVES.iter().enumerate() {
         let style = TextStyle::new(2.8, Anchor::Middle).coloured(curve.colour);
-        placer.name_curve(
-            &mut canvas,
-            k,
-            curve.symbol,
-            &style,
-            Preference { part: curve.name_at, crossings: usize::MAX, beside: true },
-            &frame.grown(-0.5),
-        );
+        // On the curve where that is clear, or else with a thread to it.
+        let (room, part) = (frame.grown(-0.5), curve.name_at);
+        let clear = Preference { part, crossings: 0, beside: false };
+        let anywhere = Preference { part, crossings: usize::MAX, beside: true };
+        let _ = placer.name_curve(&mut canvas, k, curve.symbol, &style, clear, &room)
+            || placer.name_by_leader(&mut canvas, k, curve.symbol, &style, &THREAD, &room)
+            || placer.name_curve(&mut canvas, k, curve.symbol, &style, anywhere, &room);
     }
     draw_legend(&mut canvas, &frame, &scales, draught_scale);
     Ok(canvas)

@@ -1,4 +1,4 @@
-//! Body plan before (grey) and after (black) with an arrow for every offset that moved, so many times longer than the move as the
+//! Body plan before (broad and grey) and after (thin and black) with an arrow for every offset that moved, so many times longer than the move as the
 //! sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
@@ -19,8 +19,8 @@ const FOOT: f64 = 30.0;
 const LONGEST: f64 = 9.0;
 /// Arrows shorter than this are not drawn \[mm\].
 const LEAST: f64 = 0.25;
-pub(super) const BEFORE: Pen = Pen::new(0.45, "#b0b0b0");
-pub(super) const AFTER: Pen = Pen::new(0.18, "#000000");
+pub(super) const BEFORE: Pen = Pen::new(1.0, "#c4c4c4");
+pub(super) const AFTER: Pen = Pen::new(0.25, "#000000");
 const OUTWARD: Pen = Pen::new(0.3, "#b35806");
 const INWARD: Pen = Pen::new(0.3, "#2166ac");
 const SUSPECT: Pen = Pen::new(0.5, "#7000a0");
@@ -33,11 +33,15 @@ pub fn fairing_arrows(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotErro
     Ok(Svg::new(compose(record, sheet)?.finish("fairing-arrows")))
 }
 
-/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`LONGEST`], which grows with the paper.
-pub(super) fn exaggeration(largest: f64, paper: [f64; 2]) -> f64 {
-    let longest = LONGEST * paper[0] / Sheet::A3.room()[0];
+/// Length of the longest arrow, which grows with the paper \[mm\].
+pub(super) fn longest(paper: [f64; 2]) -> f64 {
+    LONGEST * paper[0] / Sheet::A3.room()[0]
+}
+
+/// The largest of 1, 2, 5 times a power of ten, one at least, that keeps `largest` \[mm\] within [`longest`].
+fn exaggeration(largest: f64, paper: [f64; 2]) -> f64 {
     let steps = (0..6).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(power)));
-    steps.take_while(|n| n * largest <= longest).last().unwrap_or(1.0)
+    steps.take_while(|n| n * largest <= longest(paper)).last().unwrap_or(1.0)
 }
 
 /// Title of the sheet, `words` about its scales, and how far the offsets moved.
@@ -70,11 +74,11 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         let [aft, fore] = [-1.0, 1.0].map(|s| [0.5 * paper[0] + s * millimetres * breadth, at(x[0], 0.0, height)[1]]);
         canvas.line(aft, fore, &GRID);
     }
-    let step = record.lines.waterlines.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min) * millimetres;
-    let stride = (3.2 / step.max(0.1)).ceil().max(1.0) as usize;
-    for &height in record.lines.waterlines.iter().step_by(stride) {
-        let y = at(x[0], 0.0, height)[1];
-        canvas.text([0.5 * paper[0] - millimetres * breadth - 12.0, y], &format!("{height:.3}"), &names);
+    let mut placer = LabelPlacer::default();
+    let window = Rectangle::new(8.0, 20.0, paper[0] - 8.0, paper[1] - 14.0);
+    for &height in &record.lines.waterlines {
+        let place = [0.5 * paper[0] - millimetres * breadth - 12.0, at(x[0], 0.0, height)[1]];
+        placer.name_point(&mut canvas, &format!("{height:.3}"), &names, &[place], &window);
     }
     canvas.line(at(x[0], 0.0, z[0]), at(x[0], 0.0, z[1]), &BASE);
     canvas.line(at(x[0], breadth, base(z)), at(x[1], breadth, base(z)), &BASE);
@@ -100,9 +104,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         let length = times * millimetres * (change.after - change.before);
         arrow(&mut canvas, from, [length * side(change.x), 0.0], length);
     }
-    let mut placer = LabelPlacer::default();
     drawn.iter().for_each(|(_, line)| placer.add_curve(line));
-    let window = Rectangle::new(8.0, 20.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn, &mut placer, &window, [0.5 * paper[0], midship]);
     head(&mut canvas, record, paper, &format!("scale 1:{n}    arrows {times:.0} times as long as the moves"));
     let words = TextStyle::new(3.2, Anchor::Middle);

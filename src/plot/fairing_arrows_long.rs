@@ -2,33 +2,34 @@
 //! buttock with a station.
 //!
 //! Half-breadths move, heights do not: z belongs to the chart of the hull. The arrows of the profile say how far the buttocks rise or
-//! fall with the half-breadths. Across the ship both views are stretched by a whole number, which is printed; arrows are so many times
-//! longer than the stretched moves as the sheet says.
+//! fall with the half-breadths. Across the ship both views are stretched by a whole number, which is printed; arrows have a scale of their
+//! own, millimetres of move a millimetre of arrow.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{LONG_SIDE, base, curves, extent};
-use super::fairing_arrows::{AFTER, BEFORE, arrow, exaggeration, head, key, ring};
-use super::label::{LabelPlacer, Preference};
-use super::scale::drawing_scale;
+use super::fairing::{LONG_SIDE, base, curves, extent, short};
+use super::fairing_arrows::{AFTER, BEFORE, arrow, head, key, longest, ring};
+use super::label::{LabelPlacer, Preference, length};
+use super::scale::{drawing_scale, sheet_scale};
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
-use super::view::{BASE, GRID};
-use super::{PlotError, Svg, caption};
+use super::view::{BASE, DESIGN, GRID, OUTLINE, THREAD};
+use super::{PlotError, Svg, caption, outline};
 use crate::fairing::inspect::Planes;
 use crate::fairing::record::FairRecord;
 use crate::hull::Cut;
+use crate::hydrostatics::Conventions;
 
 /// Room above the profile, between the views and below them \[mm\].
-const HEAD: f64 = 32.0;
+const HEAD: f64 = 33.0;
 const BETWEEN: f64 = 26.0;
 const FOOT: f64 = 29.0;
 
-/// Draws both views.
+/// Draws both views; `conventions` say whether the draught was assumed.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_arrows_long(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(compose(record, sheet)?.finish("fairing-arrows-long")))
+pub fn fairing_arrows_long(record: &FairRecord, conventions: &Conventions, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg::new(compose(record, conventions, sheet)?.finish("fairing-arrows-long")))
 }
 
 /// One of the views: which coordinate of the ship stands upright on it, and how.
@@ -41,8 +42,8 @@ struct LongView {
     from: [f64; 2],
     millimetres: f64,
     stretch: f64,
-    /// Times by which arrows are longer than the stretched moves.
-    times: f64,
+    /// Move that an arrow of a millimetre stands for \[mm\].
+    move_a_millimetre: f64,
 }
 
 impl LongView {
@@ -55,7 +56,7 @@ impl LongView {
     }
 
     fn arrow(&self, canvas: &mut Canvas, from: [f64; 3], by: f64) {
-        arrow(canvas, self.at(from), [0.0, -self.times * self.stretch * self.millimetres * by], by);
+        arrow(canvas, self.at(from), [0.0, -1000.0 * by / self.move_a_millimetre], by);
     }
 }
 
@@ -80,15 +81,18 @@ fn risen(before: &[Vec<[f64; 3]>], after: &[Vec<[f64; 3]>], x: f64, height: f64)
     pairs.filter(|[_, by]| by.abs() <= 0.02 * height).collect()
 }
 
-pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
+pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: Sheet) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
     };
-    let n = drawing_scale(x[1] - x[0], paper[0] - 2.0 * LONG_SIDE);
+    let deck = outline::deck_at_side(&record.after);
+    let z = [z[0], deck.iter().map(|p| p[2]).fold(z[1], f64::max)];
+    let breadth = deck.iter().map(|p| p[1]).fold(breadth, f64::max);
+    let room = paper[1] - HEAD - BETWEEN - FOOT;
+    let n = drawing_scale(x[1] - x[0], paper[0] - 2.0 * LONG_SIDE).max(drawing_scale(breadth + z[1] - z[0], room));
     let millimetres = 1000.0 / f64::from(n);
     let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
-    let room = paper[1] - HEAD - BETWEEN - FOOT;
     // One stretch for both views, so that they can be compared.
     let stretch = (room / ((breadth + z[1] - z[0]) * millimetres)).floor().clamp(1.0, 10.0);
     let across = stretch * millimetres;
@@ -114,7 +118,7 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         from: [x[0], from],
         millimetres,
         stretch,
-        times: exaggeration(largest * across, paper),
+        move_a_millimetre: sheet_scale(1000.0 * largest, longest(paper)),
     };
     let profile = view(2, HEAD + across * (z[1] - z[0]), z[0], highest);
     let plan = view(1, paper[1] - FOOT, 0.0, largest);
@@ -134,6 +138,29 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         }
         canvas.line(view.at([x[0], 0.0, base(z)]), view.at([x[1], 0.0, base(z)]), &BASE);
     }
+    // Heights of the waterlines, that of the draught before all.
+    let style = TextStyle::new(LETTERS, Anchor::End);
+    let draught = record.after.particulars().draught;
+    let window = Rectangle::new(4.0, 18.0, paper[0] - 4.0, paper[1] - 12.0);
+    let [aft, fore] = [x[0], x[1]].map(|x| move |z: f64| [x, 0.0, z]);
+    if (z[0]..=z[1]).contains(&draught) {
+        let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
+        canvas.line(from, to, &DESIGN);
+        placer.name_point(&mut canvas, &format!("DWL {draught:.2}"), &style, &[[from[0] - 2.0, from[1]]], &window);
+        let mark = TextStyle { anchor: Anchor::Start, ..style };
+        canvas.text([to[0] + 1.0, to[1]], conventions.draught_mark().trim(), &mark);
+    }
+    for &height in record.lines.waterlines.iter().filter(|height| **height <= z[1]) {
+        let [from, to] = [profile.at(aft(height)), profile.at(fore(height))];
+        canvas.line(from, to, &GRID);
+        placer.name_point(&mut canvas, &short(height), &style, &[[from[0] - 2.0, from[1]]], &window);
+    }
+    let centreplane = outline::centreplane(&record.after).into_iter().map(|[x, z]| [x, 0.0, z]).collect();
+    let outlines: Vec<Vec<[f64; 2]>> = [(&profile, centreplane), (&profile, deck.clone()), (&plan, deck)]
+        .into_iter()
+        .map(|(view, line): (&LongView, Vec<[f64; 3]>)| line.into_iter().map(|p| view.at(p)).collect())
+        .collect();
+    outlines.iter().for_each(|line| canvas.polyline(line, &OUTLINE));
     let mut drawn: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for (k, [before, after]) in pairs.iter().enumerate() {
         for (lines, pen) in [(before, &BEFORE), (after, &AFTER)] {
@@ -144,10 +171,13 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
             }
         }
     }
+    // Numbered on from the buttocks.
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
-        for &z in &record.lines.waterlines {
+        for (k, &z) in record.lines.waterlines.iter().enumerate() {
             for line in curves(hull, Cut::Waterline { z }, fine) {
-                canvas.polyline(&line.into_iter().map(|p| plan.at(p)).collect::<Vec<_>>(), pen);
+                let line: Vec<[f64; 2]> = line.into_iter().map(|p| plan.at(p)).collect();
+                canvas.polyline(&line, pen);
+                drawn.push((buttocks.len() + k, line));
             }
         }
     }
@@ -161,34 +191,42 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         }
     }
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    drawn.iter().for_each(|(_, line)| placer.add_curve(line));
-    for (k, y) in buttocks.iter().enumerate() {
-        let Some(curve) = drawn.iter().position(|(other, _)| *other == k) else { continue };
-        let preferred = Preference { part: 0.15 + 0.1 * (k % 3) as f64, crossings: 3, beside: false };
-        placer.name_curve(
-            &mut canvas,
-            curve,
-            &format!("y {y:.2} m"),
-            &TextStyle::new(LETTERS, Anchor::Middle),
-            preferred,
-            &window,
-        );
-    }
-    let style = TextStyle::new(3.2, Anchor::Start);
+    let small = TextStyle::new(3.2, Anchor::Start);
     let words = [
         format!(
-            "PROFILE    buttocks; no height moves: arrows show how far buttocks rise or fall with the half-breadths, {:.0} times as long, \
-             {:.1} mm at most",
-            profile.times,
-            1000.0 * highest
+            "PROFILE    buttocks by y; arrows: how far they rise or fall, {:.1} mm at most, 1 mm of arrow = {} mm",
+            1000.0 * highest,
+            profile.move_a_millimetre
         ),
-        format!("HALF-BREADTH PLAN    arrows {:.0} times as long as the moves", plan.times),
+        format!(
+            "HALF-BREADTH PLAN    waterlines by z [m]; arrows: moves of the offsets, 1 mm of arrow = {} mm",
+            plan.move_a_millimetre
+        ),
     ];
-    canvas.text([left, HEAD - 6.0], &words[0], &style);
-    canvas.text([left, plan.at([x[0], breadth, 0.0])[1] - 6.0], &words[1], &style);
-    head(&mut canvas, record, paper, &format!("scale 1:{n}, breadths and heights x {stretch:.0}, moves with them"));
+    let start = left.min(LONG_SIDE);
+    canvas.text([start, HEAD - 7.0], &words[0], &small);
+    canvas.text([start, plan.at([x[0], breadth, 0.0])[1] - 6.0], &words[1], &small);
+    for text in canvas.texts() {
+        placer.take(text.place);
+    }
+    drawn.iter().map(|(_, line)| line).chain(&outlines).for_each(|line| placer.add_curve(line));
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    let names = buttocks.iter().map(|y| format!("y {y:.2} m"));
+    let names = names.chain(record.lines.waterlines.iter().map(|z| short(*z)));
+    for (k, name) in names.enumerate() {
+        // The longest piece bears the name.
+        let pieces = (0..drawn.len()).filter(|curve| drawn[*curve].0 == k);
+        let Some(curve) = pieces.max_by(|a, b| length(&drawn[*a].1).total_cmp(&length(&drawn[*b].1))) else { continue };
+        let preferred = Preference { part: 0.15 + 0.1 * (k % 3) as f64, crossings: 3, beside: false };
+        if !placer.name_curve(&mut canvas, curve, &name, &style, preferred, &window) {
+            placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
+        }
+    }
+    let stretched =
+        if stretch > 1.0 { format!(", breadths and heights drawn {stretch:.0} times as large") } else { String::new() };
+    head(&mut canvas, record, paper, &format!("scale 1:{n}{stretched}"));
     let y = paper[1] - 14.0;
-    canvas.text([14.0, y], "AFT", &style);
+    canvas.text([14.0, y], "AFT", &small);
     canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);

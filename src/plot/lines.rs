@@ -1,9 +1,10 @@
 //! The lines plan on A3 or A1: profile, half-breadth plan and body plan in true proportion at scales of the list, with a title block
-//! and a table of half-breadths.
+//! and a table of half-breadths. Where a larger scale is had for it, names stand at one end of the long views alone, or diagonals stay
+//! away from under the half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::profile::LongStyle;
+use super::profile::{LongStyle, Naming};
 use super::scale::{drawing_scale, drawing_scales};
 use super::sheet::{LETTERS, Sheet};
 use super::title_block::{self, Scales};
@@ -18,6 +19,8 @@ const VIEW_TITLE: f64 = 6.0;
 const TEXT: f64 = 3.5;
 /// Narrowest column that a body plan is set in beside the long views [mm].
 const BODY_COLUMN: f64 = 128.0;
+/// What fits to rounding fits [mm].
+const ROUNDING: f64 = 1e-9;
 /// Deviation of chords from their curves on paper [mm].
 const DEVIATION: f64 = 0.004;
 
@@ -26,6 +29,7 @@ struct Extents {
     length: f64,
     height: f64,
     half_breadth: f64,
+    /// Largest distance along a diagonal.
     diagonals: f64,
     /// Smallest table of half-breadths [mm].
     table: [f64; 2],
@@ -43,22 +47,29 @@ impl Extents {
     }
 
     /// Width of the long views and heights of profile and half-breadth plan at 1 : `scale` with their names [mm].
-    fn long_views(&self, scale: u32, side_room: f64) -> [f64; 3] {
+    fn long_views(&self, scale: u32, style: LongStyle) -> [f64; 3] {
         let millimetres = 1000.0 / f64::from(scale);
         let ends = profile::TOP_ROOM + profile::END_ROOM + VIEW_TITLE;
         [
-            self.length * millimetres + 2.0 * side_room,
+            self.length * millimetres + style.naming.rooms().iter().sum::<f64>(),
             self.height * millimetres + ends,
-            (self.half_breadth + self.diagonals) * millimetres + ends,
+            (self.half_breadth + self.below(style)) * millimetres + ends,
         ]
     }
 
+    /// How far the half-breadth plan goes below its centre line [m].
+    fn below(&self, style: LongStyle) -> f64 {
+        if style.diagonals { self.diagonals } else { 0.0 }
+    }
+
     /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that neither
-    /// grows at the cost of the other; a third of it when the table does not fit.
+    /// grows at the cost of the other; a third of it when the table does not fit, and the same when there are no diagonals.
     fn merit(&self, layout: &Layout) -> f64 {
         let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
-        let table = layout.table.width() >= self.table[0] && layout.table.height() >= self.table[1];
-        long * long * body * if table { 1.0 } else { 0.35 }
+        let table =
+            layout.table.width() >= self.table[0] - ROUNDING && layout.table.height() >= self.table[1] - ROUNDING;
+        let part = |has: bool, without: f64| if has { 1.0 } else { without };
+        long * long * body * part(table, 0.35) * part(layout.style.diagonals, 0.35)
     }
 
     /// Height of the body plan with its names at 1 : `scale` [mm].
@@ -82,8 +93,7 @@ impl Extents {
 /// Where the views stand.
 struct Layout {
     scale: u32,
-    /// Room for names beside the long views [mm].
-    side_room: f64,
+    style: LongStyle,
     body_scale: u32,
     profile: Rectangle,
     half_breadths: Rectangle,
@@ -91,27 +101,36 @@ struct Layout {
     table: Rectangle,
 }
 
+/// The long views at a scale: their width, and the heights of profile and half-breadth plan [mm].
+struct Long {
+    scale: u32,
+    style: LongStyle,
+    views: [f64; 3],
+}
+
 /// The layout of most merit, of those at scales of the list that leave the views their room, with the body
 /// plan beside or below the long views.
 fn layout(extents: &Extents, frame: &Rectangle) -> Layout {
     let inner = frame.grown(-GAP);
     let mut best: Option<(f64, Layout)> = None;
-    for (scale, side_room) in
-        drawing_scales().flat_map(|scale| [profile::SIDE_ROOM, profile::NARROW_SIDE_ROOM].map(|room| (scale, room)))
-    {
-        let views = extents.long_views(scale, side_room);
-        let choices = beside(extents, scale, views, &inner).into_iter().chain(below(extents, scale, views, &inner));
+    let styles = [true, false]
+        .into_iter()
+        .flat_map(|diagonals| Naming::ALL.map(|naming| LongStyle { text_size: TEXT, naming, diagonals }));
+    for (style, scale) in styles.flat_map(|style| drawing_scales().map(move |scale| (style, scale))) {
+        let views = extents.long_views(scale, style);
+        let long = Long { scale, style, views };
+        let choices = beside(extents, &long, &inner).into_iter().chain(below(extents, &long, &inner));
         for choice in choices {
             let merit = extents.merit(&choice);
             if best.as_ref().is_none_or(|(most, _)| merit > *most * (1.0 + 1e-9)) {
-                best = Some((merit, Layout { side_room, ..choice }));
+                best = Some((merit, choice));
             }
         }
     }
     let nothing = Rectangle::new(inner.left, inner.top, inner.right, inner.top);
     let otherwise = Layout {
         scale: 1_000_000,
-        side_room: profile::SIDE_ROOM,
+        style: LongStyle { text_size: TEXT, naming: Naming::Full, diagonals: true },
         body_scale: 1_000_000,
         profile: nothing,
         half_breadths: nothing,
@@ -122,7 +141,8 @@ fn layout(extents: &Extents, frame: &Rectangle) -> Layout {
 }
 
 /// The long views in a column on the left with the table under them, the body plan on the right.
-fn beside(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Option<Layout> {
+fn beside(extents: &Extents, long: &Long, inner: &Rectangle) -> Option<Layout> {
+    let Long { scale, style, views: [width, profile, half] } = *long;
     let spare = inner.height() - profile - half;
     if inner.width() - width - GAP < BODY_COLUMN || spare < GAP {
         return None;
@@ -134,12 +154,13 @@ fn beside(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner
     let body = Rectangle::new(right + GAP, inner.top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
     let table = Rectangle::new(inner.left, lower.bottom + GAP, right, inner.bottom);
     let body_scale = extents.body_scale(&body);
-    Some(Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table })
+    Some(Layout { scale, style, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
 /// The long views one under the other, the body plan under them, table and title block to its right: at the largest scale of
 /// the body plan, and at smaller ones that may leave more room to the table.
-fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner: &Rectangle) -> Vec<Layout> {
+fn below(extents: &Extents, long: &Long, inner: &Rectangle) -> Vec<Layout> {
+    let Long { scale, style, views: [width, profile, half] } = *long;
     let body_height = inner.height() - profile - half - 2.0 * GAP;
     if width > inner.width() || body_height < title_block::SIZE[1] + 5.0 {
         return Vec::new();
@@ -162,10 +183,11 @@ fn below(extents: &Extents, scale: u32, [width, profile, half]: [f64; 3], inner:
         let column = wide.max(inner.left + extents.body_width(body_scale) + GAP).min(column);
         let over = Rectangle::new(column, top, inner.right, inner.bottom - title_block::SIZE[1] - GAP);
         let beside = column - extents.table[0] - GAP;
-        let between = over.height() < extents.table[1] && beside - GAP - inner.left >= extents.body_width(body_scale);
+        let between =
+            over.height() < extents.table[1] - ROUNDING && beside - GAP - inner.left >= extents.body_width(body_scale);
         let body = Rectangle::new(inner.left, top, if between { beside - GAP } else { column }, inner.bottom);
         let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
-        Layout { scale, side_room: profile::SIDE_ROOM, body_scale, profile: upper, half_breadths: lower, body, table }
+        Layout { scale, style, body_scale, profile: upper, half_breadths: lower, body, table }
     };
     drawing_scales().filter(|&body_scale| body_scale >= largest).take(4).map(arrange).collect()
 }
@@ -215,13 +237,19 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.5, Anchor::Start);
 
-    let style = LongStyle { text_size: TEXT, narrow: layout.side_room < profile::SIDE_ROOM };
+    let style = layout.style;
     let millimetres = 1000.0 / f64::from(layout.scale);
-    let origin_x = layout.profile.left + layout.side_room - grid.length[0] * millimetres;
-    let name = |canvas: &mut Canvas, place: &Rectangle, text: &str, scale: u32| {
-        canvas.text([place.left + 1.0, place.top + 2.0], &format!("{text}   1 : {scale}"), &title);
+    let origin_x = layout.profile.left + style.naming.rooms()[0] - grid.length[0] * millimetres;
+    // The longest of the words that stays over its view.
+    let name = |canvas: &mut Canvas, place: &Rectangle, words: &[&str], scale: u32| {
+        let at = [place.left + 1.0, place.top + 2.0];
+        let lines: Vec<String> = words.iter().map(|words| format!("{words}   1 : {scale}")).collect();
+        let fitting = lines.iter().find(|line| Canvas::text_place(at, line, &title).right <= place.right);
+        if let Some(line) = fitting.or(lines.last()) {
+            canvas.text(at, line, &title);
+        }
     };
-    name(&mut canvas, &layout.profile, "PROFILE", layout.scale);
+    name(&mut canvas, &layout.profile, &["PROFILE"], layout.scale);
     if before.is_some() {
         key(&mut canvas, [inner_right(&frame), layout.profile.top + 2.0]);
     }
@@ -232,13 +260,16 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     }
     profile::draw_profile(&mut canvas, inputs, &grid, &view, style);
 
-    name(&mut canvas, &layout.half_breadths, "HALF-BREADTH PLAN, diagonals in true shape below", layout.scale);
-    let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
+    let long_words = ["HALF-BREADTH PLAN, diagonals in true shape below", "HALF-BREADTH PLAN"];
+    let words = if style.diagonals { &long_words[..] } else { &long_words[1..] };
+    name(&mut canvas, &layout.half_breadths, words, layout.scale);
+    let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.below(style) * millimetres;
     let view = View::new([origin_x, centre], layout.scale);
     if let Some(before) = &before {
         draw_before(&mut canvas, &view, &before.waterlines, |p, _| [p[0], p[1]]);
         draw_before(&mut canvas, &view, std::slice::from_ref(&before.design_waterline), |p, _| [p[0], p[1]]);
-        draw_before(&mut canvas, &view, &before.diagonals, |p, plane| {
+        let diagonals = if style.diagonals { before.diagonals.as_slice() } else { &[] };
+        draw_before(&mut canvas, &view, diagonals, |p, plane| {
             let [x, s] = LinesGrid::expanded(p, plane.at);
             [x, -s]
         });
@@ -253,7 +284,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     name(
         &mut canvas,
         &Rectangle { top, left: middle - 0.5 * extents.body_width(body_scale), ..layout.body },
-        "BODY PLAN",
+        &["BODY PLAN"],
         body_scale,
     );
     let view = View::new([middle, body_base], body_scale);

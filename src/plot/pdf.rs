@@ -103,10 +103,22 @@ fn page(
     Ok(())
 }
 
+/// A figure on a page of its own.
+fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet) -> Result<(), PlotError> {
+    let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
+    page(document, paper, |surface| {
+        if fits {
+            return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0]);
+        }
+        place(surface, &figure.tree, [0.0, 0.0])?;
+        place(surface, numbered_over(sheet, &figure.titles).tree()?.as_ref(), [0.0, 0.0])
+    })
+}
+
 /// The figures at true size, each with frame, title block and check bar, or as the whole sheet where it is larger than the frame leaves.
 ///
-/// On A3 a figure has a sheet of its own. On A1 the figures that fit into the frame of A3 come first, four to a sheet, and then those that
-/// were drawn larger, a sheet each.
+/// Pages are in the order of the figures. On A3 a figure has a sheet of its own. On A1 one that was drawn larger has a sheet of its own, and
+/// those that fit into the frame of A3 stand up to four to a sheet, as they follow each other.
 ///
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
@@ -121,10 +133,14 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
         let titles = Titles { ship, title: figure.title, caption: figure.caption, number, source, date };
         Ok(Read { titles, size: size(&tree), tree })
     };
-    let mut all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
-    if sheet != Sheet::A3 {
-        let (small, large): (Vec<_>, Vec<_>) = all.into_iter().partition(|figure| figure.fits(ROOM));
-        for four in small.chunks(4) {
+    let all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
+    let is_small = |figure: &Read<'_>| sheet != Sheet::A3 && figure.fits(ROOM);
+    for run in all.chunk_by(|a, b| is_small(a) == is_small(b)) {
+        if !is_small(&run[0]) {
+            run.iter().try_for_each(|figure| draw_alone(&mut document, figure, sheet))?;
+            continue;
+        }
+        for four in run.chunks(4) {
             page(&mut document, sheet.size(), |surface| {
                 let [wide, high] = Sheet::A3.size();
                 let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
@@ -135,17 +151,6 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
                 Ok(())
             })?;
         }
-        all = large;
-    }
-    for figure in &all {
-        let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
-        page(&mut document, paper, |surface| {
-            if fits {
-                return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0]);
-            }
-            place(surface, &figure.tree, [0.0, 0.0])?;
-            place(surface, numbered_over(sheet, &figure.titles).tree()?.as_ref(), [0.0, 0.0])
-        })?;
     }
     document.finish().map_err(|found| error(format!("{found:?}")))
 }

@@ -8,9 +8,11 @@ use super::{FigureInputs, outline};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
-pub(super) const SIDE_ROOM: f64 = 28.0;
+const SIDE_ROOM: f64 = 28.0;
 /// Room beside the hull for their names alone [mm].
-pub(super) const NARROW_SIDE_ROOM: f64 = 15.5;
+const NARROW_SIDE_ROOM: f64 = 15.5;
+/// Room beside the hull where nothing is named [mm].
+const BARE_SIDE_ROOM: f64 = 4.0;
 /// Room above the hull for the names of stations [mm].
 pub(super) const TOP_ROOM: f64 = 7.0;
 /// Room below the hull for the names of stations and perpendiculars [mm].
@@ -18,13 +20,53 @@ pub(super) const END_ROOM: f64 = 11.0;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
 
+/// What stands beside the long views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// Names of waterlines and buttocks with their distances at both ends.
+    Full,
+    /// The same at the aft end alone.
+    FullAft,
+    /// Their names alone at both ends.
+    Names,
+    /// Their names alone at the aft end.
+    NamesAft,
+}
+
+impl Naming {
+    /// From the most to the least that is said.
+    pub(super) const ALL: [Self; 4] = [Self::Full, Self::FullAft, Self::Names, Self::NamesAft];
+
+    /// Room aft and forward of the hull [mm].
+    pub(super) fn rooms(self) -> [f64; 2] {
+        match self {
+            Self::Full => [SIDE_ROOM, SIDE_ROOM],
+            Self::FullAft => [SIDE_ROOM, BARE_SIDE_ROOM],
+            Self::Names => [NARROW_SIDE_ROOM, NARROW_SIDE_ROOM],
+            Self::NamesAft => [NARROW_SIDE_ROOM, BARE_SIDE_ROOM],
+        }
+    }
+
+    /// Whether names bear distances.
+    fn has_distances(self) -> bool {
+        matches!(self, Self::Full | Self::FullAft)
+    }
+
+    /// Whether there are names forward of the hull.
+    fn is_at_both_ends(self) -> bool {
+        matches!(self, Self::Full | Self::Names)
+    }
+}
+
 /// How the long views are lettered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LongStyle {
     /// Size of the text [mm].
     pub(super) text_size: f64,
-    /// Whether waterlines and buttocks bear their names alone, without distances.
-    pub(super) narrow: bool,
+    /// What stands beside them.
+    pub(super) naming: Naming,
+    /// Whether diagonals stand under the half-breadth plan.
+    pub(super) diagonals: bool,
 }
 
 /// Largest distance from the centreplane along a diagonal [m].
@@ -54,10 +96,16 @@ fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View
         let perpendicular = plane.at.abs() < 1e-9 * length || (plane.at - length).abs() < 1e-9 * length;
         canvas.line([x, frame.top], [x, frame.bottom], if perpendicular { &BASE } else { &GRID });
     }
-    // Whole stations first, so that halves give way where it is narrow.
+    // Whole stations first, so that halves give way where it is narrow; of them every one, or every second, fifth or tenth.
     let (halves, whole): (Vec<&GridPlane>, Vec<&GridPlane>) =
         grid.stations.iter().partition(|plane| plane.name.ends_with('½'));
-    for plane in whole.into_iter().chain(halves) {
+    let widest =
+        whole.iter().map(|plane| Canvas::text_place([0.0, 0.0], &plane.name, &style).width()).fold(0.0, f64::max);
+    let pitch = grid.station_spacing * view.scale;
+    let every = [1, 2, 5, 10].into_iter().find(|&n| f64::from(n) * pitch >= widest + 0.6 * text_size).unwrap_or(20);
+    let number = |plane: &GridPlane| (plane.at / grid.station_spacing).round() as i32;
+    let halves = halves.into_iter().filter(|_| every == 1);
+    for plane in whole.into_iter().filter(|plane| number(plane) % every == 0).chain(halves) {
         let x = view.at([plane.at, 0.0])[0];
         for y in places {
             names.name_point(canvas, &plane.name, &style, &[[x, y]], &room);
@@ -77,33 +125,42 @@ fn draw_level(
     y: f64,
     pen: &Pen,
     name: &str,
-    text_size: f64,
+    style: LongStyle,
 ) {
     canvas.line([frame.left, y], [frame.right, y], pen);
-    name_ends(canvas, names, frame, y, name, text_size);
+    name_ends(canvas, names, frame, y, name, (style.text_size, style.naming.is_at_both_ends()));
 }
 
-/// A name on both sides of the frame at one height.
-fn name_ends(canvas: &mut Canvas, names: &mut LabelPlacer, frame: &Rectangle, y: f64, name: &str, text_size: f64) {
+/// A name aft of the frame at one height, and forward of it where it is wanted at both ends.
+fn name_ends(
+    canvas: &mut Canvas,
+    names: &mut LabelPlacer,
+    frame: &Rectangle,
+    y: f64,
+    name: &str,
+    (text_size, both): (f64, bool),
+) {
     let room = frame.grown(SIDE_ROOM + BEYOND);
     let style = TextStyle::new(text_size, Anchor::End);
     names.name_point(canvas, name, &style, &[[frame.left - 1.0, y]], &room);
-    let right = TextStyle { anchor: Anchor::Start, ..style };
-    names.name_point(canvas, name, &right, &[[frame.right + 1.0, y]], &room);
+    if both {
+        let right = TextStyle { anchor: Anchor::Start, ..style };
+        names.name_point(canvas, name, &right, &[[frame.right + 1.0, y]], &room);
+    }
 }
 
-/// Under the name of the design waterline at both ends, whether the draught was assumed.
+/// Under the name of the design waterline, whether the draught was assumed.
 pub(super) fn name_assumed(
     canvas: &mut Canvas,
     inputs: &FigureInputs,
     names: &mut LabelPlacer,
     frame: &Rectangle,
     y: f64,
-    text_size: f64,
+    (text_size, both): (f64, bool),
 ) {
     let text = inputs.curves.conventions.draught_mark().trim();
     if !text.is_empty() {
-        name_ends(canvas, names, frame, y + 1.15 * text_size, text, text_size);
+        name_ends(canvas, names, frame, y + 1.15 * text_size, text, (text_size, both));
     }
 }
 
@@ -131,10 +188,10 @@ pub(super) fn draw_profile(
             &GRID
         };
         let y = view.at([0.0, plane.at])[1];
-        let name = if style.narrow { plane.name.clone() } else { grid.waterline_label(plane) };
-        draw_level(canvas, &mut names, &frame, y, pen, &name, text_size);
-        if plane.name == design.name && !style.narrow {
-            name_assumed(canvas, inputs, &mut names, &frame, y, text_size);
+        let name = if style.naming.has_distances() { grid.waterline_label(plane) } else { plane.name.clone() };
+        draw_level(canvas, &mut names, &frame, y, pen, &name, style);
+        if plane.name == design.name && style.naming.has_distances() {
+            name_assumed(canvas, inputs, &mut names, &frame, y, (text_size, style.naming.is_at_both_ends()));
         }
     }
     let mut placer = LabelPlacer::default();
@@ -178,19 +235,21 @@ fn name_twice(
     }
 }
 
-/// The half-breadth plan: waterlines above the centre line, diagonals in their true shape below it; the origin of `view` is AP
+/// The half-breadth plan: waterlines above the centre line, diagonals, where they are wanted, in their true shape below it; the origin of `view` is AP
 /// on the centre line.
 pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
     let text_size = style.text_size;
-    let frame = frame(grid, view, -diagonal_reach(grid), grid.half_breadth);
+    let diagonals = if style.diagonals { grid.diagonals.as_slice() } else { &[] };
+    let reach = if style.diagonals { diagonal_reach(grid) } else { 0.0 };
+    let frame = frame(grid, view, -reach, grid.half_breadth);
     canvas.begin_group("half-breadth-plan");
     draw_stations(canvas, hull, grid, view, &frame, text_size);
     let mut names = LabelPlacer::default();
-    draw_level(canvas, &mut names, &frame, view.origin[1], &BASE, "CL", text_size);
+    draw_level(canvas, &mut names, &frame, view.origin[1], &BASE, "CL", style);
     for plane in &grid.buttocks {
         let y = view.at([0.0, plane.at])[1];
-        let name = if style.narrow { plane.name.clone() } else { grid.buttock_label(plane) };
-        draw_level(canvas, &mut names, &frame, y, &GRID, &name, text_size);
+        let name = if style.naming.has_distances() { grid.buttock_label(plane) } else { plane.name.clone() };
+        draw_level(canvas, &mut names, &frame, y, &GRID, &name, style);
     }
     let mut placer = LabelPlacer::default();
     let mut owners: Vec<Option<(&GridPlane, &Pen)>> = Vec::new();
@@ -201,7 +260,7 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
             owners.push((k < plane.on_side).then_some((plane, pen)));
         }
     }
-    for plane in &grid.diagonals {
+    for plane in diagonals {
         let expanded = |point: &[f64; 3]| {
             let [x, s] = LinesGrid::expanded(point, plane.at);
             [x, -s]

@@ -116,7 +116,7 @@ fn figures_of_faired_tables_keep_their_text_apart() {
         let mut scales = std::collections::BTreeSet::new();
         let figures = [
             ("arrows", fairing_arrows::compose(&record, sheet)),
-            ("long arrows", fairing_arrows_long::compose(&record, sheet)),
+            ("long arrows", fairing_arrows_long::compose(&record, &Conventions::default(), sheet)),
             ("body plan", fairing::body_plan(&record, &combs, sheet)),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
             ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),

@@ -14,7 +14,7 @@ use super::result_files::ReportSettings;
 use super::result_page::{Table, condition, constraints};
 use super::verdict::verdict;
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::Hydrostatics;
+use crate::hydrostatics::{Conventions, Hydrostatics};
 use crate::plot::{
     CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
     convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
@@ -97,6 +97,7 @@ fn fairing_jobs<'a>(
     record: &'a FairRecord,
     fairing: &'a Value,
     (combs, chosen): (&'a OnceLock<FairingCombs>, &'a [CombLine]),
+    conventions: &'a Conventions,
 ) -> Vec<Job<'a>> {
     let combs = move || combs.get_or_init(|| FairingCombs::new(record, chosen));
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
@@ -148,7 +149,7 @@ fn fairing_jobs<'a>(
                 "Half-breadths move, heights do not: the arrows of the profile are what the buttocks make of it. A field of one \
                  direction along a line is a change of form; arrows that turn from station to station take noise out.",
             ],
-            Box::new(|sheet| fairing_arrows_long(record, sheet).map(Some)),
+            Box::new(move |sheet| fairing_arrows_long(record, conventions, sheet).map(Some)),
         ),
         scaled(
             [
@@ -307,8 +308,11 @@ fn jobs<'a>(
 ) -> Vec<Job<'a>> {
     let Shared { maps, combs } = shared;
     let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
-    let mut jobs: Vec<Job<'a>> =
-        result.fairing.iter().flat_map(|(record, fairing)| fairing_jobs(record, fairing, (combs, chosen))).collect();
+    let mut jobs: Vec<Job<'a>> = result
+        .fairing
+        .iter()
+        .flat_map(|(record, fairing)| fairing_jobs(record, fairing, (combs, chosen), &inputs.curves.conventions))
+        .collect();
     let came = [
         "verdict",
         "What the fairing came to",
