@@ -420,7 +420,7 @@ mod tests {
     #[test]
     fn draughts_of_shallow_hulls_are_named_in_tenths() {
         for (scale, every) in [(0.01, 1), (0.015, 5), (0.02, 10), (0.06, 10), (0.2, 10), (0.4, 20)] {
-            assert_eq!(named_every(HEIGHT, scale), every, "{scale}");
+            assert_eq!(named_every(175.0, scale), every, "{scale}");
         }
     }
 

@@ -142,7 +142,9 @@ mod tests {
             assert!(canvas.sheet().contains(&text.place), "{text:?} leaves the sheet");
             assert!(texts[..k].iter().all(|other| !text.place.overlaps(&other.place)), "{text:?}");
         }
-        assert!(suspect_points_figure(&table, &result).unwrap().as_str().contains("P1   station 4, point 9"));
+        assert!(
+            suspect_points_figure(&table, &result).unwrap().as_str().contains("P1\u{a0}\u{a0}\u{a0}station 4, point 9")
+        );
         assert!(suspect_points_figure(&OffsetTable::default(), &result).is_err());
     }
 }
