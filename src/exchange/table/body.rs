@@ -386,7 +386,7 @@ fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
     // End 2 k is the first point of line k, 2 k + 1 its last.
     let end = |e: usize| {
         let points = &lines[e / 2].points;
-        points[if e % 2 == 0 { 0 } else { points.len() - 1 }]
+        points[if e.is_multiple_of(2) { 0 } else { points.len() - 1 }]
     };
     let mut ends: Vec<usize> = (0..2 * lines.len()).filter(|&e| !lines[e / 2].closed).collect();
     ends.sort_by(|&a, &b| end(a)[0].total_cmp(&end(b)[0]));
@@ -426,7 +426,7 @@ fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
         while let Some(entered) = at {
             let line = &lines[entered / 2];
             used[entered / 2] = true;
-            if entered % 2 == 0 {
+            if entered.is_multiple_of(2) {
                 chain.points.extend(&line.points);
             } else {
                 chain.points.extend(line.points.iter().rev());
