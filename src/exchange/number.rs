@@ -2,6 +2,12 @@
 
 use serde_json::Value;
 
+/// The nearest multiple of 10^-decimals, for numbers that people read: what is beyond is rounding of how it was computed.
+pub(super) fn to_decimals(value: f64, decimals: usize) -> f64 {
+    let unit = 10f64.powi(decimals as i32);
+    (value * unit).round() / unit
+}
+
 /// The number, or null.
 pub(super) fn json_number(value: Option<f64>) -> Value {
     value.and_then(serde_json::Number::from_f64).map_or(Value::Null, Value::Number)

@@ -4,7 +4,7 @@
 //! distances of the buttocks from the centreplane. The first cell of the header names both and the unit. A cell is empty
 //! where there is no hull.
 
-use super::number::line;
+use super::number::{line, to_decimals};
 use crate::hull::OffsetTable;
 use crate::units::Notation;
 
@@ -12,9 +12,9 @@ fn write(notation: Notation, value: Option<f64>) -> String {
     value.filter(|v| v.is_finite()).map_or_else(String::new, |v| notation.write(v))
 }
 
-/// A place of a line, to a nanometre: what is beyond is rounding of how it was computed.
+/// A place of a line, to a nanometre.
 fn place(notation: Notation, value: f64) -> String {
-    write(notation, Some((value * 1e9).round() / 1e9))
+    write(notation, Some(to_decimals(value, 9)))
 }
 
 /// Half-breadths. With `endings`, two more rows give x of the stern and of the stem at each waterline.

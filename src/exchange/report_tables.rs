@@ -2,7 +2,7 @@
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 
-use super::number::{cell, line};
+use super::number::{cell, line, to_decimals};
 use crate::hull::{Hull, OffsetStation, diagonal_offset};
 use crate::hydrostatics::{CurvesOfForm, QUANTITIES};
 use crate::units::Notation;
@@ -34,7 +34,7 @@ pub fn diagonals_csv(
 /// A length \[m\] to the micrometre, for tables that people read.
 #[must_use]
 pub fn micrometres(length: f64) -> f64 {
-    (1e6 * length).round() / 1e6
+    to_decimals(length, 6)
 }
 
 /// Areas of sections, both sides [m^2]: one row a height \[m\], one column a station \[m from AP\]; empty above the deck.
@@ -74,11 +74,10 @@ fn write(table: &CurvesOfForm, conventions: &[(String, String)]) -> Result<Vec<u
         let format = Format::new().set_num_format(digits);
         sheet.write_string_with_format(0, column, quantity.key, &bold)?;
         sheet.write_string(1, column, quantity.unit)?;
-        // Six digits more than are shown: what is beyond them is rounding.
-        let unit = 10f64.powi(quantity.decimals as i32 + 6);
+        // Six digits more than are shown.
         for (row, values) in (2..).zip(&table.rows) {
             if let Some(value) = (quantity.value)(values).filter(|value| value.is_finite()) {
-                sheet.write_number_with_format(row, column, (value * unit).round() / unit, &format)?;
+                sheet.write_number_with_format(row, column, to_decimals(value, quantity.decimals + 6), &format)?;
             }
         }
     }

@@ -9,9 +9,10 @@
 //!
 //! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. The triangles are
 //! then brought into shape (`shape`), so that their angles are [`LEAST_ANGLE`] or more and they are off the surface by at most half of the
-//! tolerance, as seen at their middles and those of their sides (the whole of it for the last few that have no such angles otherwise). Halving the tolerance therefore halves the error of the volume: second
-//! order in the length of edges. Where the surface has a crease, it is an edge of the mesh; above the last knuckle, or three quarters of the height, below a
-//! deck that cuts the surface, rows are drawn down to the deck.
+//! tolerance, as seen at their middles and those of their sides (the whole of it for the last few that have no such angles otherwise).
+//! Halving the tolerance therefore halves the error of the volume: second order in the length of edges. Where the surface has a crease, it
+//! is an edge of the mesh; above the last knuckle, or three quarters of the height, below a deck that cuts the surface, rows are drawn
+//! down to the deck.
 //!
 //! The faces that close the body (bottom, transom, flat bow, deck) are ruled between the two sides and share their vertices. What is
 //! narrower than half of the tolerance has no face.

@@ -124,6 +124,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// The quantity of a key; none for a key that is none of [`QUANTITIES`].
+    #[must_use]
+    pub fn of(key: &str) -> Option<&'static Self> {
+        QUANTITIES.iter().find(|quantity| quantity.key == key)
+    }
+
     /// Decimals of a value in print: [`Self::decimals`], and up to two more for volumes, areas, masses and moments of boats, so that four figures
     /// are seen.
     #[must_use]
@@ -588,7 +594,7 @@ mod tests {
 
     #[test]
     fn boats_are_printed_with_four_figures() {
-        let of = |key: &str| QUANTITIES.iter().find(|quantity| quantity.key == key).unwrap();
+        let of = |key: &str| Quantity::of(key).unwrap();
         for (key, value, decimals) in
             [("DISPVOL", 7.214, 3), ("DISPVOL", 489.8, 1), ("DISPVOL", 8322.5, 1), ("MTC", 0.1, 4), ("CB", 0.05, 4)]
         {

@@ -4,7 +4,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::sheet::{LETTERS, Sheet};
 use super::{FigureInputs, caption};
-use crate::hydrostatics::{CoefficientLength, QUANTITIES};
+use crate::hydrostatics::{CoefficientLength, Quantity};
 
 /// Size of the title block [mm].
 pub(super) const SIZE: [f64; 2] = [138.0, 57.0];
@@ -40,7 +40,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
 
     let body = if scales.body == scales.long { String::new() } else { format!("   body plan 1 : {}", scales.body) };
     let printed = |key: &str| {
-        let quantity = QUANTITIES.iter().find(|quantity| quantity.key == key);
+        let quantity = Quantity::of(key);
         let value = quantity.and_then(|q| Some((q, (q.value)(design)?)));
         value.map_or("-".to_owned(), |(q, value)| format!("{value:.0$}", q.decimals_of(value)))
     };

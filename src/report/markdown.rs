@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::generate::Outputs;
 use super::page::{conventions_line, fixed, lcb, unit, value};
 use crate::config::Reference;
-use crate::hydrostatics::{CurvesOfForm, QUANTITIES};
+use crate::hydrostatics::{CurvesOfForm, QUANTITIES, Quantity};
 
 /// The page as Markdown. `rows` are the hydrostatics at the draughts of each reference, in the order of the references.
 pub(super) fn markdown_page(outputs: &Outputs, references: &[Reference], rows: &[CurvesOfForm]) -> String {
@@ -93,9 +93,7 @@ fn write_page(
             for (line, row) in reference.rows.iter().zip(&ours.rows) {
                 write!(page, "| {} |", line.draught)?;
                 for (key, theirs) in keys.iter().zip(line.values.iter().skip(COLUMNS * block)) {
-                    let difference = QUANTITIES
-                        .iter()
-                        .find(|quantity| quantity.key == *key)
+                    let difference = Quantity::of(key)
                         .and_then(|quantity| (quantity.value)(row))
                         .map(|ours| fixed(reference.difference_percent(*theirs, ours), 2))
                         .map(

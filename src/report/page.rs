@@ -3,16 +3,14 @@
 use super::generate::Outputs;
 use super::self_test::SelfCheck;
 use crate::hydrostatics::{
-    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
+    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, Quantity, Shell,
 };
 
 pub(super) const WIDTH: usize = 80;
 
 /// Value of a quantity with its decimals; empty when it is not defined.
 pub(super) fn value(row: &Hydrostatics, key: &str) -> String {
-    QUANTITIES
-        .iter()
-        .find(|quantity| quantity.key == key)
+    Quantity::of(key)
         .and_then(|quantity| (quantity.value)(row).filter(|v| v.is_finite()).map(|v| fixed(v, quantity.decimals_of(v))))
         .unwrap_or_default()
 }
@@ -43,10 +41,7 @@ pub(super) fn lcb(row: &Hydrostatics, conventions: &Conventions, length: f64) ->
 }
 
 pub(super) fn unit(key: &str) -> &'static str {
-    QUANTITIES
-        .iter()
-        .find(|quantity| quantity.key == key)
-        .map_or("", |quantity| if quantity.unit == "-" { "" } else { quantity.unit })
+    Quantity::of(key).map_or("", |quantity| if quantity.unit == "-" { "" } else { quantity.unit })
 }
 
 /// Cuts a text at words to lines of at most [`WIDTH`] characters, later lines indented.

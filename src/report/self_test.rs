@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::failure::Failure;
-use crate::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Quantity};
 use crate::parametric::Family;
 use crate::parametric::analytic::Dimensions;
 
@@ -127,7 +127,7 @@ pub fn self_test() -> Result<Vec<SelfCheck>, Failure> {
             .hull;
         let table = CurvesOfForm::new(&hull, &[draught], &Conventions::default());
         for (key, exact) in exact {
-            let quantity = QUANTITIES.iter().find(|quantity| quantity.key == key);
+            let quantity = Quantity::of(key);
             let ours = quantity.zip(table.rows.first()).and_then(|(quantity, row)| (quantity.value)(row));
             let error = ours.map_or(f64::INFINITY, |ours| (ours - exact).abs() / exact.abs());
             let tolerance = if key == "S" { 1e-8 } else { 1e-10 };

@@ -137,12 +137,13 @@ pub(super) enum Value {
 /// The candidate nearest to a word, when it is near.
 pub(super) fn nearest<'c>(word: &str, candidates: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     let word = word.to_lowercase();
-    // Distances take the product of the lengths.
-    let near = |c: &&str| c.len().abs_diff(word.len()) <= 1 + c.len().min(word.len()) / 4;
+    let letters = word.chars().count();
+    let most = |c: &str| 1 + c.chars().count().min(letters) / 4;
     candidates
-        .filter(near)
+        // Distances take the product of the lengths.
+        .filter(|c| c.chars().count().abs_diff(letters) <= most(c))
         .map(|c| (strsim::osa_distance(&word, &c.to_lowercase()), c))
-        .filter(|(distance, c)| *distance <= 1 + c.len().min(word.len()) / 4 && *distance < word.chars().count())
+        .filter(|(distance, c)| *distance <= most(c) && *distance < letters)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, c)| c)
 }

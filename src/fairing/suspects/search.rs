@@ -367,104 +367,82 @@ impl Search<'_> {
         -f64::max(wrong, f64::MIN_POSITIVE).ln()
     }
 
-    /// How much the cost falls when `other` is set aside in the place of `cell`, and the value that then stands in for it.
-    fn gain_of_exchange(&mut self, cell: usize, other: usize) -> Option<(f64, f64)> {
-        let region = self.region(&[cell, other]);
-        let stand_in = self.judge.grid.value[cell];
+    /// How much the cost falls when `other` is set aside in the place of some that are, and the value that then stands in for it.
+    fn gain_of_exchange(&mut self, cells: &[usize], other: usize) -> Option<(f64, f64)> {
+        let region = self.region(&[cells, &[other]].concat());
+        let stand_ins: Vec<f64> = cells.iter().map(|&cell| self.judge.grid.value[cell]).collect();
         let kept = self.cost(&region);
-        let mine = self.take_back(cell).map(|verdict| self.cost_of_wrong(&verdict));
-        let theirs = self.judge.verdict(other);
+        let mut mine = Some(0.0);
+        for (&cell, &value) in cells.iter().zip(&stand_ins) {
+            let verdict = self.take_back(cell);
+            self.judge.set(cell, value, true);
+            mine = mine.zip(verdict).map(|(sum, verdict)| sum + self.cost_of_wrong(&verdict));
+        }
+        cells.iter().for_each(|&cell| self.judge.set(cell, self.written[cell], false));
         let mut result = None;
-        if let (Some(mine), Some(theirs)) = (mine, theirs) {
+        if let (Some(mine), Some(theirs)) = (mine, self.judge.verdict(other)) {
             self.judge.set(other, self.written[other] - theirs.residual, true);
             self.impute(other);
             let exchanged = self.cost(&region) + self.cost_of_wrong(&theirs);
             result = Some((kept + mine - exchanged, self.judge.grid.value[other]));
             self.judge.set(other, self.written[other], false);
         }
-        self.judge.set(cell, stand_in, true);
+        cells.iter().zip(stand_ins).for_each(|(&cell, value)| self.judge.set(cell, value, true));
         result
+    }
+
+    /// Exchanges cells that are set aside for the one beside all of them that explains the neighbourhood best, where one explains it better.
+    fn exchanged(&mut self, cells: &[usize]) -> Option<usize> {
+        let beside = |grid: &Grid, cell: usize| {
+            EXCHANGES.map(|(steps, lines)| grid.shifted(Along::Station, cell, steps, lines)).into_iter().flatten()
+        };
+        let grid = &self.judge.grid;
+        let others: Vec<usize> = beside(grid, *cells.first()?)
+            .filter(|&other| !self.judge.is_masked(other))
+            .filter(|&other| cells[1..].iter().all(|&cell| beside(grid, cell).any(|b| b == other)))
+            .collect();
+        let mut best: Option<(f64, usize, f64)> = None;
+        for other in others {
+            let Some((gain, value)) = self.gain_of_exchange(cells, other) else { continue };
+            if gain > best.map_or(EXCHANGED, |b| b.0) {
+                best = Some((gain, other, value));
+            }
+        }
+        let (_, other, value) = best?;
+        let mut belief = 0.0;
+        for &cell in cells {
+            self.judge.set(cell, self.written[cell], false);
+            belief = f64::max(belief, std::mem::take(&mut self.beliefs[cell]));
+        }
+        self.judge.set(other, value, true);
+        self.beliefs[other] = belief;
+        Some(other)
     }
 
     /// Exchanges suspects for neighbours where that explains the neighbourhood better: beside a wrong cell a right one may have
     /// looked worse.
     fn exchange(&mut self, found: &mut [usize]) -> bool {
         let mut changed = false;
-        for at in found {
-            let cell = *at;
-            let mut best: Option<(f64, usize, f64)> = None;
-            for (steps, lines) in EXCHANGES {
-                let other = self.judge.grid.shifted(Along::Station, cell, steps, lines);
-                let Some(other) = other.filter(|&other| !self.judge.is_masked(other)) else { continue };
-                let Some((gain, value)) = self.gain_of_exchange(cell, other) else { continue };
-                if gain > best.map_or(EXCHANGED, |b| b.0) {
-                    best = Some((gain, other, value));
-                }
-            }
-            if let Some((_, other, value)) = best {
-                self.judge.set(cell, self.written[cell], false);
-                self.judge.set(other, value, true);
-                self.beliefs[other] = std::mem::take(&mut self.beliefs[cell]);
-                *at = other;
+        for cell in found {
+            if let Some(other) = self.exchanged(&[*cell]) {
+                *cell = other;
                 changed = true;
             }
         }
         changed
     }
 
-    /// How much the cost falls when `other` alone is set aside in the place of two, and the value that then stands in for it.
-    fn gain_of_merging(&mut self, pair: [usize; 2], other: usize) -> Option<(f64, f64)> {
-        let region = self.region(&[pair[0], pair[1], other]);
-        let stand_ins = pair.map(|cell| self.judge.grid.value[cell]);
-        let kept = self.cost(&region);
-        let mine = [0, 1].map(|k| {
-            let verdict = self.take_back(pair[k]);
-            self.judge.set(pair[k], stand_ins[k], true);
-            verdict.map(|verdict| self.cost_of_wrong(&verdict))
-        });
-        pair.into_iter().for_each(|cell| self.judge.set(cell, self.written[cell], false));
-        let mut result = None;
-        if let ([Some(one), Some(two)], Some(theirs)) = (mine, self.judge.verdict(other)) {
-            self.judge.set(other, self.written[other] - theirs.residual, true);
-            self.impute(other);
-            let merged = self.cost(&region) + self.cost_of_wrong(&theirs);
-            result = Some((kept + one + two - merged, self.judge.grid.value[other]));
-            self.judge.set(other, self.written[other], false);
-        }
-        (0..2).for_each(|k| self.judge.set(pair[k], stand_ins[k], true));
-        result
-    }
-
     /// Exchanges two suspects for one cell beside both where that explains the neighbourhood better: both sides of a wrong cell may have
     /// looked worse than it.
     fn merge(&mut self, found: &mut Vec<usize>) -> bool {
         let mut changed = false;
-        let beside = |grid: &Grid, cell: usize| {
-            EXCHANGES.map(|(steps, lines)| grid.shifted(Along::Station, cell, steps, lines)).into_iter().flatten()
-        };
         let pairs: Vec<[usize; 2]> =
             found.iter().enumerate().flat_map(|(k, &a)| found[..k].iter().map(move |&b| [b, a])).collect();
         for pair in pairs {
             if pair.iter().any(|&cell| !self.judge.is_masked(cell)) {
                 continue;
             }
-            let others: Vec<usize> = beside(&self.judge.grid, pair[0])
-                .filter(|&other| !self.judge.is_masked(other) && beside(&self.judge.grid, pair[1]).any(|b| b == other))
-                .collect();
-            let mut best: Option<(f64, usize, f64)> = None;
-            for other in others {
-                let Some((gain, value)) = self.gain_of_merging(pair, other) else { continue };
-                if gain > best.map_or(EXCHANGED, |b| b.0) {
-                    best = Some((gain, other, value));
-                }
-            }
-            let Some((_, other, value)) = best else { continue };
-            let beliefs = pair.map(|cell| {
-                self.judge.set(cell, self.written[cell], false);
-                std::mem::take(&mut self.beliefs[cell])
-            });
-            self.judge.set(other, value, true);
-            self.beliefs[other] = beliefs[0].max(beliefs[1]);
+            let Some(other) = self.exchanged(&pair) else { continue };
             found.retain(|cell| !pair.contains(cell));
             found.push(other);
             changed = true;

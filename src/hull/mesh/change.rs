@@ -270,20 +270,21 @@ impl Half<'_> {
                 return false;
             }
         }
-        let (mut sum, mut weight, mut goals) = ([0.0; 2], 0.0, Vec::new());
-        for &other in &ring {
-            let share = self.distance(v, other);
-            let at = on(other);
-            sum = [sum[0] + share * at[0], sum[1] + share * at[1]];
-            weight += share;
-            goals.push(at);
-        }
-        if weight <= 0.0 {
-            return false;
-        }
-        if !each {
-            goals = vec![sum.map(|c| c / weight)];
-        }
+        let goals: Vec<[f64; 2]> = if each {
+            ring.iter().map(|&other| on(other)).collect()
+        } else {
+            let (mut sum, mut weight) = ([0.0; 2], 0.0);
+            for &other in &ring {
+                let share = self.distance(v, other);
+                let at = on(other);
+                sum = [sum[0] + share * at[0], sum[1] + share * at[1]];
+                weight += share;
+            }
+            if weight <= 0.0 {
+                return false;
+            }
+            vec![sum.map(|c| c / weight)]
+        };
         let faces: Vec<Face> = self.around[v].iter().filter_map(|&f| self.faces[f]).collect();
         let least = |half: &Self| faces.iter().map(|face| half.sine(face.1)).fold(f64::INFINITY, f64::min);
         let before = least(self);

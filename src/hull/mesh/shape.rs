@@ -38,6 +38,11 @@ const PATIENCE: usize = 3;
 /// Angles that are aimed at, over those that are promised.
 const MARGIN: f64 = 1.05;
 
+/// Sine of the least angle that is aimed at.
+fn aim() -> f64 {
+    (MARGIN * LEAST_ANGLE).sin()
+}
+
 /// Triangles that may be added to any mesh.
 const SPARE: usize = 5_000;
 
@@ -281,7 +286,7 @@ impl Half<'_> {
     }
 
     fn mend_all(&mut self, most: usize) {
-        let bound = (MARGIN * LEAST_ANGLE).sin();
+        let bound = aim();
         let (mut best, mut stalled) = (usize::MAX, 0);
         for pass in 0..if self.is_last() { LAST_PASSES } else { PASSES } {
             let list = self.bad_faces(bound);
@@ -370,7 +375,7 @@ impl Half<'_> {
             }
             self.mend_all(most);
         }
-        if self.bad_faces((MARGIN * LEAST_ANGLE).sin()).len() <= FEW {
+        if self.bad_faces(aim()).len() <= FEW {
             self.allowed = 2.0 * self.deviation;
             self.mend_all(most);
         }

@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::source::read_table_file;
 use crate::exchange::Severity;
 use crate::hull::{Chart, FitMethod, Hull, OffsetTable, PointResidual, Thinned};
-use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, QUANTITIES};
+use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, Quantity};
 pub use page::{validation_csv, validation_json, validation_page};
 pub use reference::Tolerance;
 use reference::{Figure, Origin, Reference};
@@ -288,7 +288,7 @@ struct Frame {
 
 /// Our value of a figure, measured as theirs is.
 fn value(figure: &Figure, row: &Hydrostatics, Frame { length, moved }: Frame) -> Option<f64> {
-    let quantity = QUANTITIES.iter().find(|quantity| quantity.key == figure.known.key)?;
+    let quantity = Quantity::of(figure.known.key)?;
     let value = (quantity.value)(row).filter(|value| value.is_finite())?;
     Some(match figure.known.origin {
         Origin::Plain => value,
@@ -299,7 +299,7 @@ fn value(figure: &Figure, row: &Hydrostatics, Frame { length, moved }: Frame) ->
 }
 
 fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &OffsetTable) -> Comparison {
-    let quantity = QUANTITIES.iter().find(|quantity| quantity.key == figure.known.key);
+    let quantity = Quantity::of(figure.known.key);
     // Between the base line and the first waterline above it a table says nothing.
     let lines = table.waterlines.iter().filter(|&&z| z <= figure.draught + 1e-9).count();
     let told = lines >= 3 || table.waterlines.is_empty();

@@ -149,17 +149,16 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         faults.add(None, "D section", message);
         return Err(faults.list);
     }
-    let text = |entry: &Entry, most: usize| -> Vec<u8> {
+    let list_of = |entry: &Entry, most: usize| {
         let lines = body.iter().skip(entry.pointer.saturating_sub(1)).take(entry.count.min(most));
-        lines.flat_map(|(_, line)| &line[..64]).copied().collect()
+        let text: Vec<u8> = lines.flat_map(|(_, line)| &line[..64]).copied().collect();
+        parameters(&text, delimiters)
     };
     let mut others: BTreeMap<usize, usize> = BTreeMap::new();
     let mut points = 0;
     let of_entry = |entry: &Entry| {
-        let list = parameters(&text(entry, usize::MAX), delimiters);
         let transformation = directory.get(&entry.transformation).filter(|_| entry.transformation > 0);
-        let place = transformation.map(|entry| numbers(&parameters(&text(entry, MATRIX), delimiters)));
-        (list, place)
+        (list_of(entry, usize::MAX), transformation.map(|entry| numbers(&list_of(entry, MATRIX))))
     };
     for (name, entry) in &directory {
         if entry.kind != 128 {
@@ -200,7 +199,7 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         faults.add(None, "", format!("no B-spline surfaces (entity 128) and no curves (126){there}"));
     }
     // 143, and 144 (surface, 1 where its outer edge is not that of the surface, number of inner edges, ...).
-    let cuts = |entry: &Entry| match numbers(&parameters(&text(entry, 2), delimiters))[..] {
+    let cuts = |entry: &Entry| match numbers(&list_of(entry, 2))[..] {
         [_, _, outer, inner, ..] => outer > 0.0 || inner > 0.0,
         _ => false,
     };
