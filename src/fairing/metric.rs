@@ -11,24 +11,38 @@
 //! ```text
 //! E_n = w^n  int int (L^n d^(n-2)kappa/ds^(n-2))^2 ds/L dz/H      over waterlines
 //!     + w^-n int int (H^n d^(n-2)kappa/ds^(n-2))^2 ds/H dx/L      over stations
-//!     + the mixed terms of the parametric energy,
+//!     + sum_(0 < k < n) C(n, k) w^(n - 2 k) int int ((H d/ds)^k d^(n-k)y/du^(n-k))^2 du dv,    s along stations,
 //! ```
 //!
-//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small. ds dz = Q^(1/2) |z_v| du dv
+//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small (of order 4 the mixed terms are
+//! those of the parameters everywhere). ds dz = Q^(1/2) |z_v| du dv
 //! on a waterline; Gauss sums over the spans, with as many nodes as the degree plus one. Freezing again at the answer until it stands still
 //! minimises the true functional. Exact bending energy of a graph can fall to nothing by running the slope to infinity: a step
 //! counts only while the exact functional falls, and the tolerances bound it.
+//!
+//! A chart that follows the profiles of a ship has waves of its own: derivatives by its parameters are no derivatives along a station, and
+//! what is smooth in them is a saw on the body plan where lines of the chart swing round a bulb or spread and crowd with the waterlines.
 
-use super::surface::{basis_row, mixed_energy};
-use crate::numeric::{SymmetricBand, gauss_legendre};
-use crate::spline::BsplineSurface;
+use super::cells::{Cells, Combination, Crossing, ORDERS, Place, Row, add_square};
+use crate::numeric::SymmetricBand;
+use crate::spline::{BsplineSurface, binomial};
+
+/// Highest derivative of y in the energy of order n.
+const HIGHEST: usize = 4;
+
+/// Rate of the other parameter below which a line is one of the net.
+const SKEW: f64 = 1e-9;
+
+/// Part of the derivatives of the held coordinate below which a line does not cross those of the net.
+const STEEP: f64 = 1e-9;
 
 /// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; the fourth only along lines of the net.
-fn terms(order: usize, [a, b, c]: [f64; 3]) -> Vec<(f64, usize, usize)> {
+fn terms(order: usize, [a, b, c]: [f64; 3]) -> [(f64, usize, usize); 7] {
+    let none = (0.0, 0, 0);
     match order {
-        1 => vec![(a, 1, 0), (1.0, 0, 1)],
-        2 => vec![(a * a, 2, 0), (2.0 * a, 1, 1), (1.0, 0, 2), (b, 1, 0)],
-        3 => vec![
+        1 => [(a, 1, 0), (1.0, 0, 1), none, none, none, none, none],
+        2 => [(a * a, 2, 0), (2.0 * a, 1, 1), (1.0, 0, 2), (b, 1, 0), none, none, none],
+        3 => [
             (a * a * a, 3, 0),
             (3.0 * a * a, 2, 1),
             (3.0 * a, 1, 2),
@@ -37,37 +51,29 @@ fn terms(order: usize, [a, b, c]: [f64; 3]) -> Vec<(f64, usize, usize)> {
             (3.0 * b, 1, 1),
             (c, 1, 0),
         ],
-        _ => vec![(1.0, 0, 4)],
+        _ => [(1.0, 0, 4), none, none, none, none, none, none],
     }
 }
 
-/// Highest derivative of y in the energy of order n.
-const HIGHEST: usize = 4;
-
-/// Rate of the other parameter below which a line is one of the net.
-const SKEW: f64 = 1e-9;
-
-/// The form of d^(n-2)kappa/ds^(n-2) over the local basis and the weight of its square, at one point.
-struct Form {
-    row: Vec<f64>,
-    weight: f64,
+/// The station or the waterline through a place.
+struct Line {
+    station: bool,
+    /// Derivative of the held coordinate across the line.
+    steep: f64,
+    turn: [f64; 3],
+    /// Derivatives of order 1 to 4 of what runs on (z on a station, x on a waterline) and of y.
+    run: [f64; HIGHEST],
+    breadth: [f64; HIGHEST],
 }
 
-/// The point of the surface with everything that both lines need.
-struct Point<'a> {
-    d: [[[f64; 3]; 5]; 5],
-    /// `basis[a][b]`: derivative of order a in u and b in v of the local basis.
-    basis: &'a [Vec<Vec<f64>>],
-}
-
-impl Point<'_> {
-    /// The station or the waterline through the point; none where the chart has none.
-    fn form(&self, station: bool, order: usize) -> Option<Form> {
+impl Line {
+    /// None where the chart has no such line.
+    fn new(place: &Place<'_>, station: bool) -> Option<Self> {
         let (held, run) = if station { (0, 2) } else { (2, 0) };
-        let coordinate =
-            |axis: usize, s: usize, t: usize| if station { self.d[s][t][axis] } else { self.d[t][s][axis] };
+        let d = &place.derivatives;
+        let coordinate = |axis: usize, s: usize, t: usize| if station { d[s][t][axis] } else { d[t][s][axis] };
         let (steep, level) = (coordinate(held, 1, 0), coordinate(held, 0, 1));
-        if steep.abs() <= 1e-9 * (steep.abs() + level.abs()) {
+        if steep.abs() <= STEEP * (steep.abs() + level.abs()) {
             return None;
         }
         let along = |axis: usize, k: usize, turn: [f64; 3]| -> f64 {
@@ -80,24 +86,47 @@ impl Point<'_> {
         // On a line of the net they are zero but for rounding.
         let skew = [a, b, c].iter().any(|rate| rate.abs() > SKEW);
         let turn = if skew { [a, b, c] } else { [0.0; 3] };
-        if order == 4 && skew {
+        let all = |axis: usize| [1, 2, 3, 4].map(|k| along(axis, k, turn));
+        Some(Self { station, steep, turn, run: all(run), breadth: all(1) })
+    }
+
+    /// Q, Q' and Q''.
+    fn square_of_speed(&self) -> [f64; 3] {
+        let (x, y) = (self.run, self.breadth);
+        [
+            x[0] * x[0] + y[0] * y[0],
+            2.0 * (x[0] * x[1] + y[0] * y[1]),
+            2.0 * (x[1] * x[1] + x[0] * x[2] + y[1] * y[1] + y[0] * y[2]),
+        ]
+    }
+
+    /// sum_k factors[k - 1] D^k as a combination, D^k applied to the derivative of order `across` by the other parameter.
+    fn combination(&self, factors: &[f64], across: usize) -> Combination {
+        let mut all = [[0.0; ORDERS]; ORDERS];
+        for (k, factor) in (1..).zip(factors) {
+            for (own, s, t) in terms(k, self.turn).into_iter().filter(|term| term.0 != 0.0) {
+                let (u, v) = if self.station { (s + across, t) } else { (t, s + across) };
+                all[u][v] += factor * own;
+            }
+        }
+        all
+    }
+
+    /// (H d/ds)^k of the derivative of y of order `across` by the other parameter, k = 1 or 2; none where the line stands still.
+    fn mixed(&self, k: usize, across: usize, height: f64) -> Option<Combination> {
+        let [q, dq, _] = self.square_of_speed();
+        let rate = height / q.sqrt();
+        let square = rate * rate;
+        let factors = if k == 1 { vec![rate] } else { vec![-0.5 * square * dq / q, square] };
+        rate.is_finite().then(|| self.combination(&factors, across))
+    }
+
+    /// d^(order-2) kappa / ds^(order-2) and the weight of its square per area of the parameters; none where the line stands still.
+    fn curvature(&self, order: usize) -> Option<(Combination, f64)> {
+        if order == 4 && self.turn.iter().any(|rate| *rate != 0.0) {
             return None;
         }
-        let x: Vec<f64> = (1..=HIGHEST).map(|k| along(run, k, turn)).collect();
-        let y: Vec<f64> = (1..=HIGHEST).map(|k| along(1, k, turn)).collect();
-        let rows: Vec<Vec<f64>> = (1..=order)
-            .map(|k| {
-                let mut row = vec![0.0; self.basis[0][0].len()];
-                for (factor, s, t) in terms(k, turn).into_iter().filter(|term| term.0 != 0.0) {
-                    let values = if station { &self.basis[s][t] } else { &self.basis[t][s] };
-                    row.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
-                }
-                row
-            })
-            .collect();
-        let q = x[0] * x[0] + y[0] * y[0];
-        let dq = 2.0 * (x[0] * x[1] + y[0] * y[1]);
-        let ddq = 2.0 * (x[1] * x[1] + x[0] * x[2] + y[1] * y[1] + y[0] * y[2]);
+        let (x, [q, dq, ddq]) = (self.run, self.square_of_speed());
         let speed = q.sqrt();
         if speed <= 0.0 || speed.is_nan() {
             return None;
@@ -110,70 +139,107 @@ impl Point<'_> {
         let n = [-x[1], x[0], 0.0, 0.0];
         let dn = [-x[2], 0.0, x[0], 0.0];
         let ddn = [-x[3], -x[2], x[1], x[0]];
-        let factors: Vec<f64> = (0..order)
-            .map(|k| match order {
-                2 => n[k] * g,
-                3 => (dn[k] * g + n[k] * dg) / speed,
-                _ => {
-                    let first = dn[k] * g + n[k] * dg;
-                    let second = ddn[k] * g + 2.0 * dn[k] * dg + n[k] * ddg;
-                    (second - 0.5 * first * dq / q) / q
-                }
-            })
-            .collect();
-        let mut row = vec![0.0; rows[0].len()];
-        for (factor, form) in factors.iter().zip(&rows) {
-            row.iter_mut().zip(form).for_each(|(sum, value)| *sum += factor * value);
+        let factor = |k: usize| match order {
+            2 => n[k] * g,
+            3 => (dn[k] * g + n[k] * dg) / speed,
+            _ => {
+                let first = dn[k] * g + n[k] * dg;
+                let second = ddn[k] * g + 2.0 * dn[k] * dg + n[k] * ddg;
+                (second - 0.5 * first * dq / q) / q
+            }
+        };
+        let factors: Vec<f64> = (0..order).map(factor).collect();
+        Some((self.combination(&factors, 0), speed * self.steep.abs()))
+    }
+}
+
+/// The terms of the energy of one surface.
+pub(super) struct Metric {
+    order: usize,
+    anisotropy: f64,
+    /// L^2n / (L H) w^n over waterlines, H^2n / (L H) w^-n over stations.
+    scales: [f64; 2],
+    height: f64,
+}
+
+impl Metric {
+    pub(super) fn new(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> Self {
+        let order = order.clamp(2, HIGHEST);
+        let extent = |axis: usize| {
+            let values = surface.points().iter().map(|point| point[axis]);
+            values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+        };
+        let (length, height) = (extent(0), extent(2));
+        let n = order as i32;
+        let scales = [
+            anisotropy.powi(n) * length.powi(2 * n) / (length * height),
+            anisotropy.powi(-n) * height.powi(2 * n) / (length * height),
+        ];
+        Self { order, anisotropy, scales, height }
+    }
+
+    /// How many terms there are: waterlines, the mixed ones, stations.
+    pub(super) fn count(&self) -> usize {
+        self.order + 1
+    }
+
+    /// Calls `each` with every term at a place: which, its weight of the integral, and what is squared.
+    pub(super) fn terms(&self, place: &Place<'_>, mut each: impl FnMut(usize, f64, &Combination)) {
+        let n = self.order;
+        for (which, station) in [(0, false), (n, true)] {
+            if let Some((factors, weight)) = Line::new(place, station).and_then(|line| line.curvature(n)) {
+                each(which, self.scales[usize::from(station)] * weight * place.weight, &factors);
+            }
         }
-        Some(Form { row, weight: speed * steep.abs() })
+        let station = Line::new(place, true).filter(|_| n < 4);
+        for k in 1..n {
+            let weight = binomial(n, k) * self.anisotropy.powi((n - k) as i32 - k as i32) * place.weight;
+            let factors = station.as_ref().and_then(|line| line.mixed(k, n - k, self.height));
+            let parametric = || {
+                let mut all = [[0.0; ORDERS]; ORDERS];
+                all[n - k][k] = 1.0;
+                all
+            };
+            each(k, weight, &factors.unwrap_or_else(parametric));
+        }
+    }
+
+    /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight of its square, and
+    /// its factors. It counts as dkappa/ds = jump/h over the mean length h of the spans beside the line.
+    pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
+        let (held, run) = if way == 1 { (0, 2) } else { (2, 0) };
+        let (steep, level) = (at.by_s[held], at.by_t[held]);
+        if self.order != 3 || steep.abs() <= STEEP * (steep.abs() + level.abs()) {
+            return None;
+        }
+        let (a, b) = (-level / steep, -at.jumped[held] / steep);
+        let along = |axis: usize| at.by_t[axis] + a * at.by_s[axis];
+        let (x, y) = (along(run), along(1));
+        let square = x * x + y * y;
+        if square <= 0.0 || square.is_nan() {
+            return None;
+        }
+        let g = 1.0 / (square * square.sqrt());
+        let turned = at.jumped[run] + b * at.by_s[run];
+        let factors = [g * (x * b - turned * a), -g * turned, g * x];
+        let weight = self.scales[way] * steep.abs() * at.weight / (at.length * square.sqrt());
+        Some((weight, factors))
     }
 }
 
 /// The energy of order 2, 3 or 4 with the metric of the surface as it is.
 #[must_use]
 pub fn true_energy(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> SymmetricBand {
-    let order = order.clamp(2, HIGHEST);
-    let (u, v) = (surface.u(), surface.v());
-    let mut energy = mixed_energy(u, v, order, anisotropy);
-    let extent = |axis: usize| {
-        let values = surface.points().iter().map(|point| point[axis]);
-        values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
-    };
-    let (length, height) = (extent(0), extent(2));
-    let n = order as i32;
-    // L^2n / (L H) over waterlines, H^2n / (L H) over stations.
-    let scales = [
-        anisotropy.powi(n) * length.powi(2 * n) / (length * height),
-        anisotropy.powi(-n) * height.powi(2 * n) / (length * height),
-    ];
-    let nodes = |knots: &crate::spline::KnotVector| -> Vec<(f64, f64)> {
-        let rule = gauss_legendre(knots.degree() + 1);
-        let breaks = knots.breakpoints();
-        breaks.windows(2).flat_map(|w| rule.on(w[0], w[1]).collect::<Vec<_>>()).collect()
-    };
-    for &(s, ws) in &nodes(u) {
-        for &(t, wt) in &nodes(v) {
-            let basis: Vec<Vec<Vec<f64>>> = (0..=HIGHEST)
-                .map(|a| {
-                    let values = |b| basis_row(surface, [s, t], [a, b]).into_iter().map(|(_, value)| value).collect();
-                    (0..=HIGHEST - a).map(values).collect()
-                })
-                .collect();
-            let places: Vec<usize> = basis_row(surface, [s, t], [0, 0]).into_iter().map(|(place, _)| place).collect();
-            let point = Point { d: surface.derivatives::<5>(s, t), basis: &basis };
-            for (station, scale) in [(false, scales[0]), (true, scales[1])] {
-                let Some(form) = point.form(station, order) else { continue };
-                let weight = scale * form.weight * ws * wt;
-                for (k, &i) in places.iter().enumerate() {
-                    let left = weight * form.row[k];
-                    if left == 0.0 {
-                        continue;
-                    }
-                    for (l, &j) in places[..=k].iter().enumerate() {
-                        energy.add(i, j, left * form.row[l]);
-                    }
-                }
-            }
+    let (cells, metric) = (Cells::new(surface), Metric::new(surface, order, anisotropy));
+    let mut energy = cells.zeros();
+    let [rows, columns] = cells.count();
+    let mut row = Row::new();
+    for cell in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])) {
+        for place in cells.places(cell) {
+            metric.terms(&place, |_, weight, factors| {
+                place.form(factors, &mut row);
+                add_square(&mut energy, weight, &row);
+            });
         }
     }
     energy
@@ -183,6 +249,7 @@ pub fn true_energy(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -
 mod tests {
     use super::super::surface::energy;
     use super::*;
+    use crate::numeric::gauss_legendre;
     use crate::spline::KnotVector;
 
     /// x = 100 u + skew v, z = 10 v, half-breadths from a function of (x, z) at the Greville points.
@@ -265,19 +332,17 @@ mod tests {
             BsplineSurface::new(u, v, points).unwrap()
         };
         let raked = cube(20.0);
-        // (dkappa/ds) of the station through a point of the raked chart, against the curve y(z) itself.
-        let at = [0.3, 0.6];
-        let basis: Vec<Vec<Vec<f64>>> = (0..=HIGHEST)
-            .map(|a| {
-                (0..=HIGHEST - a)
-                    .map(|b| basis_row(&raked, at, [a, b]).into_iter().map(|(_, value)| value).collect())
-                    .collect()
-            })
-            .collect();
-        let point = Point { d: raked.derivatives::<5>(at[0], at[1]), basis: &basis };
-        let form = point.form(true, 3).unwrap();
-        let found: f64 = form.row.iter().zip(half_breadths(&raked)).map(|(a, y)| a * y).sum();
-        let t = (100.0 * 0.3 + 50.0 * 0.6) / 40.0;
+        // (dkappa/ds) of the station through the first node of the raked chart, against the curve y(z) itself.
+        let cells = Cells::new(&raked);
+        let place = cells.places([0, 0]).next().unwrap();
+        let (factors, _) = Line::new(&place, true).unwrap().curvature(3).unwrap();
+        let mut row = Row::new();
+        place.form(&factors, &mut row);
+        let y = half_breadths(&raked);
+        let found: f64 = row.iter().map(|&(k, factor)| factor * y[k]).sum();
+        assert!((found / place.value(&factors) - 1.0).abs() < 1e-12);
+        let [x, _, z] = place.derivatives[0][0];
+        let t = (x + 3.0 * z) / 40.0;
         let (p, q, r) = (9.0 * t * t / 40.0, 54.0 * t / 1600.0, 162.0 / 64000.0);
         let w: f64 = 1.0 + p * p;
         let expected = (r / w.powf(1.5) - 3.0 * p * q * q / w.powf(2.5)) / w.sqrt();

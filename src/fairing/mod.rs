@@ -4,6 +4,7 @@
 mod adapt;
 pub mod bends;
 pub mod breaks;
+mod cells;
 mod compromise;
 pub mod constraint;
 pub mod curve;

@@ -1,10 +1,10 @@
-//! From the parametric energy to that of true curvature: the metric is frozen at the net, the program solved, and again.
+//! From the energy of the parameters, or of the start's metric, to that of true curvature: the metric is frozen at the net, the program
+//! solved, and again.
 //!
-//! F(c) = sum w r^2 + mu E_true(c; c), where the first step chooses mu so that the energy weighs at the start what the parametric
+//! F(c) = sum w r^2 + mu E_true(c; c), where the first step chooses mu so that the energy weighs at the answer what the first
 //! one weighed. A step is accepted while F falls by more than `FALL`; the tolerances and the signs of the program bound it. Every
 //! step is a convex program with its certificate; where the first step does not lower F the convex answer stands.
 
-use super::metric::true_energy;
 use super::model::Model;
 use super::program::{Program, Solved};
 use super::smoothing::Smoother;
@@ -62,7 +62,7 @@ pub(super) fn refresh(
     let model = &surface.model;
     let frozen = |net: &[f64]| -> Result<Model, RefreshError> {
         let hull = surface.hull_of(net)?;
-        Ok(Model { energy: true_energy(hull.surface(), surface.order, surface.anisotropy), ..model.clone() })
+        Ok(Model { energy: surface.true_energy(hull.surface()), ..model.clone() })
     };
     let misfit =
         |net: &[f64]| -> f64 { model.residuals(net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum() };

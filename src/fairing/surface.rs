@@ -5,21 +5,23 @@
 //! straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in which profiles, knuckles and flats are
 //! lines of the net already, and an energy that spares what bends sharply (`adapt`).
 //!
-//! Energy of order n over the unit square of the parameters,
+//! On a net of its own the energy of order n is that over the unit square of the parameters,
 //!
 //! ```text
 //! E = sum_a C(n, a) w_u^(n-a) w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv,   w_v = 1/w_u,
 //! ```
 //!
-//! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them.
+//! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them. On the net of a
+//! fit it is that of true curvature with the metric of the fit ([`super::metric`], `adapt`).
 
-use super::adapt::CellEnergies;
+use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
+use super::metric::true_energy;
 use super::model::{Model, Reading};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE, add_product};
-pub use crate::spline::{basis_row, energy, mixed_energy};
+pub use crate::spline::{basis_row, energy};
 
 /// Half-breadths below this part of B are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
@@ -130,6 +132,8 @@ pub struct FairSurface {
     pub places: Vec<Place>,
     /// Half-breadths of the net at the start \[m\].
     pub start: Vec<f64>,
+    /// Weights of the cells of the energy on the net of a fit.
+    spared: Option<Spared>,
     /// Order of the energy.
     pub order: usize,
     /// w_u of the energy.
@@ -333,11 +337,11 @@ impl FairSurface {
             }
         }
         let (u, v) = (surface.u(), surface.v());
-        let energy = if smooth {
-            energy(u, v, order, settings.anisotropy)
-        } else {
-            CellEnergies::new(u, v, order, settings.anisotropy).adapted(&start)
-        };
+        let spared = (!smooth).then(|| Spared::new(surface, order, settings.anisotropy));
+        let energy = spared.as_ref().map_or_else(
+            || energy(u, v, order, settings.anisotropy),
+            |spared| spared.energy(surface, order, settings.anisotropy),
+        );
         let plain = is_plain(&hull);
         let straight = straightness(hull.surface(), &courses);
         Ok(Self {
@@ -345,6 +349,7 @@ impl FairSurface {
             courses,
             places,
             start,
+            spared,
             order,
             anisotropy: settings.anisotropy,
             plain,
@@ -368,6 +373,14 @@ impl FairSurface {
             })
         });
         parts.collect()
+    }
+
+    /// The energy of true curvature with the metric of other half-breadths and the weights of the start.
+    pub(super) fn true_energy(&self, surface: &BsplineSurface<3>) -> SymmetricBand {
+        self.spared.as_ref().map_or_else(
+            || true_energy(surface, self.order, self.anisotropy),
+            |spared| spared.energy(surface, self.order, self.anisotropy),
+        )
     }
 
     /// The hull with other half-breadths of the net.

@@ -38,7 +38,7 @@ pub use fit::{Collocation, Condition};
 pub use gram::Gram;
 pub use knots::{KnotVector, MAX_DEGREE, SplineError};
 pub use least_squares::Ends;
-pub use net::{add_product, basis_row, binomial, energy, mixed_energy};
+pub use net::{add_product, basis_row, binomial, energy};
 pub use parametrize::Parametrization;
 pub use periodic::PeriodicCollocation;
 pub use surface::BsplineSurface;

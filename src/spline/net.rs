@@ -37,22 +37,6 @@ pub fn binomial(n: usize, k: usize) -> f64 {
 /// where the surface is broken.
 #[must_use]
 pub fn energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> SymmetricBand {
-    partial_energy(u, v, order, anisotropy, 0..=order)
-}
-
-/// The mixed terms of it alone: derivatives in both directions.
-#[must_use]
-pub fn mixed_energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> SymmetricBand {
-    partial_energy(u, v, order, anisotropy, 1..=order - 1)
-}
-
-fn partial_energy(
-    u: &KnotVector,
-    v: &KnotVector,
-    order: usize,
-    anisotropy: f64,
-    terms: std::ops::RangeInclusive<usize>,
-) -> SymmetricBand {
     let (rows, columns) = (u.basis_count(), v.basis_count());
     let (p, q) = (u.degree().min(rows - 1), v.degree().min(columns - 1));
     let mut energy = SymmetricBand::zeros(rows * columns, p * columns + q);
@@ -61,7 +45,7 @@ fn partial_energy(
         let (from, to) = knots.domain();
         (Gram::new(knots, knots, [k, k]), (to - from).powi(2 * k as i32 - 1))
     };
-    for a in terms {
+    for a in 0..=order {
         let ((along, by_u), (across, by_v)) = (scaled(u, order - a), scaled(v, a));
         let weight = binomial(order, a) * anisotropy.powi((order - a) as i32 - a as i32) * by_u * by_v;
         add_product(&mut energy, [&along, &across], weight, [u, v]);
