@@ -212,12 +212,21 @@ pub fn changes(signs: &[i8]) -> usize {
 
 /// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the band is left open, and
 /// no more than what departs by `seen` \[m\] over the length of the part. Lobes that depart by less than `seen` from their chord, which
-/// nobody counts, may fade but not grow: they would be counted. Where `strictly`, nothing is in the dead band.
+/// nobody counts, may fade but not grow: they would be counted. Where `strictly`, nothing is in the dead band, and a line all of whose lobes that
+/// are counted turn one way turns that way everywhere: lobes of the other sign might join to one that is seen.
 #[must_use]
 pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Limit> {
     let none = dead(bends, start);
-    let signs = signs_beyond(bends, start, if strictly { 0.0 } else { none });
-    let small = unseen(bends, &signs, start, seen);
+    let mut signs = signs_beyond(bends, start, if strictly { 0.0 } else { none });
+    let mut small = unseen(bends, &signs, start, seen);
+    let mut counted = signs.iter().zip(&small).filter(|&(&sign, &small)| sign != 0 && !small).map(|(&sign, _)| sign);
+    if let Some(first) = counted.next()
+        && strictly
+        && counted.all(|sign| sign == first)
+    {
+        signs.fill(first);
+        small.fill(false);
+    }
     let mut limits = Vec::new();
     let mut from = 0;
     while from < bends.len() {
@@ -283,5 +292,8 @@ mod tests {
         let small = limit_at(1e-4, 50);
         assert!((small.lower + 1e-3).abs() < 1e-18 && small.upper > 0.0 && small.upper < 1e-4, "{small:?}");
         assert!(limit_at(1e-4, 20).upper.is_infinite());
+        // Strictly, it goes with the others.
+        let strict = kept(&bends, &second, 1e-4, true)[50].clone();
+        assert!(strict.lower > -1e-4 && strict.upper.is_infinite(), "{strict:?}");
     }
 }
