@@ -47,8 +47,8 @@ pub(super) struct Spared {
 
 impl Spared {
     /// The weights for a start.
-    pub(super) fn new(start: &BsplineSurface<3>, order: usize, anisotropy: f64) -> Self {
-        let (cells, metric) = (Cells::new(start), Metric::new(start, order, anisotropy));
+    pub(super) fn new(start: &BsplineSurface<3>, metric: &Metric) -> Self {
+        let cells = Cells::new(start);
         let [rows, columns] = cells.count();
         let mut density = vec![vec![0.0; rows * columns]; metric.count()];
         for (k, cell) in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])).enumerate() {
@@ -94,8 +94,8 @@ impl Spared {
     }
 
     /// The energy with these weights and the metric of a surface on the same net.
-    pub(super) fn energy(&self, surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> SymmetricBand {
-        let (cells, metric) = (Cells::new(surface), Metric::new(surface, order, anisotropy));
+    pub(super) fn energy(&self, surface: &BsplineSurface<3>, metric: &Metric) -> SymmetricBand {
+        let cells = Cells::new(surface);
         let [rows, columns] = cells.count();
         let mut energy = cells.zeros();
         let mut row = Row::new();
@@ -172,11 +172,12 @@ mod tests {
         let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 4).unwrap());
         let cube = |knots: &KnotVector, i: usize| knots.knots()[i + 1..i + 4].iter().product::<f64>();
         let even = surface(&u, &v, |i, j| 1e-4 * (cube(&u, i) + cube(&v, j)));
-        let weights = Spared::new(&even, 3, 0.6);
+        let weights = Spared::new(&even, &Metric::new(&even, 3, 0.6));
         for term in [0, 3] {
             assert!(weights.cells[term].iter().all(|w| (w - 1.0).abs() < 1e-6), "{:?}", weights.cells[term]);
         }
-        let (adapted, plain) = (of(&weights.energy(&even, 3, 0.6), &even), of(&true_energy(&even, 3, 0.6), &even));
+        let (adapted, plain) =
+            (of(&weights.energy(&even, &Metric::new(&even, 3, 0.6)), &even), of(&true_energy(&even, 3, 0.6), &even));
         assert!((adapted / plain - 1.0).abs() < 1e-6, "{adapted} for {plain}");
     }
 
@@ -189,15 +190,15 @@ mod tests {
         let pairs = |t: &[f64]| (t[0] * t[1] + t[0] * t[2] + t[1] * t[2]) / 3.0;
         // Slopes so small that curvature is the second derivative.
         let cube = surface(&u, &v, |_, j| 1e-6 * knots(j).iter().product::<f64>());
-        let weights = Spared::new(&cube, 3, 1.0);
+        let weights = Spared::new(&cube, &Metric::new(&cube, 3, 1.0));
         let smooth = surface(&u, &v, |_, j| 1e-6 * pairs(knots(j)));
-        assert!(of(&weights.energy(&smooth, 3, 1.0), &smooth).abs() < 1e-15);
+        assert!(of(&weights.energy(&smooth, &Metric::new(&smooth, 3, 1.0)), &smooth).abs() < 1e-15);
         // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5.
         let kinked = surface(&u, &v, |_, j| {
             let t: Vec<f64> = knots(j).iter().map(|t| t - 1.0).collect();
             if v.greville()[j] > 1.0 + 1e-12 { 1e-6 * pairs(&t) } else { 0.0 }
         });
-        let found = of(&weights.energy(&kinked, 3, 1.0), &kinked) * 1e12;
+        let found = of(&weights.energy(&kinked, &Metric::new(&kinked, 3, 1.0)), &kinked) * 1e12;
         assert!((found / (CHARGE * 256.0) - 1.0).abs() < 1e-6, "{found}");
     }
 
@@ -247,7 +248,7 @@ mod tests {
             let k = i * columns + j;
             if k == columns + 1 { 1e-2 } else { ((k * 7919) % 13) as f64 * 1e-6 }
         });
-        let weights = Spared::new(&bumped, 3, 0.6).cells;
+        let weights = Spared::new(&bumped, &Metric::new(&bumped, 3, 0.6)).cells;
         for term in weights {
             let (bump, far) = (term[0], term[term.len() - 1]);
             assert!(bump < 1e-4 && far > 1e3 * bump, "{bump} {far}");

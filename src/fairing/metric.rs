@@ -160,6 +160,8 @@ pub(super) struct Metric {
     /// L^2n / (L H) w^n over waterlines, H^2n / (L H) w^-n over stations.
     scales: [f64; 2],
     height: f64,
+    /// Whether all terms are derivatives by the parameters.
+    parametric: bool,
 }
 
 impl Metric {
@@ -175,7 +177,18 @@ impl Metric {
             anisotropy.powi(n) * length.powi(2 * n) / (length * height),
             anisotropy.powi(-n) * height.powi(2 * n) / (length * height),
         ];
-        Self { order, anisotropy, scales, height }
+        Self { order, anisotropy, scales, height, parametric: false }
+    }
+
+    /// All terms as derivatives by the parameters.
+    pub(super) fn parametric(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> Self {
+        Self { parametric: true, ..Self::new(surface, order, anisotropy) }
+    }
+
+    /// C(n, k) w^(n - 2 k).
+    fn weight(&self, k: usize) -> f64 {
+        let n = self.order;
+        binomial(n, k) * self.anisotropy.powi((n - k) as i32 - k as i32)
     }
 
     /// How many terms there are: waterlines, the mixed ones, stations.
@@ -186,6 +199,15 @@ impl Metric {
     /// Calls `each` with every term at a place: which, its weight of the integral, and what is squared.
     pub(super) fn terms(&self, place: &Place<'_>, mut each: impl FnMut(usize, f64, &Combination)) {
         let n = self.order;
+        let parametric = |k: usize| {
+            let mut all = [[0.0; ORDERS]; ORDERS];
+            all[n - k][k] = 1.0;
+            all
+        };
+        if self.parametric {
+            (0..=n).for_each(|k| each(k, self.weight(k) * place.weight, &parametric(k)));
+            return;
+        }
         for (which, station) in [(0, false), (n, true)] {
             if let Some((factors, weight)) = Line::new(place, station).and_then(|line| line.curvature(n)) {
                 each(which, self.scales[usize::from(station)] * weight * place.weight, &factors);
@@ -193,14 +215,8 @@ impl Metric {
         }
         let station = Line::new(place, true).filter(|_| n < 4);
         for k in 1..n {
-            let weight = binomial(n, k) * self.anisotropy.powi((n - k) as i32 - k as i32) * place.weight;
             let factors = station.as_ref().and_then(|line| line.mixed(k, n - k, self.height));
-            let parametric = || {
-                let mut all = [[0.0; ORDERS]; ORDERS];
-                all[n - k][k] = 1.0;
-                all
-            };
-            each(k, weight, &factors.unwrap_or_else(parametric));
+            each(k, self.weight(k) * place.weight, &factors.unwrap_or_else(|| parametric(k)));
         }
     }
 
@@ -209,6 +225,9 @@ impl Metric {
     pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
         let (held, run) = if way == 1 { (0, 2) } else { (2, 0) };
         let (steep, level) = (at.by_s[held], at.by_t[held]);
+        if self.parametric && self.order == 3 {
+            return Some((self.weight(3 * way) * at.weight / at.length, [0.0, 0.0, 1.0]));
+        }
         if self.order != 3 || steep.abs() <= STEEP * (steep.abs() + level.abs()) {
             return None;
         }

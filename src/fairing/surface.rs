@@ -16,7 +16,7 @@
 
 use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
-use super::metric::true_energy;
+use super::metric::{Metric, true_energy};
 use super::model::{Model, Reading};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
@@ -337,11 +337,14 @@ impl FairSurface {
             }
         }
         let (u, v) = (surface.u(), surface.v());
-        let spared = (!smooth).then(|| Spared::new(surface, order, settings.anisotropy));
-        let energy = spared.as_ref().map_or_else(
-            || energy(u, v, order, settings.anisotropy),
-            |spared| spared.energy(surface, order, settings.anisotropy),
-        );
+        let (mut spared, mut energy) = (None, energy(u, v, order, settings.anisotropy));
+        if !smooth {
+            let level = hull.is_level();
+            let metric = if level { Metric::new } else { Metric::parametric }(surface, order, settings.anisotropy);
+            let weights = Spared::new(surface, &metric);
+            energy = weights.energy(surface, &metric);
+            spared = level.then_some(weights);
+        }
         let plain = is_plain(&hull);
         let straight = straightness(hull.surface(), &courses);
         Ok(Self {
@@ -379,7 +382,7 @@ impl FairSurface {
     pub(super) fn true_energy(&self, surface: &BsplineSurface<3>) -> SymmetricBand {
         self.spared.as_ref().map_or_else(
             || true_energy(surface, self.order, self.anisotropy),
-            |spared| spared.energy(surface, self.order, self.anisotropy),
+            |spared| spared.energy(surface, &Metric::new(surface, self.order, self.anisotropy)),
         )
     }
 
