@@ -1,7 +1,7 @@
 //! Tables of hydrostatics of hulls whose lines in u slant: generated ships against identities, sheared bodies against closed
 //! forms and against section areas taken one by one.
 
-use loftsman::hull::{Functional, Hull, PrincipalParticulars};
+use loftsman::hull::{Functional, Hull, PrincipalParticulars, SectionalAreaCurve};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
 use loftsman::parametric::ShipType;
 use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
@@ -197,6 +197,24 @@ fn parallel_body_where_the_lines_slant() {
                 assert!((found - good).abs() < 1e-6 * 100.0, "{slant} {t}: {found} {good}");
             }
             assert!((row.maximum_section_position.unwrap() - 0.5 * (aft + fore)).abs() < 1e-12 * 100.0);
+        }
+    }
+}
+
+/// Areas of many draughts at once are those of each alone: on plumb, raked and rockered hulls, below the keel and above the deck.
+#[test]
+fn areas_of_draughts_together_and_alone() {
+    for (name, hull) in ships() {
+        let (p, top) = (hull.particulars(), hull.top());
+        let draughts = [p.draught, 0.3 * p.draught, -1e3, 0.71 * top, 0.3 * p.draught, 2.0 * top];
+        let stations: Vec<f64> = (-2..=42).map(|k| f64::from(k) / 40.0 * p.length_between_perpendiculars).collect();
+        let together = SectionalAreaCurve::areas(&hull, &draughts, &stations);
+        for (d, &draught) in draughts.iter().enumerate() {
+            let alone = SectionalAreaCurve::new(&hull, draught, &stations);
+            for (row, area) in together.iter().zip(&alone.areas) {
+                let gap = (row[d] - area).abs();
+                assert!(gap <= 1e-10 * p.breadth * p.depth, "{name} at {draught} m: {} {area}", row[d]);
+            }
         }
     }
 }

@@ -39,8 +39,48 @@ impl SectionalAreaCurve {
     /// Areas at `stations` below `draught`, exact to rounding; 0 beyond the hull.
     #[must_use]
     pub fn new(hull: &Hull, draught: f64, stations: &[f64]) -> Self {
-        let area = |&x: &f64| super::functional::Functional::SectionArea { x }.value(hull, draught);
-        Self { draught, stations: stations.to_vec(), areas: stations.iter().map(area).collect() }
+        let areas = Self::areas(hull, &[draught], stations).into_iter().flatten().collect();
+        Self { draught, stations: stations.to_vec(), areas }
+    }
+
+    /// Areas at `stations` below each of `draughts` [m^2], a row a station; each part of a station is integrated once for all draughts.
+    #[must_use]
+    pub fn areas(hull: &Hull, draughts: &[f64], stations: &[f64]) -> Vec<Vec<f64>> {
+        let (surface, lines) = (hull.surface(), KnotLines::new(hull));
+        let columns = surface.shape()[1];
+        let immersions: Vec<Option<Immersion>> =
+            draughts.iter().map(|&draught| Immersion::new(hull, draught)).collect();
+        let row = |&station: &f64| {
+            let mut cuts: Vec<Cut> =
+                immersions.iter().flatten().map(|immersion| Cut::new(immersion, station)).collect();
+            cuts.sort_by(|a, b| a.end.total_cmp(&b.end));
+            let mut parts = vec![0.0; cuts.len()];
+            pieces(hull, &lines, station, &cuts, |cut, i, j, weights| {
+                let points = &surface.points()[i * columns + j..];
+                parts[cut] += weights.iter().zip(points).map(|(weight, point)| weight * point[1]).sum::<f64>();
+            });
+            let below = |immersion: &Option<Immersion>| {
+                let end = immersion.as_ref().map(|immersion| Cut::new(immersion, station).end)?;
+                Some(cuts.iter().zip(&parts).filter(|(cut, _)| cut.end <= end).map(|(_, part)| part).sum::<f64>())
+            };
+            immersions.iter().map(|immersion| below(immersion).unwrap_or(0.0)).collect()
+        };
+        stations.iter().map(row).collect()
+    }
+}
+
+/// Where the section ends at a draught.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    /// Its parameter v.
+    end: f64,
+    /// Height of the draught above the lowest line \[m\].
+    height: f64,
+}
+
+impl Cut {
+    fn new(immersion: &Immersion<'_>, station: f64) -> Self {
+        Self { end: immersion.section_end(station), height: immersion.draught() - immersion.bottom() }
     }
 }
 
@@ -157,21 +197,31 @@ impl Cell<'_> {
 /// the point (i, j + k).
 pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
-    if !station.is_finite() {
-        return;
-    }
+    let cut = Cut::new(&immersion, station);
+    pieces(hull, &KnotLines::new(hull), station, &[cut], |_, i, j, weights| sink(i, j, weights));
+}
+
+/// The same for several draughts, whose cuts rise: `sink` is told the number of the lowest cut above each part of the section.
+fn pieces(
+    hull: &Hull,
+    lines: &KnotLines,
+    station: f64,
+    cuts: &[Cut],
+    mut sink: impl FnMut(usize, usize, usize, &[f64]),
+) {
+    let Some(end) = cuts.last().map(|cut| cut.end).filter(|_| station.is_finite()) else { return };
     let surface = hull.surface();
     let (p, q) = (surface.u().degree(), surface.v().degree());
-    let end = immersion.section_end(station);
-    let crossings = KnotLines::new(hull).crossings(hull, station, end);
+    let mut inside: Vec<f64> = lines.crossings(hull, station, end).iter().map(|crossing| crossing.v).collect();
+    inside.extend(cuts.iter().map(|cut| cut.end));
+    inside.sort_by(f64::total_cmp);
     for span_v in surface.v().spans() {
         let (from, to) = (surface.v().knots()[span_v], surface.v().knots()[span_v + 1].min(end));
         if to <= from {
             break;
         }
-        let inside = crossings.iter().map(|crossing| crossing.v).filter(|&v| v > from && v < to);
         let mut a = from;
-        for b in inside.chain([to]) {
+        for b in inside.iter().copied().filter(|&v| v > from && v < to).chain([to]) {
             if b - a <= 4.0 * f64::EPSILON * (to - from) && b < to {
                 continue;
             }
@@ -182,7 +232,8 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
             let span_u = surface.u().find_span(u);
             let slanting = is_slanting(hull, span_u, span_v);
             let outermost = span_u == p || span_u + 1 == surface.u().basis_count();
-            let height = immersion.draught() - hull.bottom();
+            let above = cuts.partition_point(|cut| cut.end < middle);
+            let height = cuts[above].height;
             let cell = Cell { hull, station, span_u, span_v, slanting, height, at_profile: slanting && outermost };
             let mut start = u;
             let mut block: Block = Default::default();
@@ -193,7 +244,7 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
                 block = cell.rule(ends, (0.0, 1.0), q, &mut start);
             }
             for (i, row) in block.iter().enumerate().take(p + 1) {
-                sink(span_u - p + i, span_v - q, &row[..=q]);
+                sink(above, span_u - p + i, span_v - q, &row[..=q]);
             }
         }
     }

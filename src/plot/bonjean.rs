@@ -44,12 +44,14 @@ impl BonjeanTable {
     #[must_use]
     pub fn new(hull: &Hull, stations: &[f64], heights: &[f64]) -> Self {
         let slack = 1e-9 * hull.particulars().depth;
-        let row = |&height: &f64| {
-            let curve = SectionalAreaCurve::new(hull, height, stations);
-            let area = |(x, area): (&f64, &f64)| (height <= hull.deck_height(*x) + slack).then_some(*area);
-            stations.iter().zip(&curve.areas).map(area).collect()
+        let areas = SectionalAreaCurve::areas(hull, heights, stations);
+        let decks: Vec<f64> = stations.iter().map(|&x| hull.deck_height(x) + slack).collect();
+        let row = |(level, &height): (usize, &f64)| {
+            let area = |(areas, deck): (&Vec<f64>, &f64)| (height <= *deck).then(|| areas[level]);
+            areas.iter().zip(&decks).map(area).collect()
         };
-        Self { stations: stations.to_vec(), heights: heights.to_vec(), areas: heights.iter().map(row).collect() }
+        let areas = heights.iter().enumerate().map(row).collect();
+        Self { stations: stations.to_vec(), heights: heights.to_vec(), areas }
     }
 
     /// The table of the sheet: stations at twentieths of L_PP, heights at round steps up to the deck.
