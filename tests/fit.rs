@@ -236,3 +236,21 @@ fn sections_are_followed_around_ledges_and_bulbs() {
         assert!(rms < missed, "{path}: {rms}");
     }
 }
+
+/// Station numbers taken for metres make a ship that is shorter than broad: told, with what to say instead; not of a ship.
+#[test]
+fn a_ship_shorter_than_broad_is_told_of() {
+    let table = |step: f64| {
+        let breadths = [[0.0, 1.0, 2.0], [4.0, 20.0, 25.0], [6.0, 25.0, 30.0], [4.0, 20.0, 25.0], [0.0, 1.0, 2.0]];
+        let mut table = OffsetTable { waterlines: vec![0.0, 5.0, 10.0], ..OffsetTable::default() };
+        table.endings = vec![[None; 2]; 3];
+        for (k, row) in (0..).zip(breadths) {
+            let half_breadths = row.iter().map(|&y| Cell::from(Some(y))).collect();
+            table.stations.push(StationOffsets { half_breadths, ..StationOffsets::new("", step * f64::from(k)) });
+        }
+        table
+    };
+    let told = |step: f64| fit(&table(step)).notes.into_iter().find(|note| note.contains("is less than B"));
+    assert!(told(5.0).is_some_and(|note| note.contains("station_spacing")));
+    assert_eq!(told(50.0), None);
+}

@@ -55,8 +55,8 @@ pub(super) fn length_by_stations(table: &OffsetTable, length: f64) -> Option<f64
     (from_aft && step > 0.0 && last >= PERPENDICULARS * length).then_some(last)
 }
 
-/// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline at T, B twice the greatest half-breadth, T seven tenths
-/// of the height up to the lowest upper edge of a section, D the top. What was not stated is noted.
+/// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline at T, B twice the
+/// greatest half-breadth, T seven tenths of the height up to the lowest upper edge of a section, D the top. What was not stated is noted.
 pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
     let stated = &table.stated;
     let usable = |value: Option<f64>| value.filter(|v| v.is_finite() && *v > 0.0);
@@ -89,7 +89,18 @@ pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<Str
         notes.push(format!("no length is stated: L_PP = {length:.3} m, {how}"));
         length
     });
+    notes.extend(shorter_than_broad(length, breadth));
     PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth }
+}
+
+/// What is wrong with a ship that is shorter than it is broad.
+pub(super) fn shorter_than_broad(length: f64, breadth: f64) -> Option<String> {
+    (length < breadth).then(|| {
+        format!(
+            "L_PP = {length:.3} m is less than B = {breadth:.3} m: are the stations numbers, not metres? Then say station_spacing = ..., or \
+             spaces = ... and Lpp = ..., in the table or the file beside it"
+        )
+    })
 }
 
 /// Whether the plane of the transom cuts the station at `x` between its highest offset and the next waterline.

@@ -33,7 +33,7 @@ mod published;
 mod tests;
 
 use super::features::{self, FlatOfSide};
-use super::particulars::{BY_STATIONS, draught_guess, length_by_stations, lowest_edge};
+use super::particulars::{BY_STATIONS, draught_guess, length_by_stations, lowest_edge, shorter_than_broad};
 use super::{CellResidual, Chart, FitError, Fitted};
 use crate::hull::cell::{Entry, FeatureLine, LineKind};
 use crate::hull::form::Hull;
@@ -232,7 +232,7 @@ pub(super) fn particulars(
     };
     let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
     let stated = &table.stated;
-    PrincipalParticulars {
+    let particulars = PrincipalParticulars {
         length_between_perpendiculars: or(stated.length_between_perpendiculars, "length", length, how),
         breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
         draught: or(
@@ -242,7 +242,9 @@ pub(super) fn particulars(
             "seven tenths of the height up to the lowest upper edge of a section",
         ),
         depth: or(stated.depth, "depth", if top > 0.0 { top } else { size.depth }, "the highest point"),
-    }
+    };
+    notes.extend(shorter_than_broad(particulars.length_between_perpendiculars, particulars.breadth));
+    particulars
 }
 
 /// The upper edge of the surface as the deck at side.
