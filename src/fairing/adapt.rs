@@ -53,7 +53,7 @@ impl Spared {
         let cells = Cells::new(start);
         let [rows, columns] = cells.count();
         let mut density = vec![vec![0.0; rows * columns]; metric.count()];
-        for (k, cell) in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])).enumerate() {
+        for (k, cell) in cells.all().enumerate() {
             let area = cells.area(cell);
             for place in cells.places(cell) {
                 metric.terms(&place, |term, weight, factors| {
@@ -98,17 +98,7 @@ impl Spared {
     /// The energy with these weights and the metric of a surface on the same net.
     pub(super) fn energy(&self, surface: &BsplineSurface<3>, metric: &Metric) -> SymmetricBand {
         let cells = Cells::new(surface);
-        let [rows, columns] = cells.count();
-        let mut energy = cells.zeros();
-        let mut row = Row::new();
-        for (k, cell) in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])).enumerate() {
-            for place in cells.places(cell) {
-                metric.terms(&place, |term, weight, factors| {
-                    place.form(factors, &mut row);
-                    add_square(&mut energy, weight * self.cells[term][k], &row);
-                });
-            }
-        }
+        let (mut energy, mut row) = (metric.energy(&cells, |term, k| self.cells[term][k]), Row::new());
         for way in 0..2 {
             for (above, weights) in cells.jumps(way).zip(&self.lines[way]) {
                 for (e, rho) in weights.iter().enumerate() {
@@ -227,8 +217,7 @@ mod tests {
         let metric = Metric::new(&waved, 3, 0.6);
         let cells = Cells::new(&waved);
         let mut stations = 0.0;
-        let [rows, columns] = cells.count();
-        for cell in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])) {
+        for cell in cells.all() {
             for place in cells.places(cell) {
                 metric.terms(&place, |term, weight, factors| {
                     if term == 3 {

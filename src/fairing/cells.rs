@@ -198,6 +198,12 @@ impl<'a> Cells<'a> {
         [0, 1].map(|k: usize| self.spans[k].lengths.len())
     }
 
+    /// Every cell, up the ship first.
+    pub(super) fn all(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let [rows, columns] = self.count();
+        (0..rows).flat_map(move |e| (0..columns).map(move |f| [e, f]))
+    }
+
     /// The area of a cell, of the unit square.
     pub(super) fn area(&self, [e, f]: [usize; 2]) -> f64 {
         self.spans[0].lengths[e] * self.spans[1].lengths[f]
@@ -252,20 +258,26 @@ impl<'a> Cells<'a> {
         let steps = if way == 0 { [columns, 1] } else { [1, columns] };
         jump.into_iter().flat_map(move |jump| {
             other.nodes[e].iter().map(move |node| {
-                let (by_s, by_t, jumped) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-                let (degree, first, weight) = (other.degree, other.first[e], node.weight);
-                let mut found =
-                    Crossing { jump, node, degree, first, steps, weight, length: jump.length, by_s, by_t, jumped };
-                let (mut by_s, mut by_t, mut jumped) = (by_s, by_t, jumped);
-                found.factors(|place, [s, t, second]| {
-                    let point = self.surface.points()[place];
-                    for axis in 0..3 {
-                        by_s[axis] += s * point[axis];
-                        by_t[axis] += t * point[axis];
-                        jumped[axis] += second * point[axis];
+                let zero = [0.0; 3];
+                let mut found = Crossing {
+                    jump,
+                    node,
+                    degree: other.degree,
+                    first: other.first[e],
+                    steps,
+                    weight: node.weight,
+                    length: jump.length,
+                    by_s: zero,
+                    by_t: zero,
+                    jumped: zero,
+                };
+                let mut sums = [zero; 3];
+                found.factors(|place, factors| {
+                    for (sum, factor) in sums.iter_mut().zip(factors) {
+                        (0..3).for_each(|axis| sum[axis] += factor * self.surface.points()[place][axis]);
                     }
                 });
-                (found.by_s, found.by_t, found.jumped) = (by_s, by_t, jumped);
+                [found.by_s, found.by_t, found.jumped] = sums;
                 found
             })
         })

@@ -220,6 +220,20 @@ impl Metric {
         }
     }
 
+    /// The energy with weights by term and number of the cell.
+    pub(super) fn energy(&self, cells: &Cells<'_>, weights: impl Fn(usize, usize) -> f64) -> SymmetricBand {
+        let (mut energy, mut row) = (cells.zeros(), Row::new());
+        for (k, cell) in cells.all().enumerate() {
+            for place in cells.places(cell) {
+                self.terms(&place, |term, weight, factors| {
+                    place.form(factors, &mut row);
+                    add_square(&mut energy, weight * weights(term, k), &row);
+                });
+            }
+        }
+        energy
+    }
+
     /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight of its square, and
     /// its factors. It counts as dkappa/ds = jump/h over the mean length h of the spans beside the line.
     pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
@@ -249,19 +263,7 @@ impl Metric {
 /// The energy of order 2, 3 or 4 with the metric of the surface as it is.
 #[must_use]
 pub fn true_energy(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> SymmetricBand {
-    let (cells, metric) = (Cells::new(surface), Metric::new(surface, order, anisotropy));
-    let mut energy = cells.zeros();
-    let [rows, columns] = cells.count();
-    let mut row = Row::new();
-    for cell in (0..rows).flat_map(|e| (0..columns).map(move |f| [e, f])) {
-        for place in cells.places(cell) {
-            metric.terms(&place, |_, weight, factors| {
-                place.form(factors, &mut row);
-                add_square(&mut energy, weight, &row);
-            });
-        }
-    }
-    energy
+    Metric::new(surface, order, anisotropy).energy(&Cells::new(surface), |_, _| 1.0)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::FitError;
 use super::rows::Row;
 use crate::numeric::median;
 use crate::spline::KnotVector;
+use crate::units::decimal;
 
 /// Design draught over the height of the table where none is stated.
 const DRAUGHT_SHARE: f64 = 0.7;
@@ -31,7 +32,7 @@ pub(super) fn lowest_edge(table: &OffsetTable) -> Option<f64> {
 /// A design draught for a body from `bottom` (or the base line, where it lies below that) up to `edge`.
 pub(super) fn draught_guess(bottom: f64, edge: f64) -> f64 {
     let base = bottom.max(0.0);
-    let guess = base + DRAUGHT_SHARE * (edge - base);
+    let guess = decimal(base + DRAUGHT_SHARE * (edge - base));
     if guess > 0.0 { guess } else { edge - bottom }
 }
 
