@@ -30,7 +30,6 @@
 use super::cells::{Cells, Row, add_square};
 use super::metric::Metric;
 use crate::numeric::SymmetricBand;
-use crate::spline::BsplineSurface;
 
 /// Exponent of the ratio of energy densities.
 const EXPONENT: f64 = 1.5;
@@ -48,9 +47,8 @@ pub(super) struct Spared {
 }
 
 impl Spared {
-    /// The weights for a start.
-    pub(super) fn new(start: &BsplineSurface<3>, metric: &Metric) -> Self {
-        let cells = Cells::new(start);
+    /// The weights for the cells of a start.
+    pub(super) fn new(cells: &Cells<'_>, metric: &Metric) -> Self {
         let [rows, columns] = cells.count();
         let mut density = vec![vec![0.0; rows * columns]; metric.count()];
         for (k, cell) in cells.all().enumerate() {
@@ -76,16 +74,16 @@ impl Spared {
             let count = [columns, rows][way];
             let rho =
                 |span: usize, e: usize| weights[term][if way == 0 { span * columns + e } else { e * columns + span }];
-            let lines = cells.jumps(way).map(|above| {
+            let lines = cells.jumps(way).iter().map(|jump| {
                 let spans = (0..count).map(|e| {
                     let (mut own, mut area) = (0.0, 0.0);
-                    for at in cells.crossings(way, above, e) {
+                    for at in cells.crossings(way, jump, e) {
                         area += at.length * at.weight;
                         if let Some((weight, factors)) = metric.jump(way, &at) {
                             own += weight * at.value(factors).powi(2);
                         }
                     }
-                    let beside = rho(above - 1, e).min(rho(above, e));
+                    let beside = rho(jump.above - 1, e).min(rho(jump.above, e));
                     CHARGE * spared(own / area, medians[term]).min(beside)
                 });
                 spans.collect()
@@ -95,14 +93,13 @@ impl Spared {
         Self { cells: weights, lines }
     }
 
-    /// The energy with these weights and the metric of a surface on the same net.
-    pub(super) fn energy(&self, surface: &BsplineSurface<3>, metric: &Metric) -> SymmetricBand {
-        let cells = Cells::new(surface);
-        let (mut energy, mut row) = (metric.energy(&cells, |term, k| self.cells[term][k]), Row::new());
+    /// The energy with these weights over the cells of a surface on the same net, and its metric.
+    pub(super) fn energy(&self, cells: &Cells<'_>, metric: &Metric) -> SymmetricBand {
+        let (mut energy, mut row) = (metric.energy(cells, |term, k| self.cells[term][k]), Row::new());
         for way in 0..2 {
-            for (above, weights) in cells.jumps(way).zip(&self.lines[way]) {
+            for (jump, weights) in cells.jumps(way).iter().zip(&self.lines[way]) {
                 for (e, rho) in weights.iter().enumerate() {
-                    for at in cells.crossings(way, above, e) {
+                    for at in cells.crossings(way, jump, e) {
                         if let Some((weight, factors)) = metric.jump(way, &at) {
                             at.form(factors, &mut row);
                             add_square(&mut energy, weight * rho, &row);
@@ -136,7 +133,7 @@ fn spared(density: f64, median: f64) -> f64 {
 mod tests {
     use super::super::metric::true_energy;
     use super::*;
-    use crate::spline::KnotVector;
+    use crate::spline::{BsplineSurface, KnotVector};
 
     /// x = 100 u, z = 10 v over the knots' own domains taken to 1, with control values y.
     fn surface(u: &KnotVector, v: &KnotVector, y: impl Fn(usize, usize) -> f64) -> BsplineSurface<3> {
@@ -164,12 +161,14 @@ mod tests {
         let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 4).unwrap());
         let cube = |knots: &KnotVector, i: usize| knots.knots()[i + 1..i + 4].iter().product::<f64>();
         let even = surface(&u, &v, |i, j| 1e-4 * (cube(&u, i) + cube(&v, j)));
-        let weights = Spared::new(&even, &Metric::new(&even, 3, 0.6));
+        let weights = Spared::new(&Cells::new(&even), &Metric::new(&even, 3, 0.6));
         for term in [0, 3] {
             assert!(weights.cells[term].iter().all(|w| (w - 1.0).abs() < 1e-6), "{:?}", weights.cells[term]);
         }
-        let (adapted, plain) =
-            (of(&weights.energy(&even, &Metric::new(&even, 3, 0.6)), &even), of(&true_energy(&even, 3, 0.6), &even));
+        let (adapted, plain) = (
+            of(&weights.energy(&Cells::new(&even), &Metric::new(&even, 3, 0.6)), &even),
+            of(&true_energy(&even, 3, 0.6), &even),
+        );
         assert!((adapted / plain - 1.0).abs() < 1e-6, "{adapted} for {plain}");
     }
 
@@ -182,15 +181,15 @@ mod tests {
         let pairs = |t: &[f64]| (t[0] * t[1] + t[0] * t[2] + t[1] * t[2]) / 3.0;
         // Slopes so small that curvature is the second derivative.
         let cube = surface(&u, &v, |_, j| 1e-6 * knots(j).iter().product::<f64>());
-        let weights = Spared::new(&cube, &Metric::new(&cube, 3, 1.0));
+        let weights = Spared::new(&Cells::new(&cube), &Metric::new(&cube, 3, 1.0));
         let smooth = surface(&u, &v, |_, j| 1e-6 * pairs(knots(j)));
-        assert!(of(&weights.energy(&smooth, &Metric::new(&smooth, 3, 1.0)), &smooth).abs() < 1e-15);
+        assert!(of(&weights.energy(&Cells::new(&smooth), &Metric::new(&smooth, 3, 1.0)), &smooth).abs() < 1e-15);
         // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5.
         let kinked = surface(&u, &v, |_, j| {
             let t: Vec<f64> = knots(j).iter().map(|t| t - 1.0).collect();
             if v.greville()[j] > 1.0 + 1e-12 { 1e-6 * pairs(&t) } else { 0.0 }
         });
-        let found = of(&weights.energy(&kinked, &Metric::new(&kinked, 3, 1.0)), &kinked) * 1e12;
+        let found = of(&weights.energy(&Cells::new(&kinked), &Metric::new(&kinked, 3, 1.0)), &kinked) * 1e12;
         assert!((found / (CHARGE * 256.0) - 1.0).abs() < 1e-6, "{found}");
     }
 
@@ -239,7 +238,7 @@ mod tests {
             let k = i * columns + j;
             if k == columns + 1 { 1e-2 } else { ((k * 7919) % 13) as f64 * 1e-6 }
         });
-        let weights = Spared::new(&bumped, &Metric::new(&bumped, 3, 0.6)).cells;
+        let weights = Spared::new(&Cells::new(&bumped), &Metric::new(&bumped, 3, 0.6)).cells;
         for term in weights {
             let (bump, far) = (term[0], term[term.len() - 1]);
             assert!(bump < 1e-4 && far > 1e3 * bump, "{bump} {far}");

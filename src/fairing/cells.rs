@@ -43,9 +43,9 @@ impl Node {
 }
 
 /// A line of a cubic net inside its domain that leaves one continuous derivative.
-struct Jump {
+pub(super) struct Jump {
     /// Index of the span above it.
-    above: usize,
+    pub(super) above: usize,
     /// First control value of the rows.
     first: usize,
     /// The value, the first derivative, and the jump of the second.
@@ -245,41 +245,38 @@ impl<'a> Cells<'a> {
         Place { nodes, degrees: [rows, columns], first, columns: self.surface.shape()[1], weight, derivatives }
     }
 
-    /// The lines across which the second derivative along the ship (`way` 0) or up (1) may jump: index of the span above each.
-    pub(super) fn jumps(&self, way: usize) -> impl Iterator<Item = usize> {
-        self.spans[way].jumps.iter().map(|jump| jump.above)
+    /// The lines across which the second derivative along the ship (`way` 0) or up (1) may jump.
+    pub(super) fn jumps(&self, way: usize) -> &[Jump] {
+        &self.spans[way].jumps
     }
 
-    /// The Gauss nodes of span e of the line below span `above`.
-    pub(super) fn crossings(&self, way: usize, above: usize, e: usize) -> impl Iterator<Item = Crossing<'_>> {
-        let jump = self.spans[way].jumps.iter().find(move |jump| jump.above == above);
+    /// The Gauss nodes of span e of a line of [`Self::jumps`].
+    pub(super) fn crossings<'c>(&'c self, way: usize, jump: &'c Jump, e: usize) -> impl Iterator<Item = Crossing<'c>> {
         let other = &self.spans[1 - way];
         let columns = self.surface.shape()[1];
         let steps = if way == 0 { [columns, 1] } else { [1, columns] };
-        jump.into_iter().flat_map(move |jump| {
-            other.nodes[e].iter().map(move |node| {
-                let zero = [0.0; 3];
-                let mut found = Crossing {
-                    jump,
-                    node,
-                    degree: other.degree,
-                    first: other.first[e],
-                    steps,
-                    weight: node.weight,
-                    length: jump.length,
-                    by_s: zero,
-                    by_t: zero,
-                    jumped: zero,
-                };
-                let mut sums = [zero; 3];
-                found.factors(|place, factors| {
-                    for (sum, factor) in sums.iter_mut().zip(factors) {
-                        (0..3).for_each(|axis| sum[axis] += factor * self.surface.points()[place][axis]);
-                    }
-                });
-                [found.by_s, found.by_t, found.jumped] = sums;
-                found
-            })
+        other.nodes[e].iter().map(move |node| {
+            let zero = [0.0; 3];
+            let mut found = Crossing {
+                jump,
+                node,
+                degree: other.degree,
+                first: other.first[e],
+                steps,
+                weight: node.weight,
+                length: jump.length,
+                by_s: zero,
+                by_t: zero,
+                jumped: zero,
+            };
+            let mut sums = [zero; 3];
+            found.factors(|place, factors| {
+                for (sum, factor) in sums.iter_mut().zip(factors) {
+                    (0..3).for_each(|axis| sum[axis] += factor * self.surface.points()[place][axis]);
+                }
+            });
+            [found.by_s, found.by_t, found.jumped] = sums;
+            found
         })
     }
 }

@@ -208,12 +208,13 @@ impl Metric {
             (0..=n).for_each(|k| each(k, self.weight(k) * place.weight, &parametric(k)));
             return;
         }
-        for (which, station) in [(0, false), (n, true)] {
-            if let Some((factors, weight)) = Line::new(place, station).and_then(|line| line.curvature(n)) {
-                each(which, self.scales[usize::from(station)] * weight * place.weight, &factors);
+        let [waterline, station] = [false, true].map(|station| Line::new(place, station));
+        for (which, line, scale) in [(0, &waterline, self.scales[0]), (n, &station, self.scales[1])] {
+            if let Some((factors, weight)) = line.as_ref().and_then(|line| line.curvature(n)) {
+                each(which, scale * weight * place.weight, &factors);
             }
         }
-        let station = Line::new(place, true).filter(|_| n < 4);
+        let station = station.filter(|_| n < 4);
         for k in 1..n {
             let factors = station.as_ref().and_then(|line| line.mixed(k, n - k, self.height));
             each(k, self.weight(k) * place.weight, &factors.unwrap_or_else(|| parametric(k)));

@@ -16,6 +16,7 @@
 
 use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
+use super::cells::Cells;
 use super::metric::{Metric, true_energy};
 use super::model::{Model, Reading};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
@@ -337,14 +338,16 @@ impl FairSurface {
             }
         }
         let (u, v) = (surface.u(), surface.v());
-        let (mut spared, mut energy) = (None, energy(u, v, order, settings.anisotropy));
-        if !smooth {
+        let (spared, energy) = if smooth {
+            (None, energy(u, v, order, settings.anisotropy))
+        } else {
             let level = hull.is_level();
             let metric = if level { Metric::new } else { Metric::parametric }(surface, order, settings.anisotropy);
-            let weights = Spared::new(surface, &metric);
-            energy = weights.energy(surface, &metric);
-            spared = level.then_some(weights);
-        }
+            let cells = Cells::new(surface);
+            let weights = Spared::new(&cells, &metric);
+            let energy = weights.energy(&cells, &metric);
+            (level.then_some(weights), energy)
+        };
         let plain = is_plain(&hull);
         let straight = straightness(hull.surface(), &courses);
         Ok(Self {
@@ -382,7 +385,7 @@ impl FairSurface {
     pub(super) fn true_energy(&self, surface: &BsplineSurface<3>) -> SymmetricBand {
         self.spared.as_ref().map_or_else(
             || true_energy(surface, self.order, self.anisotropy),
-            |spared| spared.energy(surface, &Metric::new(surface, self.order, self.anisotropy)),
+            |spared| spared.energy(&Cells::new(surface), &Metric::new(surface, self.order, self.anisotropy)),
         )
     }
 

@@ -51,19 +51,21 @@ impl SectionalAreaCurve {
         let immersions: Vec<Option<Immersion>> =
             draughts.iter().map(|&draught| Immersion::new(hull, draught)).collect();
         let row = |&station: &f64| {
-            let mut cuts: Vec<Cut> =
-                immersions.iter().flatten().map(|immersion| Cut::new(immersion, station)).collect();
-            cuts.sort_by(|a, b| a.end.total_cmp(&b.end));
+            let given = immersions.iter().enumerate().filter_map(|(k, immersion)| Some((k, immersion.as_ref()?)));
+            let mut cuts: Vec<(usize, Cut)> = given.map(|(k, immersion)| (k, Cut::new(immersion, station))).collect();
+            cuts.sort_by(|a, b| a.1.end.total_cmp(&b.1.end));
+            let (order, cuts): (Vec<usize>, Vec<Cut>) = cuts.into_iter().unzip();
             let mut parts = vec![0.0; cuts.len()];
             pieces(hull, &lines, station, &cuts, |cut, i, j, weights| {
                 let points = &surface.points()[i * columns + j..];
                 parts[cut] += weights.iter().zip(points).map(|(weight, point)| weight * point[1]).sum::<f64>();
             });
-            let below = |immersion: &Option<Immersion>| {
-                let end = immersion.as_ref().map(|immersion| Cut::new(immersion, station).end)?;
-                Some(cuts.iter().zip(&parts).filter(|(cut, _)| cut.end <= end).map(|(_, part)| part).sum::<f64>())
-            };
-            immersions.iter().map(|immersion| below(immersion).unwrap_or(0.0)).collect()
+            let (mut areas, mut below) = (vec![0.0; immersions.len()], 0.0);
+            for (k, part) in order.into_iter().zip(parts) {
+                below += part;
+                areas[k] = below;
+            }
+            areas
         };
         stations.iter().map(row).collect()
     }
@@ -74,13 +76,13 @@ impl SectionalAreaCurve {
 struct Cut {
     /// Its parameter v.
     end: f64,
-    /// Height of the draught above the lowest line \[m\].
-    height: f64,
+    /// The draught \[m\].
+    draught: f64,
 }
 
 impl Cut {
     fn new(immersion: &Immersion<'_>, station: f64) -> Self {
-        Self { end: immersion.section_end(station), height: immersion.draught() - immersion.bottom() }
+        Self { end: immersion.section_end(station), draught: immersion.draught() }
     }
 }
 
@@ -233,7 +235,7 @@ fn pieces(
             let slanting = is_slanting(hull, span_u, span_v);
             let outermost = span_u == p || span_u + 1 == surface.u().basis_count();
             let above = cuts.partition_point(|cut| cut.end < middle);
-            let height = cuts[above].height;
+            let height = cuts[above].draught - hull.bottom();
             let cell = Cell { hull, station, span_u, span_v, slanting, height, at_profile: slanting && outermost };
             let mut start = u;
             let mut block: Block = Default::default();

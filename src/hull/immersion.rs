@@ -101,11 +101,6 @@ impl<'a> Immersion<'a> {
         Some(Self { hull, draught, waterline, above, deck_immersed, slack })
     }
 
-    /// The lowest point of the hull \[m\].
-    pub(crate) fn bottom(&self) -> f64 {
-        self.hull.bottom()
-    }
-
     /// The draught, the top of the surface when it is above that \[m\].
     pub(crate) fn draught(&self) -> f64 {
         self.draught

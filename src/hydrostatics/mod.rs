@@ -6,6 +6,7 @@ mod draughts;
 mod expansion;
 mod halves;
 mod quantity;
+mod row;
 mod sections;
 mod skin;
 mod station;
@@ -16,6 +17,7 @@ mod waterplane;
 
 pub use conventions::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell, Statement};
 pub use draughts::default_draughts;
-pub use quantity::{Hydrostatics, QUANTITIES, Quantity};
+pub use quantity::{QUANTITIES, Quantity};
+pub use row::Hydrostatics;
 pub use skin::{wetted_surface, wetted_surface_gradient};
 pub use table::CurvesOfForm;

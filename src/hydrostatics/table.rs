@@ -2,7 +2,7 @@
 
 use super::charted;
 use super::conventions::{CoefficientLength, Conventions, PrismaticSection, Shell};
-use super::quantity::Hydrostatics;
+use super::row::Hydrostatics;
 use super::sections::{Sections, sections};
 use super::station::Stations;
 use super::volume::{Body, bodies};

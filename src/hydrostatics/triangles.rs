@@ -15,7 +15,7 @@
 //! largest section is the largest of [`STATIONS`] sections, with a parabola through its neighbours.
 
 use super::conventions::Conventions;
-use super::quantity::Hydrostatics;
+use super::row::Hydrostatics;
 use super::sections::Sections;
 use super::table::{CurvesOfForm, row};
 use super::volume::Body;

@@ -1,0 +1,105 @@
+//! A row of a table of hydrostatics.
+
+/// Hydrostatics of one draught. A field is `None` where the quantity is not defined (a coefficient at zero volume, GM without
+/// a centre of gravity, a waterplane above the deck).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Hydrostatics {
+    /// Draught above the base line \[m\].
+    pub draught: f64,
+    /// Keel (extreme) draught T_K \[m\].
+    pub keel_draught: f64,
+    /// Displacement volume, moulded [m^3].
+    pub displacement_volume: f64,
+    /// Displacement mass, moulded \[t\].
+    pub displacement_mass: f64,
+    /// Displacement mass, extreme \[t\].
+    pub displacement_mass_extreme: f64,
+    /// Longitudinal centre of buoyancy, forward of AP \[m\].
+    pub lcb: Option<f64>,
+    /// Longitudinal centre of buoyancy, forward of midship [% of Lpp].
+    pub lcb_percent: Option<f64>,
+    /// Height of the centre of buoyancy above the base line \[m\].
+    pub kb: Option<f64>,
+    /// Waterplane area [m^2].
+    pub waterplane_area: f64,
+    /// Longitudinal centre of flotation, forward of AP \[m\].
+    pub lcf: Option<f64>,
+    /// Tonnes per centimetre immersion [t/cm].
+    pub tonnes_per_centimetre: f64,
+    /// Moment to change trim one centimetre [t m/cm].
+    pub moment_to_change_trim: Option<f64>,
+    /// Moment to change trim one metre [t m/m].
+    pub moment_to_trim_metre: Option<f64>,
+    /// Transverse second moment of the waterplane [m^4].
+    pub transverse_inertia: f64,
+    /// Longitudinal second moment of the waterplane about LCF [m^4].
+    pub longitudinal_inertia: f64,
+    /// BM_T \[m\]
+    pub bm_transverse: Option<f64>,
+    /// BM_L \[m\]
+    pub bm_longitudinal: Option<f64>,
+    /// KM_T \[m\]
+    pub km_transverse: Option<f64>,
+    /// KM_L \[m\]
+    pub km_longitudinal: Option<f64>,
+    /// GM_T \[m\]
+    pub gm_transverse: Option<f64>,
+    /// GM_L \[m\]
+    pub gm_longitudinal: Option<f64>,
+    /// C_B
+    pub block_coefficient: Option<f64>,
+    /// C_M
+    pub midship_coefficient: Option<f64>,
+    /// C_X
+    pub maximum_section_coefficient: Option<f64>,
+    /// C_P
+    pub prismatic_coefficient: Option<f64>,
+    /// C_PF
+    pub prismatic_coefficient_fore: Option<f64>,
+    /// C_PA
+    pub prismatic_coefficient_aft: Option<f64>,
+    /// C_WP
+    pub waterplane_coefficient: Option<f64>,
+    /// C_VP
+    pub vertical_prismatic_coefficient: Option<f64>,
+    /// C_S = S / sqrt(volume L)
+    pub wetted_surface_coefficient: Option<f64>,
+    /// Wetted surface, transom and flat of bottom included [m^2].
+    pub wetted_surface: f64,
+    /// Length on the waterline \[m\].
+    pub waterline_length: f64,
+    /// Breadth on the waterline \[m\].
+    pub waterline_breadth: f64,
+    /// Area of the section at Lpp / 2 [m^2].
+    pub midship_section_area: f64,
+    /// Largest section area [m^2].
+    pub maximum_section_area: f64,
+    /// Position of the largest section, forward of AP \[m\].
+    pub maximum_section_position: Option<f64>,
+    /// Half angle of entrance \[deg\].
+    pub half_angle_of_entrance: Option<f64>,
+    /// Half angle of run \[deg\].
+    pub half_angle_of_run: Option<f64>,
+    /// Aft end of the parallel middle body, forward of AP \[m\].
+    pub parallel_body_aft: Option<f64>,
+    /// Fore end of the parallel middle body, forward of AP \[m\].
+    pub parallel_body_fore: Option<f64>,
+    /// Length of entrance \[m\].
+    pub entrance_length: Option<f64>,
+    /// Length of run \[m\].
+    pub run_length: Option<f64>,
+    /// Slenderness L / volume^(1/3).
+    pub slenderness: Option<f64>,
+    /// Displacement-length ratio, mass / (0.01 L)^3 [t/m^3].
+    pub displacement_length_ratio: Option<f64>,
+    /// Lateral plane area [m^2].
+    pub lateral_area: f64,
+    /// Centre of the lateral plane, forward of AP \[m\].
+    pub lateral_centre_x: Option<f64>,
+    /// Centre of the lateral plane, above the base line \[m\].
+    pub lateral_centre_z: Option<f64>,
+    /// Immersed transom area [m^2].
+    pub transom_area: f64,
+    /// Remark on the row (draught above the deck at side, below the keel); none for an ordinary row.
+    pub remark: Option<String>,
+}
