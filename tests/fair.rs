@@ -390,3 +390,23 @@ fn a_changed_file_is_faired_again() {
     assert!(again.is_some());
     assert_ne!(before, fs::read(out.join("fairing.json")).unwrap());
 }
+
+/// The bending energy falls with every step, all that is held holds, and no line bends more often.
+#[test]
+fn the_bending_energy_is_minimised_within_what_is_held() {
+    let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);
+    let result: Value = serde_json::from_str(&file(&outputs, "fairing.json")).unwrap();
+    let energies: Vec<f64> = result["bending"]["energies"].as_array().unwrap().iter().map(number).collect();
+    println!("{energies:?}");
+    assert!(energies.len() > 2 && energies.windows(2).all(|pair| pair[1] < pair[0]));
+    assert_eq!(result["status"], "optimal");
+    assert!(number(&result["certificate"]["gap"]) <= 1e-9);
+    for held in result["constraints"].as_array().unwrap() {
+        assert!(number(&held["residual"]).abs() <= 1e-9 * number(&held["after"]).abs().max(1.0), "{held}");
+    }
+    for kind in ["waterlines", "stations"] {
+        for curve in result["inflections"][kind].as_array().unwrap() {
+            assert!(curve["after"].as_u64() <= curve["before"].as_u64(), "{kind}: {curve}");
+        }
+    }
+}

@@ -82,6 +82,9 @@ pub(super) struct Arguments {
     /// Minimise the energy of true curvature: refresh its metric at the answer while the functional falls
     #[arg(long)]
     true_curvature: bool,
+    /// Minimise the bending energy of the surface at last: the integral of k1^2 + k2^2 over its area
+    #[arg(long)]
+    bending: bool,
     #[command(flatten)]
     files: RunFiles,
     /// Run again whenever one of the files that were read changes; files of the run before are overwritten
@@ -142,6 +145,7 @@ impl Arguments {
             (self.keep_suspects, "--keep-suspects", "suspects.exclude", "false"),
             (self.no_signs, "--no-signs", "signs.impose", "false"),
             (self.true_curvature, "--true-curvature", "energy.true_curvature", "true"),
+            (self.bending, "--bending", "energy.bending", "true"),
         ];
         for (_, option, key, value) in flags.into_iter().filter(|(flag, ..)| *flag) {
             options.push((option, key, value.to_owned()));

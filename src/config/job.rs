@@ -179,6 +179,13 @@ pub const JOB_KEYS: &[Key] = &[
         "Whether the energy is that of true curvature: the metric is refreshed while the functional falls. Default: false.",
     ),
     key(
+        "energy",
+        "bending",
+        Kind::Switch,
+        &[],
+        "Whether the bending energy of the surface, the integral of k1^2 + k2^2 over its area, is minimised at last. Default: false.",
+    ),
+    key(
         "suspects",
         "exclude",
         Kind::Switch,
@@ -240,6 +247,8 @@ pub struct JobFile {
     pub signs: Option<bool>,
     /// Whether the energy is that of true curvature.
     pub true_curvature: Option<bool>,
+    /// `energy.bending`.
+    pub bending: Option<bool>,
 }
 
 /// Reads a job file. `file` is its name for messages.
@@ -307,6 +316,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         exclude_suspects: document.switch("suspects.exclude"),
         signs: document.switch("signs.impose"),
         true_curvature: document.switch("energy.true_curvature"),
+        bending: document.switch("energy.bending"),
         ..JobFile::default()
     };
     spot::read(document, &mut job);
@@ -372,6 +382,7 @@ impl JobFile {
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
             signs: other.signs.or(self.signs),
             true_curvature: other.true_curvature.or(self.true_curvature),
+            bending: other.bending.or(self.bending),
             ..self
         }
     }
@@ -388,6 +399,7 @@ impl JobFile {
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.signs = self.signs.unwrap_or(true);
         job.true_curvature = self.true_curvature.unwrap_or(false);
+        job.bending = self.bending.unwrap_or(false);
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(length);

@@ -8,12 +8,14 @@
 //!    greatest sum of multiplier times raw violation gets its own sign back, and the program is solved again. On the net of a fit,
 //!    whose features are no noise: the lines of the table by [`super::guard`].
 
+use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic};
 use super::constraint::{Constraint, Rule, breadths};
 use super::guard::{Guarded, Question};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
+use super::least_bending::{LeastBending, least_bending};
 use super::model::Limit;
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
@@ -75,6 +77,8 @@ pub struct FairSettings {
     pub seen: f64,
     /// Whether the energy is that of true curvature, by refreshing the metric.
     pub true_curvature: bool,
+    /// Whether the bending energy of the surface takes the place of the energy at last.
+    pub bending: bool,
     /// The solver.
     pub solver: Settings,
 }
@@ -130,6 +134,8 @@ pub struct Faired {
     pub price: f64,
     /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
     pub refreshed: Option<Vec<f64>>,
+    /// The steps to the least bending energy, where it was asked for and the chart does not fold.
+    pub bent: Option<LeastBending>,
     /// Rows of the rules, with the index of the rule.
     pub rules: Vec<(usize, Limit)>,
     /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each; none where
@@ -342,6 +348,15 @@ pub fn fair_prepared(
         refreshed = Some(found.functional);
         surface.model.energy = found.model.energy;
     }
+    let mut bent = None;
+    if settings.bending && diagnosis.is_none() && solved.is_optimal() {
+        let charged = final_lambda * final_smoother.unit * surface.model.energy_of(&solved.net);
+        if let Some(found) = least_bending_of(surface, &final_smoother, charged, &mut program, &mut solved, settings)? {
+            programs += found.programs;
+            iterations += found.iterations;
+            bent = Some(found);
+        }
+    }
     let mut settled = None;
     if diagnosis.is_none() && solved.is_optimal() {
         let (smoother, lambda, model) = (&final_smoother, final_lambda, &surface.model);
@@ -356,6 +371,7 @@ pub fn fair_prepared(
     }
     Ok(Faired {
         refreshed,
+        bent,
         rules: wishes.rules,
         settled,
         diagnosis,
@@ -375,6 +391,36 @@ pub fn fair_prepared(
         programs,
         iterations,
     })
+}
+
+/// The least bending energy from an answer on, weighed so that it costs there what the energy before it did; program and answer become
+/// those of its last step. None where the chart folds.
+fn least_bending_of(
+    surface: &FairSurface,
+    smoother: &Smoother,
+    charged: f64,
+    program: &mut Program,
+    solved: &mut Solved,
+    settings: &FairSettings,
+) -> Result<Option<LeastBending>, FairError> {
+    let start = surface.hull_of(&solved.net)?;
+    let rest = program.with_objective(smoother, 0.0).problem;
+    let Some(first) = bending_energy(start.surface()).filter(|first| *first > 0.0) else { return Ok(None) };
+    let factor = charged / first;
+    let free = &smoother.reduced.free;
+    let Some(found) = least_bending(start.surface(), &rest, factor, free, true, &settings.solver)? else {
+        return Ok(None);
+    };
+    program.problem.clone_from(&found.problem);
+    let solution = found.solution.clone();
+    let misfit: f64 = surface.model.residuals(&found.net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum();
+    *solved = Solved {
+        certificate: program.problem.certificate(&solution.x, &solution.multipliers, 0.0),
+        solution,
+        net: found.net.clone(),
+        objective: misfit + factor * found.energies[found.energies.len() - 1],
+    };
+    Ok(Some(found))
 }
 
 impl Faired {

@@ -10,6 +10,7 @@ use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Reach};
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
+use super::least_bending::LeastBending;
 use super::program::RowName;
 use super::proposals::{Accepted, Proposal};
 use super::record::moves;
@@ -85,6 +86,8 @@ pub struct Job {
     pub exclude_suspects: bool,
     /// Whether the energy is that of true curvature: the metric is refreshed until it stands still.
     pub true_curvature: bool,
+    /// Whether the bending energy of the surface takes the place of the energy at last.
+    pub bending: bool,
     /// Whether extraneous changes of curvature are forbidden.
     pub signs: bool,
     /// The solver.
@@ -104,6 +107,7 @@ impl Default for Job {
             exclude_suspects: true,
             signs: true,
             true_curvature: false,
+            bending: false,
             solver: Settings { tolerance: 1e-11, ..Settings::default() },
         }
     }
@@ -265,6 +269,7 @@ impl Job {
             tolerances: self.tolerances(&surface),
             signs: self.signs,
             true_curvature: self.true_curvature,
+            bending: self.bending,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
             strict: Vec::new(),
@@ -330,6 +335,14 @@ impl Job {
         let rules = held::rules(&surface, &settings, &faired);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());
+        notes.extend(faired.bent.as_ref().map(LeastBending::words));
+        if self.bending && faired.bent.is_none() && faired.solved.is_optimal() {
+            notes.push(
+                "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or the wishes contradict \
+                 each other"
+                    .to_owned(),
+            );
+        }
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

@@ -2,6 +2,7 @@
 //! curves.
 
 mod adapt;
+pub mod bending;
 pub mod bends;
 pub mod breaks;
 mod cells;
@@ -17,6 +18,7 @@ pub mod inflections;
 pub mod inspect;
 pub mod job;
 pub mod least;
+pub mod least_bending;
 mod lines;
 pub mod metric;
 pub mod model;

@@ -17,6 +17,13 @@ impl<'a> RepeatedSolver<'a> {
         Self { settings, kept: None }
     }
 
+    /// Forgets the last solution: the next solve starts cold.
+    pub fn forget(&mut self) {
+        if let Some(solver) = &mut self.kept {
+            solver.forget();
+        }
+    }
+
     /// Solves.
     ///
     /// # Errors

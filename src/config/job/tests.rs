@@ -27,7 +27,7 @@ fn table() -> OffsetTable {
 
 #[test]
 fn everything_is_read() {
-    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\norder = 4\nanisotropy = 1\nweight = 0.01\ntrue_curvature = true\n\
+    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\norder = 4\nanisotropy = 1\nweight = 0.01\ntrue_curvature = true\nbending = true\n\
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
@@ -41,7 +41,7 @@ fn everything_is_read() {
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(!job.exclude_suspects && !job.signs && job.true_curvature);
+    assert!(!job.exclude_suspects && !job.signs && job.true_curvature && job.bending);
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
