@@ -27,6 +27,9 @@ use crate::spline::{Gram, KnotVector, SplineError};
 /// Deviations of the sum of squares above its mean that noise is given.
 const DEVIATIONS: f64 = 3.0;
 
+/// Times the noise that straight lines may leave where it was estimated too low by chance; the criterion decides.
+const DOUBT: f64 = 1.3;
+
 /// Fewest offsets of a straight part.
 const LEAST: usize = 3;
 
@@ -52,6 +55,13 @@ pub struct Break {
     pub at: f64,
     /// Highest derivative that is continuous: 0 on a knuckle, 1 on a tangent line, 2 where the third one breaks.
     pub smooth: usize,
+}
+
+/// The least value of the criterion, and the power of ten of the weight that has it.
+#[derive(Debug, Clone, Copy)]
+struct Fit {
+    gcv: f64,
+    power: i32,
 }
 
 /// What is special about lines that run one way.
@@ -127,8 +137,9 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// The least value of the criterion over the weight; none where no weight determines the splines.
-    fn criterion(&self, course: &Course) -> Option<f64> {
+    /// The least value of the criterion over the weight, downhill from the power `near` of a course like this where it is known; none where
+    /// no weight determines the splines.
+    fn criterion(&self, course: &Course, near: Option<i32>) -> Option<Fit> {
         let lines: Vec<&Vec<f64>> = self.values.iter().filter(|values| is_whole(values)).collect();
         let knots = course.knots(&self.sites, self.spans).ok()?;
         let (n, p) = (knots.basis_count(), knots.degree());
@@ -177,9 +188,8 @@ impl Lines {
             normal = normal.plus(STIFF * normal.trace() / stiff.trace().max(f64::MIN_POSITIVE), &stiff);
         }
         let count = (self.sites.len() * lines.len()) as f64;
-        let mut least: Option<f64> = None;
-        for power in (POWERS[0]..=POWERS[1]).rev() {
-            let Ok(factor) = normal.plus(unit * 10f64.powi(power), &energy).factor() else { continue };
+        let at = |power: i32| -> Option<f64> {
+            let factor = normal.plus(unit * 10f64.powi(power), &energy).factor().ok()?;
             let inverse = factor.inverse_band();
             let edf: f64 = rows
                 .iter()
@@ -189,7 +199,7 @@ impl Lines {
                 .sum();
             let freedom = count - GAMMA * edf * lines.len() as f64;
             if freedom <= 0.0 {
-                break;
+                return None;
             }
             let mut c = right.clone();
             factor.solve_columns(&mut c, lines.len());
@@ -200,11 +210,36 @@ impl Lines {
                     rss += (at - values[site]).powi(2);
                 }
             }
-            let gcv = count * rss / (freedom * freedom);
-            if least.is_some_and(|least| gcv > 4.0 * least) {
+            Some(count * rss / (freedom * freedom))
+        };
+        if let Some(near) = near
+            && let Some(gcv) = at(near)
+        {
+            let mut least = Fit { gcv, power: near };
+            for step in [1, -1] {
+                let range = POWERS[0]..=POWERS[1];
+                let mut power = least.power + step;
+                while range.contains(&power)
+                    && let Some(gcv) = at(power).filter(|gcv| *gcv < least.gcv)
+                {
+                    least = Fit { gcv, power };
+                    power += step;
+                }
+                if least.power != near {
+                    break;
+                }
+            }
+            return Some(least);
+        }
+        let mut least: Option<Fit> = None;
+        for power in (POWERS[0]..=POWERS[1]).rev() {
+            let Some(gcv) = at(power) else { continue };
+            if least.is_some_and(|least| gcv > 4.0 * least.gcv) {
                 break;
             }
-            least = Some(least.map_or(gcv, |least| least.min(gcv)));
+            if least.is_none_or(|least| gcv < least.gcv) {
+                least = Some(Fit { gcv, power });
+            }
         }
         least
     }
@@ -250,23 +285,37 @@ impl Lines {
     pub fn course(&self, given: &[Break], noise: f64) -> Course {
         let mut best = Course { breaks: given.to_vec(), straight: Vec::new() };
         best.breaks.sort_by(|a, b| a.at.total_cmp(&b.at));
-        let runs = self.straight_runs(noise);
-        if runs.is_empty() {
+        let plain = self.straight_runs(noise);
+        let mut doubted = self.straight_runs(DOUBT * noise);
+        // What noise makes straight by chance is short.
+        doubted.retain(|run| run.1 - run.0 >= LEAST || plain.contains(run));
+        let mut tried = vec![plain, doubted];
+        tried.dedup();
+        tried.retain(|runs| !runs.is_empty());
+        if tried.is_empty() {
             return best;
         }
-        let mut now = self.criterion(&best).unwrap_or(f64::INFINITY);
-        for (from, to) in runs {
-            if let Some((gcv, course)) = self.with_part(&best, from, to)
-                && gcv < now
-            {
-                (now, best) = (gcv, course);
+        let bare = best.clone();
+        let whole = self.criterion(&best, None).unwrap_or(Fit { gcv: f64::INFINITY, power: 0 });
+        let mut least = whole;
+        for runs in tried {
+            let (mut now, mut found) = (whole, bare.clone());
+            for (from, to) in runs {
+                if let Some((fit, course)) = self.with_part(&found, from, to)
+                    && fit.gcv < now.gcv
+                {
+                    (now, found) = (fit, course);
+                }
+            }
+            if now.gcv < least.gcv {
+                (least, best) = (now, found);
             }
         }
         best
     }
 
     /// The best course with one more straight part between two sites, where it begins and ends, and how smoothly.
-    fn with_part(&self, old: &Course, from: usize, to: usize) -> Option<(f64, Course)> {
+    fn with_part(&self, old: &Course, from: usize, to: usize) -> Option<(Fit, Course)> {
         let n = self.sites.len();
         let shape = |ends: [Break; 2]| {
             let mut course = old.clone();
@@ -283,9 +332,14 @@ impl Lines {
             course.straight.push([ends[0].at, ends[1].at]);
             course
         };
-        let of = |ends: [Break; 2]| self.criterion(&shape(ends)).unwrap_or(f64::INFINITY);
+        let mut near = None;
+        let mut of = |ends: [Break; 2]| {
+            let found = self.criterion(&shape(ends), near);
+            near = found.map(|fit| fit.power).or(near);
+            found.unwrap_or(Fit { gcv: f64::INFINITY, power: 0 })
+        };
         let mut ends = [from, to].map(|k| Break { at: self.sites[k], smooth: 2 });
-        let mut gcv = of(ends);
+        let mut least = of(ends);
         for side in 0..2 {
             let k = [from, to][side];
             if k == 0 || k == n - 1 {
@@ -293,7 +347,7 @@ impl Lines {
             }
             for smooth in [2, 1] {
                 // The place at an offset first: that is where draughtsmen put them.
-                let at = |t: f64| {
+                let mut at = |t: f64| {
                     let mut other = ends;
                     other[side] = Break { at: t, smooth };
                     (of(other), other)
@@ -304,7 +358,7 @@ impl Lines {
                 let [mut p, mut q] = [b - golden * (b - a), a + golden * (b - a)].map(|t| (t, at(t)));
                 found.extend([p.1, q.1]);
                 for _ in 0..STEPS {
-                    if p.1.0 <= q.1.0 {
+                    if p.1.0.gcv <= q.1.0.gcv {
                         (b, q) = (q.0, p);
                         let t = b - golden * (b - a);
                         p = (t, at(t));
@@ -317,13 +371,13 @@ impl Lines {
                     }
                 }
                 for (value, other) in found {
-                    if value < gcv * (1.0 - 1e-3) {
-                        (gcv, ends) = (value, other);
+                    if value.gcv < least.gcv * (1.0 - 1e-3) {
+                        (least, ends) = (value, other);
                     }
                 }
             }
         }
-        gcv.is_finite().then(|| (gcv, shape(ends)))
+        least.gcv.is_finite().then(|| (least, shape(ends)))
     }
 }
 

@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 use std::thread;
 
 /// Columns and rows of the grid, about.
-const GRID: [usize; 2] = [221, 91];
+const GRID: [usize; 2] = [331, 141];
 /// Steps of colour on each side of white.
 pub(super) const STEPS: i32 = 7;
 /// Part of the surface that the full colours hold.
