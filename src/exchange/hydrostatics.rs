@@ -7,7 +7,8 @@ use super::hull_json::write_hull;
 use super::number::{cell, json_number, line};
 use crate::hull::Hull;
 use crate::hydrostatics::{
-    CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES, Shell,
+    Assumed, CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES,
+    Shell,
 };
 
 /// Conventions as they stand in JSON files.
@@ -26,6 +27,9 @@ pub(super) struct ConventionsRecord {
     /// Written only where it is so.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     design_draught_assumed: bool,
+    /// Symbols of the other main dimensions that were assumed; written only where there are some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    dimensions_assumed: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -85,7 +89,14 @@ impl From<&Conventions> for ConventionsRecord {
             },
             keel_thickness: Some(c.keel_thickness),
             kg: c.centre_of_gravity_height,
-            design_draught_assumed: c.draught_assumed,
+            design_draught_assumed: c.assumed.draught,
+            dimensions_assumed: c
+                .assumed
+                .symbols()
+                .into_iter()
+                .filter(|(symbol, assumed)| *assumed && *symbol != "T")
+                .map(|(symbol, _)| symbol.to_owned())
+                .collect(),
         }
     }
 }
@@ -116,7 +127,12 @@ impl From<ConventionsRecord> for Conventions {
             },
             keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
             centre_of_gravity_height: record.kg,
-            draught_assumed: record.design_draught_assumed,
+            assumed: Assumed {
+                length: record.dimensions_assumed.iter().any(|symbol| symbol == "L_PP"),
+                breadth: record.dimensions_assumed.iter().any(|symbol| symbol == "B"),
+                draught: record.design_draught_assumed,
+                depth: record.dimensions_assumed.iter().any(|symbol| symbol == "D"),
+            },
         }
     }
 }
@@ -193,7 +209,11 @@ mod tests {
                 shell,
                 keel_thickness: 0.015,
                 centre_of_gravity_height: Some(7.5),
-                draught_assumed: lcb_reference == LcbReference::Midship,
+                assumed: Assumed {
+                    draught: lcb_reference == LcbReference::Midship,
+                    breadth: lcb_reference == LcbReference::Percent,
+                    ..Assumed::default()
+                },
             };
             let text = serde_json::to_string(&ConventionsRecord::from(&conventions)).unwrap();
             let back: ConventionsRecord = serde_json::from_str(&text).unwrap();

@@ -1,5 +1,7 @@
 //! Conventions of a hydrostatic table: what is switchable, and is printed with every result.
 
+use crate::hull::StatedParticulars;
+
 /// Length that coefficients are referred to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CoefficientLength {
@@ -103,8 +105,47 @@ pub struct Conventions {
     pub keel_thickness: f64,
     /// Height of the centre of gravity above the base line \[m\], when known; GM and MTC use it.
     pub centre_of_gravity_height: Option<f64>,
-    /// Whether the design draught was assumed, because the table that the hull was laid through states none.
-    pub draught_assumed: bool,
+    /// Main dimensions that were assumed, because the table that the hull was laid through does not state them.
+    pub assumed: Assumed,
+}
+
+/// Which of the main dimensions a table left to be assumed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Assumed {
+    /// L_PP.
+    pub length: bool,
+    /// B.
+    pub breadth: bool,
+    /// T, the design draught.
+    pub draught: bool,
+    /// D.
+    pub depth: bool,
+}
+
+impl Assumed {
+    /// All that is not stated, or stated with what can be no dimension.
+    #[must_use]
+    pub fn of(stated: &StatedParticulars) -> Self {
+        let open = |value: Option<f64>| !value.is_some_and(|value| value.is_finite() && value > 0.0);
+        Self {
+            length: open(stated.length_between_perpendiculars),
+            breadth: open(stated.breadth),
+            draught: !stated.states_draught(),
+            depth: open(stated.depth),
+        }
+    }
+
+    /// Their symbols, `L_PP`, `B`, `T` and `D`, and whether each was assumed.
+    #[must_use]
+    pub fn symbols(&self) -> [(&'static str, bool); 4] {
+        [("L_PP", self.length), ("B", self.breadth), ("T", self.draught), ("D", self.depth)]
+    }
+}
+
+/// ` (assumed)` where it was, for what follows a dimension in a line of text.
+#[must_use]
+pub fn assumed_mark(assumed: bool) -> &'static str {
+    if assumed { " (assumed)" } else { "" }
 }
 
 impl Default for Conventions {
@@ -117,7 +158,7 @@ impl Default for Conventions {
             shell: Shell::None,
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
-            draught_assumed: false,
+            assumed: Assumed::default(),
         }
     }
 }
@@ -135,7 +176,7 @@ impl Conventions {
     /// ` (assumed)` where the design draught is, for what follows the draught in a line of text.
     #[must_use]
     pub fn draught_mark(&self) -> &'static str {
-        if self.draught_assumed { " (assumed)" } else { "" }
+        assumed_mark(self.assumed.draught)
     }
 
     /// What the numbers of a table are referred to, one statement a line; to be printed with every table.
@@ -190,8 +231,15 @@ impl Conventions {
                  L_R from AP to its aft end, from the largest section where there is none",
             ),
         ];
-        if self.draught_assumed {
+        if self.assumed.draught {
             list.push(say("design draught", "assumed: the table that the hull was laid through states none"));
+        }
+        let others = self.assumed.symbols().into_iter().filter(|(symbol, assumed)| *assumed && *symbol != "T");
+        let others: Vec<&str> = others.map(|(symbol, _)| symbol).collect();
+        if !others.is_empty() {
+            let text =
+                format!("{} assumed: the table that the hull was laid through does not state them", others.join(", "));
+            list.push(say("main dimensions", &text));
         }
         list
     }

@@ -15,7 +15,9 @@ mod triangles;
 mod volume;
 mod waterplane;
 
-pub use conventions::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell, Statement};
+pub use conventions::{
+    Assumed, CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell, Statement, assumed_mark,
+};
 pub use draughts::default_draughts;
 pub use quantity::{QUANTITIES, Quantity};
 pub use row::Hydrostatics;

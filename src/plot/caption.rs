@@ -11,20 +11,49 @@ pub(super) fn plain(text: &str) -> String {
 
 /// Main dimensions, density and the length that coefficients are referred to.
 pub(super) fn conventions(inputs: &FigureInputs) -> String {
-    let p = inputs.hull.particulars();
     let c = &inputs.curves.conventions;
     let length = match c.coefficient_length {
         CoefficientLength::BetweenPerpendiculars => "L_PP",
         CoefficientLength::Waterline => "L_WL",
     };
     format!(
-        "L_PP {:.2} m   B {:.2} m   {}   D {:.2} m   ρ {:.3} t/m³   coefficients on {length}, moulded",
-        p.length_between_perpendiculars,
-        p.breadth,
-        draught(inputs),
-        p.depth,
-        c.density
+        "{}   ρ {:.3} t/m³   coefficients on {length}, moulded{}",
+        dimensions(inputs),
+        c.density,
+        assumed_note(inputs, "   ")
     )
+}
+
+/// A main dimension, `B 25.40 m`, with a star where it was assumed.
+fn dimension(symbol: &str, value: f64, assumed: bool) -> String {
+    format!("{symbol} {value:.2} m{}", if assumed { "*" } else { "" })
+}
+
+/// L_PP.
+pub(super) fn length(inputs: &FigureInputs) -> String {
+    let p = inputs.hull.particulars();
+    dimension("L_PP", p.length_between_perpendiculars, inputs.curves.conventions.assumed.length)
+}
+
+/// B.
+pub(super) fn breadth(inputs: &FigureInputs) -> String {
+    dimension("B", inputs.hull.particulars().breadth, inputs.curves.conventions.assumed.breadth)
+}
+
+/// D.
+pub(super) fn depth(inputs: &FigureInputs) -> String {
+    dimension("D", inputs.hull.particulars().depth, inputs.curves.conventions.assumed.depth)
+}
+
+/// L_PP, B, T and D.
+pub(super) fn dimensions(inputs: &FigureInputs) -> String {
+    [length(inputs), breadth(inputs), draught(inputs), depth(inputs)].join("   ")
+}
+
+/// What the stars mean, after `gap`; nothing where there are none.
+pub(super) fn assumed_note(inputs: &FigureInputs, gap: &str) -> String {
+    let assumed = inputs.curves.conventions.assumed;
+    if assumed.length || assumed.breadth || assumed.depth { format!("{gap}* assumed") } else { String::new() }
 }
 
 /// The design draught, `T 7.70 m`, and whether it was assumed.

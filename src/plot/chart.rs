@@ -34,7 +34,20 @@ pub(super) struct Axis {
     name: String,
     range: [f64; 2],
     step: f64,
+    /// Ticks where they are not the multiples of the step: powers of ten, written as what they are the powers of.
+    powers: Option<Vec<f64>>,
 }
+
+/// Figures of a decade at which ticks may stand, from few to many.
+const FIGURES: [&[f64]; 4] = [
+    &[1.0],
+    &[1.0, 2.0, 5.0],
+    &[1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0],
+    &[
+        1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 7.5, 8.0,
+        8.5, 9.0, 9.5,
+    ],
+];
 
 impl Axis {
     /// An axis that holds `low` to `high`, widened to whole steps; at most `count` steps.
@@ -42,17 +55,39 @@ impl Axis {
         let range = if high > low { high - low } else { 1.0 };
         let step = nice_step(range, count);
         let (first, last) = ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step);
-        Self { name: name.to_owned(), range: [first, if last > first { last } else { first + step }], step }
+        Self {
+            name: name.to_owned(),
+            range: [first, if last > first { last } else { first + step }],
+            step,
+            powers: None,
+        }
+    }
+
+    /// An axis of powers of ten that holds those from `low` to `high`, widened to the next ticks; about `count` ticks.
+    pub(super) fn powers(name: &str, low: f64, high: f64, count: usize) -> Self {
+        let decades = || (low.floor() as i32 - 1)..=(high.ceil() as i32 + 1);
+        let ticks = |figures: &[f64], every: i32| -> Vec<f64> {
+            let all = decades().filter(|decade| decade.rem_euclid(every) == 0);
+            let all: Vec<f64> =
+                all.flat_map(|k| figures.iter().map(move |figure| f64::from(k) + figure.log10())).collect();
+            let first = all.iter().rposition(|tick| *tick <= low + 1e-9).unwrap_or(0);
+            let last = all.iter().position(|tick| *tick >= high - 1e-9).unwrap_or(all.len() - 1).max(first + 1);
+            all[first..=last.min(all.len() - 1)].to_vec()
+        };
+        let sets = FIGURES.iter().rev().map(|figures| ticks(figures, 1)).chain((2..).map(|every| ticks(&[1.0], every)));
+        let found = sets.into_iter().find(|ticks| ticks.len() <= count + 1).unwrap_or_default();
+        let range = [found[0], found[found.len() - 1]];
+        Self { name: name.to_owned(), range, step: 1.0, powers: Some(found) }
     }
 
     /// An axis from `low` to `high` as they are, with ticks at the multiples of `step`.
     pub(super) fn exact(name: &str, low: f64, high: f64, step: f64) -> Self {
-        Self { name: name.to_owned(), range: [low, high], step }
+        Self { name: name.to_owned(), range: [low, high], step, powers: None }
     }
 
     /// The same axis for values that are `unit` times smaller.
     pub(super) fn divided(&self, name: &str, unit: f64, step: f64) -> Self {
-        Self { name: name.to_owned(), range: self.range.map(|value| value / unit), step }
+        Self { name: name.to_owned(), range: self.range.map(|value| value / unit), step, powers: None }
     }
 
     fn part(&self, value: f64) -> f64 {
@@ -60,10 +95,18 @@ impl Axis {
     }
 
     fn ticks(&self) -> Vec<f64> {
-        multiples(self.step, self.range[0], self.range[1])
+        self.powers.clone().unwrap_or_else(|| multiples(self.step, self.range[0], self.range[1]))
     }
 
     fn write(&self, value: f64) -> String {
+        if self.powers.is_some() {
+            let (decade, value) = (value.floor(), 10f64.powf(value));
+            if !(-4.0..6.0).contains(&decade) {
+                return format!("{value:.0e}");
+            }
+            let text = format!("{value:.*}", (1.0 - decade).max(0.0) as usize);
+            return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
+        }
         let value = if value.abs() < 1e-9 * self.step { 0.0 } else { value };
         format!("{value:.*}", decimals(self.step))
     }

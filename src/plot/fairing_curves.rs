@@ -86,6 +86,9 @@ impl Along {
     }
 }
 
+/// Part of the height of a strip within which crosses of suspects stand.
+const INSIDE: f64 = 0.86;
+
 /// A line with its offsets.
 struct Line<'a> {
     name: String,
@@ -161,7 +164,15 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     }
     let y = paper[1] - 5.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
-    canvas.text([GAP, y], &format!("{} {plural} of the table, by the RMS of their moves", lines.len()), &style);
+    let mut words = format!("{} {plural} of the table, by the RMS of their moves", lines.len());
+    let any = |which: fn(&Change) -> bool| lines.iter().flat_map(|line| &line.offsets).any(|change| which(change));
+    if any(|change| change.locked && !change.suspect) {
+        words.push_str("    large red squares: locked");
+    }
+    if any(|change| change.suspect) {
+        words.push_str("    red crosses: left out as suspects, at the edge of the strip where they lie beyond it");
+    }
+    canvas.text([GAP, y], &words, &style);
     canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Some(canvas)
 }
@@ -333,6 +344,13 @@ fn deviations(
         let at = on(along.place(change), 1e3 * (change.before - change.after));
         let ink = if change.locked { "#c00000" } else { "#000000" };
         canvas.area(&square(at, if change.locked { 0.9 } else { 0.6 }), ink);
+    }
+    for change in line.offsets.iter().filter(|change| change.suspect) {
+        let by = 1e3 * (change.before - change.after);
+        let [x, y] = on(along.place(change), by.clamp(-INSIDE * reach, INSIDE * reach));
+        for up in [-1.0, 1.0] {
+            canvas.line([x - 1.0, y - up], [x + 1.0, y + up], &Pen::new(0.4, "#c00000"));
+        }
     }
     canvas.end_group();
     canvas.rectangle(strip, &FRAME);

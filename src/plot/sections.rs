@@ -35,12 +35,10 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
-        "1 : {scale}   L_PP {:.2} m   B {:.2} m   {}   D {:.2} m   stations L_PP / 20 = {:.3} m from AP   moulded",
-        p.length_between_perpendiculars,
-        p.breadth,
-        caption::draught(inputs),
-        p.depth,
-        grid.station_spacing
+        "1 : {scale}   {}   stations L_PP / 20 = {:.3} m from AP   moulded{}",
+        caption::dimensions(inputs),
+        grid.station_spacing,
+        caption::assumed_note(inputs, "   ")
     );
     canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));
     // z = 0 stands as far above the lower room as the hull reaches below it.

@@ -1,5 +1,8 @@
-//! The L-curve of the search for the smoothing weight: deviation from the offsets against energy, one point a weight, both as powers of
-//! ten.
+//! The search for the smoothing weight: the L-curve, deviation from the offsets against energy, one point a weight, over the criterion that
+//! decided, both axes by powers of ten.
+//!
+//! The criterion is generalised cross-validation, or Mallows' C_p = RSS + 2 sigma^2 edf where the noise is that of the table; it is shown over its
+//! least value.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
@@ -9,11 +12,31 @@ use crate::fairing::record::FairRecord;
 use crate::fairing::smoothing::Trial;
 
 /// Size of the sheet [mm].
-const SHEET: [f64; 2] = [210.0, 170.0];
+const SHEET: [f64; 2] = [210.0, 230.0];
+/// Height of the chart of the criterion \[mm\].
+const LOWER: f64 = 52.0;
+/// How far above its least value the criterion is shown.
+const HIGHEST: f64 = 4.0;
 
-/// log10 of the deviation \[mm\] and of the energy; none where one of them is 0.
-fn point(trial: &Trial) -> Option<[f64; 2]> {
-    (trial.rms > 0.0 && trial.energy > 0.0).then(|| [(1e3 * trial.rms).log10(), trial.energy.log10()])
+/// log10 of the deviation \[mm\] and of the energy over `unit`; none where one of them is 0.
+fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
+    (trial.rms > 0.0 && trial.energy > 0.0).then(|| [(1e3 * trial.rms).log10(), (trial.energy / unit).log10()])
+}
+
+/// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that was taken is the best
+/// of neither.
+fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
+    let count = record.changes.iter().filter(|change| !change.suspect).count() as f64;
+    let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.sigma * record.sigma * trial.edf;
+    let shown = |name, of: &dyn Fn(&Trial) -> f64| {
+        let least =
+            record.trials.iter().filter(|trial| of(trial).is_finite()).min_by(|a, b| of(a).total_cmp(&of(b)))?;
+        let taken = (least.lambda / record.lambda).log10().abs() < 0.01;
+        let points = record.trials.iter().map(|trial| [trial.lambda.log10(), (of(trial) / of(least)).log10()]);
+        taken.then(|| (name, points.filter(|[_, high]| high.is_finite()).collect()))
+    };
+    shown("generalised cross-validation / least", &|trial| trial.gcv)
+        .or_else(|| shown("Mallows' criterion / least", &mallows))
 }
 
 /// Draws the curve; none where the weight was given and nothing was tried.
@@ -21,9 +44,12 @@ fn point(trial: &Trial) -> Option<[f64; 2]> {
 /// # Errors
 /// [`PlotError`] when the chart cannot be drawn.
 pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
+    let unit = if record.energy[0] > 0.0 { record.energy[0] } else { 1.0 };
+    let decided = criterion(record);
+    let height = if decided.is_some() { SHEET[1] } else { SHEET[1] - LOWER - 16.0 };
     let trials: Vec<(f64, [f64; 2])> =
-        record.trials.iter().filter_map(|trial| Some((trial.lambda, point(trial)?))).collect();
-    let chosen = point(&record.chosen);
+        record.trials.iter().filter_map(|trial| Some((trial.lambda, point(trial, unit)?))).collect();
+    let chosen = point(&record.chosen, unit);
     if trials.len() < 2 {
         return Ok(None);
     }
@@ -34,16 +60,16 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
             (low[axis], high[axis]) = (low[axis].min(point[axis]), high[axis].max(point[axis]));
         }
     }
-    let frame = Rectangle::new(26.0, 26.0, SHEET[0] - 16.0, SHEET[1] - 24.0);
+    let frame = Rectangle::new(26.0, 26.0, SHEET[0] - 16.0, SHEET[1] - LOWER - 40.0);
     let chart = Chart {
         frame,
-        bottom: Axis::new("log10 of the deviation of the offsets, RMS [mm]", low[0], high[0], 10.0),
-        left: Axis::new("log10 of the energy", low[1], high[1], 8.0),
+        bottom: Axis::powers("deviation of the offsets, RMS [mm]", low[0], high[0], 10),
+        left: Axis::powers("energy / that of the surface through the table", low[1], high[1], 10),
         top: None,
         right: None,
         text_size: 2.8,
     };
-    let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
+    let mut canvas = Canvas::new(SHEET[0], height);
     let words = format!(
         "weight taken {:.1e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
         record.lambda,
@@ -80,6 +106,27 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
         placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    if let Some((name, points)) = decided {
+        let top = frame.bottom + 20.0;
+        let shown: Vec<[f64; 2]> = points.iter().copied().filter(|[_, high]| *high <= HIGHEST.log10()).collect();
+        let ends = [shown[0][0], shown[shown.len() - 1][0]];
+        let highest = shown.iter().map(|at| at[1]).fold(0.0, f64::max);
+        let chart = Chart {
+            frame: Rectangle::new(26.0, top, SHEET[0] - 16.0, top + LOWER),
+            bottom: Axis::powers("smoothing weight", ends[0], ends[1], 16),
+            left: Axis::powers(name, 0.0, highest.max(0.02), 7),
+            top: None,
+            right: None,
+            text_size: 2.8,
+        };
+        let series =
+            [Series { name: "", points: shown, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.5 }];
+        chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, &[])?;
+        series[0].points.iter().for_each(|&at| dot(&mut canvas, chart.place(at), 0.6, "#1f5fa8"));
+        let at = chart.place([record.lambda.log10(), 0.0]);
+        dot(&mut canvas, at, 1.3, "#c00000");
+        canvas.line([at[0], at[1]], [at[0], top], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
+    }
+    canvas.text([SHEET[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
     Ok(Some(Svg::new(canvas.finish("lcurve"))))
 }

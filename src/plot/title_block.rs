@@ -27,7 +27,6 @@ pub(super) struct Scales {
 pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, scales: Scales, corner: [f64; 2]) {
     let block = Rectangle::new(corner[0] - SIZE[0], corner[1] - SIZE[1], corner[0], corner[1]);
     let (hull, design) = (inputs.hull, inputs.design);
-    let p = hull.particulars();
     canvas.rectangle(&block, &FRAME);
     let left = block.left + 3.0;
     let name = caption::plain(hull.name());
@@ -48,8 +47,8 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
     let left_column = [
         format!("scale 1 : {}{body}", scales.long),
-        format!("L_OA {:.2} m    L_PP {:.2} m", grid.length[1] - grid.length[0], p.length_between_perpendiculars),
-        format!("B {:.2} m    D {:.2} m", p.breadth, p.depth),
+        format!("L_OA {:.2} m    {}", grid.length[1] - grid.length[0], caption::length(inputs)),
+        format!("{}    {}{}", caption::breadth(inputs), caption::depth(inputs), caption::assumed_note(inputs, "    ")),
         format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
         format!(
             "{}    {}{}",

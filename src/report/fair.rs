@@ -20,7 +20,7 @@ use crate::fairing::fair::FairError;
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
 use crate::hull::{Functional, Hull, OffsetTable, TableLayout};
-use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
+use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
 
 /// A table, and what is wished for it.
@@ -133,8 +133,8 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     };
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);
-    let draught_assumed = !table.stated.states_draught();
-    let conventions = Conventions { density, draught_assumed, ..Conventions::default() };
+    let assumed = Assumed::of(&table.stated);
+    let conventions = Conventions { density, assumed, ..Conventions::default() };
     Ok(FairJob { table, job, reading, conventions, table_file, beside, rules: said.rules, inputs, files })
 }
 

@@ -21,7 +21,7 @@ use crate::exchange::{
 };
 use crate::fairing::{Suspects, suspects};
 use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, VolumeEstimate};
-use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, default_draughts};
+use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
 
 /// What is to be fitted, and how.
@@ -239,8 +239,8 @@ fn summary(
 /// figure cannot be made.
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
-    let draught_assumed = !job.table.stated.states_draught();
-    let conventions = Conventions { draught_assumed, ..Conventions::default() };
+    let assumed = Assumed::of(&job.table.stated);
+    let conventions = Conventions { assumed, ..Conventions::default() };
     let particulars = fitted.hull.particulars();
     // All draughts in one pass over the surface.
     let mut draughts = default_draughts(particulars.draught, particulars.depth);

@@ -81,7 +81,7 @@ pub(super) fn conventions_line(c: &Conventions) -> String {
         None => "MTC from BML".to_owned(),
     };
     let lcb = c.lcb_reference.statement();
-    let draught = if c.draught_assumed { "; the design draught is assumed, none is stated" } else { "" };
+    let draught = if c.assumed.draught { "; the design draught is assumed, none is stated" } else { "" };
     format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}{draught}.", c.density)
 }
 

@@ -207,7 +207,12 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
     let targets = match &fairing {
         Some((_, whole)) => held_targets(whole),
         None => match reader.there("summary.json")? {
-            Some(text) => targets(&json(&folder.join("summary.json"), &text)?["targets"], "requested", str::to_owned),
+            Some(text) => {
+                // What a preset or the solver chose was not asked for.
+                let all = &json(&folder.join("summary.json"), &text)?["targets"];
+                let given = all.as_array().into_iter().flatten().filter(|target| target["origin"] == "given");
+                targets(&Value::Array(given.cloned().collect()), "requested", str::to_owned)
+            }
             None => Vec::new(),
         },
     };

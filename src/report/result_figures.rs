@@ -289,7 +289,11 @@ fn verdict_figure(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) ->
 fn condition_figure(result: &JobResult, inputs: &FigureInputs, before: Option<&Hydrostatics>) -> Option<Svg> {
     let title = format!("DESIGN CONDITION – {}", result.hull.name().replace('_', " "));
     let table = condition(result, inputs.design, before);
-    sheet(&title, &conventions_line(&inputs.curves.conventions), table)
+    let symbols =
+        [("Lpp", "L_PP"), ("Lwl", "L_WL"), ("CP on", "C_P on"), ("t/m3", "t/m³"), ("BML", "BM_L"), ("GML", "GM_L")];
+    let words = conventions_line(&inputs.curves.conventions);
+    let words = symbols.iter().fold(words, |words, (plain, printed)| words.replace(plain, printed));
+    sheet(&title, &words, table)
 }
 
 /// What several figures are drawn from, made when the first of them asks for it.

@@ -12,7 +12,7 @@ use crate::exchange::{NO_MOVE, scene_json};
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
 use crate::hull::Hull;
-use crate::hydrostatics::{CoefficientLength, CurvesOfForm, Hydrostatics, QUANTITIES};
+use crate::hydrostatics::{CoefficientLength, CurvesOfForm, Hydrostatics, QUANTITIES, assumed_mark};
 use crate::plot::FONT;
 
 const STYLE: &str = include_str!("html/page.css");
@@ -59,13 +59,13 @@ impl Table {
         let class = |column: usize| if column < self.words { " class=\"word\"" } else { "" };
         let mut html = String::from("<div class=\"scroll\"><table class=\"sortable\"><thead><tr>");
         for (column, head) in self.heads.iter().enumerate() {
-            html.push_str(&format!("<th{}>{}</th>", class(column), escape(head)));
+            html.push_str(&format!("<th{}>{}</th>", class(column), lowered(head)));
         }
         html.push_str("</tr></thead><tbody>\n");
         for (marked, cells) in &self.rows {
             html.push_str(if *marked { "<tr class=\"design\">" } else { "<tr>" });
             for (column, cell) in cells.iter().enumerate() {
-                html.push_str(&format!("<td{}>{}</td>", class(column), escape(cell)));
+                html.push_str(&format!("<td{}>{}</td>", class(column), lowered(cell)));
             }
             html.push_str("</tr>\n");
         }
@@ -78,7 +78,11 @@ impl Table {
 fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
     let defined = |q: &&crate::hydrostatics::Quantity| curves.rows.iter().any(|row| (q.value)(row).is_some());
     let quantities: Vec<_> = QUANTITIES.iter().filter(defined).collect();
-    let heads = quantities.iter().map(|q| format!("{} [{}]", q.key, q.unit)).collect();
+    let head = |q: &&crate::hydrostatics::Quantity| match printed_unit(q.unit) {
+        unit if unit.is_empty() => q.key.to_owned(),
+        unit => format!("{} [{unit}]", q.key),
+    };
+    let heads = quantities.iter().map(head).collect();
     let row = |row: &Hydrostatics| {
         let cells = quantities.iter().map(|q| (q.value)(row).map_or(String::new(), |v| fixed(v, q.decimals_of(v))));
         ((row.draught - design).abs() < 1e-9, cells.collect())
@@ -105,7 +109,7 @@ pub(super) fn condition(result: &JobResult, design: &Hydrostatics, before: Optio
     };
     for q in QUANTITIES {
         let Some(value) = (q.value)(design) else { continue };
-        let mut cells = vec![q.name.to_owned(), q.key.to_owned(), unit(q.key).to_owned()];
+        let mut cells = vec![q.name.to_owned(), q.key.to_owned(), printed_unit(unit(q.key))];
         let decimals = q.decimals_of(value);
         if let Some(before) = before {
             let old = (q.value)(before);
@@ -154,6 +158,34 @@ fn price(value: &Value) -> String {
     if metres < NO_MOVE { "0".to_owned() } else { figures(&(1e3 * metres).into(), 2) }
 }
 
+/// A unit as it is printed: m² for m2, t·m/cm for t m/cm, nothing for numbers alone.
+fn printed_unit(unit: &str) -> String {
+    let raised = [("m2", "m²"), ("m3", "m³"), ("m4", "m⁴"), ("t m", "t·m")];
+    let unit = if unit == "-" { "" } else { unit };
+    raised.iter().fold(unit.to_owned(), |text, (plain, printed)| text.replace(plain, printed))
+}
+
+/// Text of a page: C_M, L_PP with the letters after the sign lowered.
+fn lowered(text: &str) -> String {
+    let text = escape(text);
+    let mut html = String::with_capacity(text.len());
+    let mut rest = text.as_str();
+    while let Some(at) = rest.find('_') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let end = after.find(|c: char| !c.is_ascii_uppercase()).unwrap_or(after.len());
+        html.push_str(before);
+        if end > 0 && before.ends_with(|c: char| c.is_ascii_alphabetic()) {
+            html.push_str(&format!("<sub>{}</sub>", &after[..end]));
+            rest = &after[end..];
+        } else {
+            html.push('_');
+            rest = after;
+        }
+    }
+    html.push_str(rest);
+    html
+}
+
 pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
@@ -166,7 +198,7 @@ pub(super) fn constraints(fairing: &Value) -> Table {
             false,
             vec![
                 text(&held["name"]),
-                text(&held["unit"]),
+                printed_unit(held["unit"].as_str().unwrap_or_default()),
                 value(&held["target"]),
                 value(&held["before"]),
                 value(&held["after"]),
@@ -372,27 +404,30 @@ pub(super) fn report_page(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
          <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
          {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
-         <p>L<sub>PP</sub> {:.3} m &nbsp; B {:.3} m &nbsp; T {:.3} m{} &nbsp; D {:.3} m &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         <p>L<sub>PP</sub> {:.3} m{} &nbsp; B {:.3} m{} &nbsp; T {:.3} m{} &nbsp; D {:.3} m{} &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
          from AP, z up from the base line</p>\n",
         STANDARD.encode(FONT),
         p.length_between_perpendiculars,
+        assumed_mark(result.conventions.assumed.length),
         p.breadth,
+        assumed_mark(result.conventions.assumed.breadth),
         p.draught,
-        result.conventions.draught_mark(),
+        assumed_mark(result.conventions.assumed.draught),
         p.depth,
+        assumed_mark(result.conventions.assumed.depth),
         result.conventions.density
     );
     for (bad, line) in verdict(result, [before, Some(design)]) {
-        html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, escape(&line)));
+        html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, lowered(&line)));
     }
     for note in &result.notes {
-        html.push_str(&format!("<p class=\"bad\">{}</p>\n", escape(note)));
+        html.push_str(&format!("<p class=\"bad\">{}</p>\n", lowered(note)));
     }
     let assumed: Vec<String> =
         result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text)).collect();
     if !assumed.is_empty() {
         html.push_str("<details><summary>What was found and assumed</summary>\n");
-        assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", escape(note))));
+        assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", lowered(note))));
         html.push_str("</details>\n");
     }
     html.push_str("</header>\n<nav><a href=\"#viewer\">The hull in space</a>");
@@ -409,7 +444,7 @@ pub(super) fn report_page(
             figure.key,
             figure.title,
             inline(figure),
-            escape(figure.caption)
+            lowered(figure.caption)
         ));
     }
     for (id, title, body) in &sections {
@@ -430,5 +465,17 @@ mod tests {
         for (metres, text) in [(-7.7e-7, "0"), (4.9e-7, "0"), (2.6e-6, "0.0026"), (1.7e-4, "0.17"), (0.0123, "12")] {
             assert_eq!(price(&metres.into()), text);
         }
+    }
+
+    #[test]
+    fn symbols_and_units_are_printed_as_such() {
+        for (text, html) in [
+            ("holding C_M < 1", "holding C<sub>M</sub> &lt; 1"),
+            ("L_PP = 175 m, B/2", "L<sub>PP</sub> = 175 m, B/2"),
+            ("s60_cb060_, _A", "s60_cb060_, _A"),
+        ] {
+            assert_eq!(lowered(text), html);
+        }
+        assert_eq!(["m3", "t m/cm", "-", "m"].map(printed_unit), ["m³", "t·m/cm", "", "m"]);
     }
 }

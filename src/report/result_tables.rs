@@ -11,7 +11,7 @@ use crate::exchange::{
 };
 use crate::fairing::inspect::Planes;
 use crate::hull::{Entry, OffsetTable, default_buttocks, default_stations, default_waterlines};
-use crate::hydrostatics::CurvesOfForm;
+use crate::hydrostatics::{CurvesOfForm, assumed_mark};
 use crate::plot::BonjeanTable;
 use crate::units::{Notation, decimal};
 
@@ -43,13 +43,17 @@ fn offsets(result: &JobResult) -> OffsetTable {
 /// What the numbers refer to, a line each.
 fn conventions(result: &JobResult) -> Vec<(String, String)> {
     let p = result.hull.particulars();
+    let assumed = result.conventions.assumed;
     let line = |what: &str, how: String| (what.to_owned(), how);
     let mut list = vec![
         line("ship", result.hull.name().to_owned()),
-        line("Lpp [m]", format!("{}", p.length_between_perpendiculars)),
-        line("B [m]", format!("{}", p.breadth)),
-        line(if result.conventions.draught_assumed { "T [m] (assumed)" } else { "T [m]" }, format!("{}", p.draught)),
-        line("D [m]", format!("{}", p.depth)),
+        line(
+            &format!("Lpp [m]{}", assumed_mark(assumed.length)),
+            micrometres(p.length_between_perpendiculars).to_string(),
+        ),
+        line(&format!("B [m]{}", assumed_mark(assumed.breadth)), micrometres(p.breadth).to_string()),
+        line(&format!("T [m]{}", assumed_mark(assumed.draught)), micrometres(p.draught).to_string()),
+        line(&format!("D [m]{}", assumed_mark(assumed.depth)), micrometres(p.depth).to_string()),
         line("frame", "x forward from AP, y to port, z up from the moulded base line; moulded".to_owned()),
         line("in short", conventions_line(&result.conventions)),
     ];

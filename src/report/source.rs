@@ -10,7 +10,7 @@ use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
 use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section};
-use crate::hydrostatics::Conventions;
+use crate::hydrostatics::{Assumed, Conventions};
 use crate::parametric::{Family, Generated};
 
 /// A hull with the conventions of its tables.
@@ -257,7 +257,7 @@ fn fitted(path: &Path, bytes: &[u8], said: &Said) -> Result<Source, Failure> {
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
     let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();
-    let conventions = Conventions { draught_assumed: !table.stated.states_draught(), ..Conventions::default() };
+    let conventions = Conventions { assumed: Assumed::of(&table.stated), ..Conventions::default() };
     Ok(Source { hull: fitted.hull, conventions, notes })
 }
 
