@@ -28,11 +28,35 @@ const SLOWEST: f64 = 1e-6;
 /// Points to a span among which that search may start.
 const STARTS: usize = 3;
 
+/// Places of the search along a line u = constant, with the box about them.
+#[derive(Debug)]
+struct Starts {
+    places: Vec<([f64; 2], Point)>,
+    low: Point,
+    high: Point,
+}
+
+impl Starts {
+    fn new(places: Vec<([f64; 2], Point)>) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (_, point) in &places {
+            low = std::array::from_fn(|d| low[d].min(point[d]));
+            high = std::array::from_fn(|d| high[d].max(point[d]));
+        }
+        Self { places, low, high }
+    }
+
+    /// The square of the distance of a point from the box.
+    fn apart(&self, point: Point) -> f64 {
+        (0..3).map(|d| (self.low[d] - point[d]).max(point[d] - self.high[d]).max(0.0).powi(2)).sum()
+    }
+}
+
 /// Finds the parameters of points of a surface.
 #[derive(Debug)]
 pub(super) struct Locator<'a> {
     surface: &'a BsplineSurface<3>,
-    starts: Vec<([f64; 2], Point)>,
+    starts: Vec<Starts>,
     /// Size of the surface over the lengths of its domains: what |S_u| and |S_v| come to \[m\].
     speeds: [f64; 2],
 }
@@ -62,8 +86,8 @@ impl<'a> Locator<'a> {
                 .collect()
         };
         let (us, vs) = (places(surface.u()), places(surface.v()));
-        let starts =
-            us.iter().flat_map(|&u| vs.iter().map(move |&v| [u, v])).map(|w| (w, surface.eval(w[0], w[1]))).collect();
+        let line = |&u: &f64| Starts::new(vs.iter().map(|&v| ([u, v], surface.eval(u, v))).collect());
+        let starts = us.iter().map(line).collect();
         let extents: Point = std::array::from_fn(|d| {
             let range = surface
                 .points()
@@ -84,8 +108,19 @@ impl<'a> Locator<'a> {
             return Some(found.0);
         }
         let square = |p: Point| dot(minus(p, point), minus(p, point));
-        let start = self.starts.iter().min_by(|a, b| square(a.1).total_cmp(&square(b.1)))?;
-        self.descend(point, start.0).filter(|found| found.1 <= tolerance).map(|found| found.0)
+        let mut least: Option<([f64; 2], f64)> = None;
+        for line in &self.starts {
+            if least.is_some_and(|(_, least)| line.apart(point) > least) {
+                continue;
+            }
+            for &(place, at) in &line.places {
+                let apart = square(at);
+                if least.is_none_or(|(_, least)| apart < least) {
+                    least = Some((place, apart));
+                }
+            }
+        }
+        self.descend(point, least?.0).filter(|found| found.1 <= tolerance).map(|found| found.0)
     }
 
     /// Levenberg and Marquardt's steps towards the least |S - point|; parameters and the distance there.

@@ -129,6 +129,9 @@ fn columns(hull: &Hull, count: usize) -> (Vec<Column>, Vec<MapBreak>, usize) {
     (list, found, more)
 }
 
+/// Parameters and the point there.
+type Place = ([f64; 2], [f64; 3]);
+
 /// A station on the surface.
 struct Track<'a> {
     hull: &'a Hull,
@@ -139,7 +142,7 @@ struct Track<'a> {
 
 impl Track<'_> {
     /// The parameters at `v` with the point; none where the station does not run over the side.
-    fn at(&self, v: f64) -> Option<([f64; 2], [f64; 3])> {
+    fn at(&self, v: f64) -> Option<Place> {
         let u = match self.column {
             Column::Line(u) => u,
             Column::Station(x) => self.hull.length_parameter(x, v)?,
@@ -157,22 +160,27 @@ impl Track<'_> {
         inside
     }
 
-    /// The v of every row: what lies beyond an end of the station is taken at that end; none between two pieces of it.
-    fn parameters(&self, rows: &[f64]) -> Vec<Option<f64>> {
-        let on: Vec<bool> = rows.iter().map(|&v| self.at(v).is_some()).collect();
-        let (Some(first), Some(last)) = (on.iter().position(|&on| on), on.iter().rposition(|&on| on)) else {
+    /// The places of the rows with their v: what lies beyond an end of the station is taken at that end; none between two pieces of it.
+    fn places(&self, rows: &[f64]) -> Vec<Option<(f64, Place)>> {
+        let on: Vec<_> = rows.iter().map(|&v| self.at(v)).collect();
+        let (Some(first), Some(last)) = (on.iter().position(Option::is_some), on.iter().rposition(Option::is_some))
+        else {
             return vec![None; rows.len()];
         };
         let edge = |from: usize, to: usize| Some(self.end(rows[from], rows[to]));
         let (low, high) = (first.checked_sub(1).map(|k| self.end(rows[first], rows[k])), rows.get(last + 1));
         let high = high.map(|&v| self.end(rows[last], v));
-        let row = |k: usize| match k {
-            k if on[k] => Some(rows[k]),
-            k if k < first => low,
-            k if k > last => high,
-            k if on[k - 1] => edge(k - 1, k),
-            k if on[k + 1] => edge(k + 1, k),
+        let between = |k: usize| match k {
+            k if on[k - 1].is_some() => edge(k - 1, k),
+            k if on[k + 1].is_some() => edge(k + 1, k),
             _ => None,
+        };
+        let (low_place, high_place) = (low.and_then(|v| self.at(v)), high.and_then(|v| self.at(v)));
+        let row = |k: usize| match on[k] {
+            Some(place) => Some((rows[k], place)),
+            None if k < first => low.zip(low_place),
+            None if k > last => high.zip(high_place),
+            None => between(k).and_then(|v| Some((v, self.at(v)?))),
         };
         (0..rows.len()).map(row).collect()
     }
@@ -182,8 +190,8 @@ impl Track<'_> {
         let mut points: Vec<MapPoint> = Vec::with_capacity(rows.len());
         let mut last: Option<(f64, [f64; 3])> = None;
         let mut girth = 0.0;
-        for v in self.parameters(rows) {
-            let Some((v, (parameters, at))) = v.and_then(|v| Some((v, self.at(v)?))) else {
+        for place in self.places(rows) {
+            let Some((v, (parameters, at))) = place else {
                 let at = last.map_or([0.0; 3], |(_, at)| at);
                 points.push(MapPoint { at, normal: None, girth, curvature: None });
                 continue;
