@@ -8,7 +8,8 @@
 //! RSS <= sigma^2 (f + 3 sqrt(2 f)),   f = (sites - 2) lines.
 //! ```
 //!
-//! The longest such parts are taken. At their ends the curves are continuous in value and slope (tangent line: four-fold knot of a
+//! The longest such parts are taken, and once more those of 1.3 sigma, since sigma may have been estimated too low by chance (in one table of ten
+//! by a quarter or more): of both lists the one with the least criterion below stands. At their ends the curves are continuous in value and slope (tangent line: four-fold knot of a
 //! quintic net) or in curvature as well (three-fold knot); kind and place come from pooled cross-validation, in which all
 //! lines are smoothed one by one on the same knots with the same weight and share their leverages h,
 //!

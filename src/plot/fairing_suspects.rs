@@ -74,9 +74,15 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
     let side = |x: f64| if x < midship { -1.0 } else { 1.0 };
     let at = |x: f64, y: f64, height: f64| [centre + side(x) * millimetres * y, floor - millimetres * (height - z[0])];
     let mut canvas = Canvas::new(paper[0], paper[1]);
+    let names = TextStyle::new(LETTERS, Anchor::End);
+    let mut last = f64::INFINITY;
     for &height in &record.lines.waterlines {
         let y = at(x[0], 0.0, height)[1];
         canvas.line([centre - millimetres * breadth, y], [centre + millimetres * breadth, y], &GRID);
+        if last - y >= 1.3 * LETTERS {
+            last = y;
+            canvas.text([centre - millimetres * breadth - 2.0, y], &format!("{height:.3} m"), &names);
+        }
     }
     canvas.line(at(x[0], 0.0, z[0]), at(x[0], 0.0, z[1]), &BASE);
     canvas.line(at(x[0], breadth, base(z)), at(x[1], breadth, base(z)), &BASE);
@@ -112,6 +118,10 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Option<Canvas
     let bottom = list(&mut canvas, record, paper);
     plots(&mut canvas, record, paper, bottom + 10.0);
     head(&mut canvas, record, paper, n);
+    let words = TextStyle::new(3.2, Anchor::Middle);
+    let under = (floor + 6.0).min(paper[1] - 18.0);
+    canvas.text([centre - 0.5 * millimetres * breadth, under], "AFT", &words);
+    canvas.text([centre + 0.5 * millimetres * breadth, under], "FORWARD", &words);
     Ok(Some(canvas))
 }
 
@@ -215,8 +225,4 @@ fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], n: u32) {
     canvas.text([110.0, y], "its station", &style);
     canvas.text([140.0, y], "S: its neighbours contradict it    N: the net of all others does", &style);
     canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
-    let words = TextStyle::new(3.2, Anchor::Middle);
-    let centre = SIDE + 0.5 * (paper[0] - LIST - 3.0 * SIDE);
-    canvas.text([centre - 50.0, paper[1] - 18.0], "AFT", &words);
-    canvas.text([centre + 50.0, paper[1] - 18.0], "FORWARD", &words);
 }
