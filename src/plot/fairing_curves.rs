@@ -165,6 +165,7 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     let y = paper[1] - 5.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut words = format!("{} {plural} of the table, by the RMS of their moves", lines.len());
+    words.push_str(&format!("    inflections: of bends {:.2} mm or more off their chord", 1e3 * record.tolerance()));
     let any = |which: fn(&Change) -> bool| lines.iter().flat_map(|line| &line.offsets).any(|change| which(change));
     if any(|change| change.locked && !change.suspect) {
         words.push_str("    large red squares: locked");

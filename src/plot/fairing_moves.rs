@@ -1,7 +1,8 @@
 //! The map of moves: station by waterline, what each offset moved, outward positive, in millimetres; in eighths of an inch where the
 //! table is written in feet, inches and eighths.
 //!
-//! The colour runs from blue (inward) over white to orange (outward), full at the largest move; numbers say the same. Locked cells
+//! The colour runs from blue (inward) over white to orange (outward), full at the largest move; numbers say the same, in whole units where
+//! cells have room for no more, and not at all where they have no room for those. Locked cells
 //! have a black frame, cells that stop at their tolerance a bar below the number, suspects that were left out a ring; the
 //! largest move is framed and called out. Diamonds at the left edge stand at the height at which a station crosses a knuckle (full) or a
 //! tangent line (hollow).
@@ -108,6 +109,12 @@ impl Map {
         Some(k as f64 + ((crossing.z - heights[k]) / (heights[k + 1] - heights[k])).clamp(0.0, 1.0))
     }
 
+    /// Size of the numbers that fit the cells \[mm\]; below [`LETTERS`] there are none.
+    fn letters(&self, record: &FairRecord) -> f64 {
+        let longest = record.changes.iter().map(|change| self.number(change).len()).max().unwrap_or(4);
+        (self.cell[0] / (0.62 * longest as f64)).min(3.4)
+    }
+
     fn number(&self, change: &Change) -> String {
         let text = format!("{:+.*}", self.digits, moved(change) / self.unit.length);
         if text.trim_start_matches(['+', '-']).chars().all(|c| matches!(c, '0' | '.')) { "0".to_owned() } else { text }
@@ -153,12 +160,15 @@ pub(super) fn compose(record: &FairRecord) -> Result<Canvas, PlotError> {
         most if most >= 1.0 => 1,
         _ => 2,
     };
-    let map = Map { frame, cell, rows, points, full, unit, digits };
+    let mut map = Map { frame, cell, rows, points, full, unit, digits };
+    if map.letters(record) < LETTERS && full / unit.length >= 10.0 {
+        map.digits = 0;
+    }
     let mut canvas = Canvas::new(WIDTH, bottom + FOOT);
     draw_cells(&mut canvas, record, &map);
     draw_names(&mut canvas, record, deck, &map);
     draw_crossings(&mut canvas, record, &map);
-    head(&mut canvas, record, unit);
+    head(&mut canvas, record, &map);
     key(&mut canvas, &map, bottom + 26.0);
     canvas.text([WIDTH - 8.0, bottom + FOOT - 5.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)
@@ -176,8 +186,7 @@ fn draw_cells(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
         canvas.rectangle(&map.place(change), &thin);
     }
     canvas.rectangle(frame, &Pen::new(0.25, "#000000"));
-    let longest = record.changes.iter().map(|change| map.number(change).len()).max().unwrap_or(4);
-    let size = (map.cell[0] / (0.62 * longest as f64)).min(3.4);
+    let size = map.letters(record);
     let (_, _, largest) = record.moves();
     for change in &record.changes {
         let place = map.place(change);
@@ -260,7 +269,8 @@ fn diamond(canvas: &mut Canvas, [x, y]: [f64; 2], kind: LineKind) {
     canvas.polyline(&points, &Pen::new(0.25, "#000000"));
 }
 
-fn head(canvas: &mut Canvas, record: &FairRecord, unit: Unit) {
+fn head(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
+    let unit = map.unit;
     let name: String = caption::plain(&record.name).chars().take(60).collect();
     let words = format!("WHAT MOVED – {name}");
     canvas.text([0.5 * WIDTH, 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
@@ -273,8 +283,9 @@ fn head(canvas: &mut Canvas, record: &FairRecord, unit: Unit) {
         format!("largest move {size:+.2} {} at station {}, {line}", unit.words[1], caption::plain(station))
     });
     let second = format!(
-        "moves in {}, outward positive    {rms:.2} {} RMS    {}",
+        "moves in {}, outward positive{}    {rms:.2} {} RMS    {}",
         unit.words[0],
+        if map.letters(record) < LETTERS { ", numbers in changes.csv" } else { "" },
         unit.words[1],
         called.unwrap_or_default()
     );
@@ -288,7 +299,8 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
         let place = Rectangle::new(x, y - 3.0, x + 12.0, y + 3.0);
         canvas.fill(&place, &colour(share));
         canvas.rectangle(&place, &Pen::new(0.08, "#b0b0b0"));
-        let text = format!("{:+.*}", map.digits + 1, share * map.full / map.unit.length);
+        let digits = if map.full / map.unit.length >= 10.0 { 1 } else { map.digits + 1 };
+        let text = format!("{:+.*}", digits, share * map.full / map.unit.length);
         let text = if share.abs() > 0.0 { text } else { "0".to_owned() };
         canvas.text([x + 6.0, y], &text, &TextStyle::new(LETTERS, Anchor::Middle));
         x += 12.0;

@@ -58,7 +58,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
         false,
         format!(
             "{} offsets moved {} mm RMS and {} mm at most; the noise of the table is {} mm. {left_out} left out as suspects.",
-            record.changes.len(),
+            record.changes.len() - left_out,
             fixed(1e3 * rms, 2),
             fixed(1e3 * largest, 2),
             fixed(1e3 * record.sigma, 2)
