@@ -77,7 +77,8 @@ pub struct FairSettings {
     pub seen: f64,
     /// Whether the energy is that of true curvature, by refreshing the metric.
     pub true_curvature: bool,
-    /// Whether the bending energy of the surface takes the place of the energy at last.
+    /// Whether the bending energy of the surface takes the place of the energy at last; what else is charged (straight parts, the start
+    /// between offsets) stays.
     pub bending: bool,
     /// The solver.
     pub solver: Settings,
@@ -367,6 +368,11 @@ pub fn fair_prepared(
             iterations += found.iterations;
             (program, solved) = (found.program, found.solved);
             settled = Some(found.errors);
+            // The steps to what is not linear move the net once more.
+            if let (Some(bent), Some(energy)) = (&mut bent, bending_energy(surface.hull_of(&solved.net)?.surface())) {
+                bent.energies.push(energy);
+                bent.net.clone_from(&solved.net);
+            }
         }
     }
     Ok(Faired {
@@ -407,6 +413,9 @@ fn least_bending_of(
     let rest = program.with_objective(smoother, 0.0).problem;
     let Some(first) = bending_energy(start.surface()).filter(|first| *first > 0.0) else { return Ok(None) };
     let factor = charged / first;
+    if !(factor.is_finite() && factor > 0.0) {
+        return Ok(None);
+    }
     let free = &smoother.reduced.free;
     let Some(found) = least_bending(start.surface(), &rest, factor, free, true, &settings.solver)? else {
         return Ok(None);

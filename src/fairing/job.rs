@@ -338,8 +338,8 @@ impl Job {
         notes.extend(faired.bent.as_ref().map(LeastBending::words));
         if self.bending && faired.bent.is_none() && faired.solved.is_optimal() {
             notes.push(
-                "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or the wishes contradict \
-                 each other"
+                "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or no step of the solver \
+                 lowers it"
                     .to_owned(),
             );
         }

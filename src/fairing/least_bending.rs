@@ -33,7 +33,7 @@ const HALVINGS: usize = 12;
 pub struct LeastBending {
     /// All half-breadths of the net \[m\].
     pub net: Vec<f64>,
-    /// int (k1^2 + k2^2) dA at the first point that keeps the rows and after each step.
+    /// int (k1^2 + k2^2) dA at the first point that keeps the rows and after each step: J falls with each.
     pub energies: Vec<f64>,
     /// What the last step still promised, over mu F.
     pub promised: f64,
@@ -48,16 +48,23 @@ pub struct LeastBending {
 }
 
 impl LeastBending {
-    /// "bending energy 8.921 > 8.910 in 5 programs, stationary to 1e-12".
+    /// From what to what it fell, in how many programs, and whether it came to rest.
     #[must_use]
     pub fn words(&self) -> String {
         let [first, last] = [self.energies[0], self.energies[self.energies.len() - 1]];
+        let rest = if self.is_at_rest() { "and is least" } else { "and had not come to rest" };
         format!(
-            "bending energy, the integral of k1^2 + k2^2 over the surface: {first:.6} > {last:.6} in {} programs, the last of which promised \
+            "bending energy, the integral of k1^2 + k2^2 over the surface: {first:.6} > {last:.6} in {} programs {rest}; the last promised \
              {:.0e} of it",
             self.programs,
             self.promised.max(0.0)
         )
+    }
+
+    /// Whether the last step promised nothing more.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        self.promised <= NOTHING
     }
 }
 
@@ -81,11 +88,15 @@ fn sum(p: &SparseRows, m: &SymmetricBand, free: &[usize], factor: f64) -> Sparse
     SparseRows::from_entries(free.len(), free.len(), &entries)
 }
 
-/// Minimises mu F(c) + x'P x / 2 + q'x, where `rest` gives P, q and the rows over the half-breadths `free` of the hull's net and
-/// `factor` is mu. `kept` says that the hull keeps the rows itself. None where the chart folds or the rows contradict each other.
+/// Minimises mu F(c) + x'P x / 2 + q'x, where `rest` gives P, q and the rows over the half-breadths `free` of the net, rising indices of its
+/// points, and `factor` is mu \[m^2\]. `kept` says that the surface keeps the rows itself. None where the chart folds, where the first program
+/// has no answer, or where its answer is no step.
 ///
 /// # Errors
-/// [`RefreshError`] when numbers make no program or no hull.
+/// [`RefreshError`] when numbers make no program or no surface.
+///
+/// # Panics
+/// When `free` has an index beyond the net.
 pub fn least_bending(
     surface: &BsplineSurface<3>,
     rest: &Problem,
@@ -141,14 +152,18 @@ pub fn least_bending(
                 continue;
             };
             let falls = value - (rest.objective(&next) + factor * bent);
-            if first || falls >= ARMIJO * part * promised {
+            // What breaks the rows is left by a whole step alone.
+            if (first && part >= 1.0) || (!first && falls >= ARMIJO * part * promised) {
                 taken = Some((next, all, bent));
                 break;
             }
             part *= 0.5;
         }
         let settled = !first && promised <= NOTHING * factor * energy;
+        let mut solution = solution;
         if let Some((next, all, bent)) = taken {
+            // The certificate is that of the point where it stands.
+            solution.x.clone_from(&next);
             if first || (energy - bent).abs() > FAR * energy {
                 solver.forget();
             }

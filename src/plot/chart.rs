@@ -65,9 +65,11 @@ impl Axis {
 
     /// An axis of powers of ten that holds those from `low` to `high`, widened to the next ticks; about `count` ticks.
     pub(super) fn powers(name: &str, low: f64, high: f64, count: usize) -> Self {
-        let decades = || (low.floor() as i32 - 1)..=(high.ceil() as i32 + 1);
+        // Numbers have no more decades.
+        let [low, high] = [low, high].map(|power| power.clamp(-330.0, 310.0));
+        let decades = |every: i32| (low.floor() as i32 - every)..=(high.ceil() as i32 + every);
         let ticks = |figures: &[f64], every: i32| -> Vec<f64> {
-            let all = decades().filter(|decade| decade.rem_euclid(every) == 0);
+            let all = decades(every).filter(|decade| decade.rem_euclid(every) == 0);
             let all: Vec<f64> =
                 all.flat_map(|k| figures.iter().map(move |figure| f64::from(k) + figure.log10())).collect();
             let first = all.iter().rposition(|tick| *tick <= low + 1e-9).unwrap_or(0);
@@ -102,7 +104,7 @@ impl Axis {
         if self.powers.is_some() {
             let (decade, value) = (value.floor(), 10f64.powf(value));
             if !(-4.0..6.0).contains(&decade) {
-                return format!("{value:.0e}");
+                return format!("{value:.1e}").replace(".0e", "e");
             }
             let text = format!("{value:.*}", (1.0 - decade).max(0.0) as usize);
             return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text };
@@ -388,5 +390,38 @@ fn dark(colour: [u8; 3]) -> &'static str {
         colour::GREEN => "#007a59",
         colour::PURPLE => "#a8437f",
         _ => "#000000",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The axis holds its range, has two ticks at least and not many more than are wanted, and writes what the powers are of.
+    #[test]
+    fn axes_of_powers() {
+        for (low, high) in [
+            (0.0, 0.02),
+            (-0.46, -0.03),
+            (-0.9, 1.7),
+            (-7.2, 6.4),
+            (-300.0, 300.0),
+            (2.0, 2.0),
+            (f64::NEG_INFINITY, f64::INFINITY),
+        ] {
+            for count in [7, 10, 16] {
+                let axis = Axis::powers("", low, high, count);
+                let ticks = axis.ticks();
+                assert!((2..=count + 1).contains(&ticks.len()), "{low} {high}: {ticks:?}");
+                assert!(
+                    axis.range[0] <= low.max(-330.0) + 1e-9 && axis.range[1] >= high.min(310.0) - 1e-9,
+                    "{low} {high}: {ticks:?}"
+                );
+            }
+        }
+        let axis = Axis::powers("", -1.0, 1.0, 10);
+        let written: Vec<String> = axis.ticks().iter().map(|tick| axis.write(*tick)).collect();
+        assert_eq!(written, ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
+        assert_eq!(Axis::powers("", 6.0, 7.0, 3).write(6.0), "1e6");
     }
 }

@@ -111,7 +111,8 @@ impl Map {
 
     /// Size of the numbers that fit the cells \[mm\]; below [`LETTERS`] there are none.
     fn letters(&self, record: &FairRecord) -> f64 {
-        let longest = record.changes.iter().map(|change| self.number(change).len()).max().unwrap_or(4);
+        let kept = record.changes.iter().filter(|change| !change.suspect);
+        let longest = kept.map(|change| self.number(change).len()).max().unwrap_or(4);
         (self.cell[0] / (0.62 * longest as f64)).min(3.4)
     }
 

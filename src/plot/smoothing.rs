@@ -20,7 +20,8 @@ const HIGHEST: f64 = 4.0;
 
 /// log10 of the deviation \[mm\] and of the energy over `unit`; none where one of them is 0.
 fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
-    (trial.rms > 0.0 && trial.energy > 0.0).then(|| [(1e3 * trial.rms).log10(), (trial.energy / unit).log10()])
+    let point = [(1e3 * trial.rms).log10(), (trial.energy / unit).log10()];
+    point.iter().all(|value| value.is_finite()).then_some(point)
 }
 
 /// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that was taken is the best
@@ -33,10 +34,15 @@ fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
             record.trials.iter().filter(|trial| of(trial).is_finite()).min_by(|a, b| of(a).total_cmp(&of(b)))?;
         let taken = (least.lambda / record.lambda).log10().abs() < 0.01;
         let points = record.trials.iter().map(|trial| [trial.lambda.log10(), (of(trial) / of(least)).log10()]);
-        taken.then(|| (name, points.filter(|[_, high]| high.is_finite()).collect()))
+        let points: Vec<[f64; 2]> = points.filter(|point| point.iter().all(|value| value.is_finite())).collect();
+        (taken && !points.is_empty()).then_some((name, points))
     };
-    shown("generalised cross-validation / least", &|trial| trial.gcv)
-        .or_else(|| shown("Mallows' criterion / least", &mallows))
+    // Hulls with a quintic net of their own are searched by cross-validation, all others by the noise of their table.
+    if record.after.surface().u().degree() > 3 {
+        shown("generalised cross-validation / least", &|trial| trial.gcv)
+    } else {
+        shown("Mallows' criterion / least", &mallows)
+    }
 }
 
 /// Draws the curve; none where the weight was given and nothing was tried.

@@ -165,24 +165,30 @@ fn printed_unit(unit: &str) -> String {
     raised.iter().fold(unit.to_owned(), |text, (plain, printed)| text.replace(plain, printed))
 }
 
-/// Text of a page: C_M, L_PP with the letters after the sign lowered.
+/// What symbols with a lowered part begin with.
+const SYMBOLS: [&str; 13] = ["A", "B", "BM", "C", "D", "GM", "I", "KB", "KM", "L", "LCB", "T", "X"];
+
+/// Text of a page: C_M, L_PP with the letters after the sign lowered; names of files and ships stay.
 fn lowered(text: &str) -> String {
     let text = escape(text);
     let mut html = String::with_capacity(text.len());
-    let mut rest = text.as_str();
-    while let Some(at) = rest.find('_') {
-        let (before, after) = (&rest[..at], &rest[at + 1..]);
+    let mut done = 0;
+    for (at, _) in text.match_indices('_').filter(|(at, _)| *at > 0) {
+        let (before, after) = (&text[..at], &text[at + 1..]);
         let end = after.find(|c: char| !c.is_ascii_uppercase()).unwrap_or(after.len());
-        html.push_str(before);
-        if end > 0 && before.ends_with(|c: char| c.is_ascii_alphabetic()) {
-            html.push_str(&format!("<sub>{}</sub>", &after[..end]));
-            rest = &after[end..];
-        } else {
-            html.push('_');
-            rest = after;
+        let symbol = before.rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default();
+        let mut follows = after[end..].chars();
+        let ends = match follows.next() {
+            Some('.') => !follows.next().is_some_and(char::is_alphanumeric),
+            Some(c) => !(c.is_alphanumeric() || c == '_'),
+            None => true,
+        };
+        if (1..=2).contains(&end) && ends && SYMBOLS.contains(&symbol) {
+            html.push_str(&format!("{}<sub>{}</sub>", &text[done..at], &after[..end]));
+            done = at + 1 + end;
         }
     }
-    html.push_str(rest);
+    html.push_str(&text[done..]);
     html
 }
 
@@ -473,6 +479,7 @@ mod tests {
             ("holding C_M < 1", "holding C<sub>M</sub> &lt; 1"),
             ("L_PP = 175 m, B/2", "L<sub>PP</sub> = 175 m, B/2"),
             ("s60_cb060_, _A", "s60_cb060_, _A"),
+            ("DTC_T13.csv KCS_MODEL C_B.csv C_WP. X_A_B", "DTC_T13.csv KCS_MODEL C_B.csv C<sub>WP</sub>. X_A_B"),
         ] {
             assert_eq!(lowered(text), html);
         }

@@ -250,7 +250,7 @@ pub fn page(seeds: u64) -> String {
          `cargo bench --bench truth` prints the same rows, with 30. What the hulls and errors are: head of `tests/truth_hulls/mod.rs`. \
          a/b: median and worst case; changes of sign: truth, before, after (median/worst); before: the surface through the table; \
          displacement and LCB of the truth are given to the job; CPU time is that of the machine that made the page.\n\n\
-         Wigley, S-shaped, middle body and bilge come back with three fifths of the interpolation's error or less at every error, and their \
+         Wigley, S-shaped, middle body and bilge come back with three fifths of the interpolation's error or less in the median at every error, and their \
          straight parts (parallel body, floor, side) are found by the program. Series 60 and S-175 are surfaces through published \
          tables, which are rough by 9 mm and 19 mm themselves (the noise that the program finds in the tables without errors): \
          smaller errors cannot be told from that, and there fairing, which takes a part of the truth's own roughness out (waterlines \
