@@ -90,13 +90,7 @@ impl From<&Conventions> for ConventionsRecord {
             keel_thickness: Some(c.keel_thickness),
             kg: c.centre_of_gravity_height,
             design_draught_assumed: c.assumed.draught,
-            dimensions_assumed: c
-                .assumed
-                .symbols()
-                .into_iter()
-                .filter(|(symbol, assumed)| *assumed && *symbol != "T")
-                .map(|(symbol, _)| symbol.to_owned())
-                .collect(),
+            dimensions_assumed: c.assumed.besides_draught().into_iter().map(str::to_owned).collect(),
         }
     }
 }
@@ -104,6 +98,7 @@ impl From<&Conventions> for ConventionsRecord {
 impl From<ConventionsRecord> for Conventions {
     fn from(record: ConventionsRecord) -> Self {
         let defaults = Self::default();
+        let assumed = |symbol: &str| record.dimensions_assumed.iter().any(|one| one == symbol);
         Self {
             density: record.density.unwrap_or(defaults.density),
             coefficient_length: match record.coefficient_length {
@@ -128,10 +123,10 @@ impl From<ConventionsRecord> for Conventions {
             keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
             centre_of_gravity_height: record.kg,
             assumed: Assumed {
-                length: record.dimensions_assumed.iter().any(|symbol| symbol == "L_PP"),
-                breadth: record.dimensions_assumed.iter().any(|symbol| symbol == "B"),
+                length: assumed("L_PP"),
+                breadth: assumed("B"),
                 draught: record.design_draught_assumed,
-                depth: record.dimensions_assumed.iter().any(|symbol| symbol == "D"),
+                depth: assumed("D"),
             },
         }
     }

@@ -422,7 +422,7 @@ fn least_bending_of(
     };
     program.problem.clone_from(&found.problem);
     let solution = found.solution.clone();
-    let misfit: f64 = surface.model.residuals(&found.net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum();
+    let misfit = surface.model.misfit(&found.net, smoother.weights());
     *solved = Solved {
         certificate: program.problem.certificate(&solution.x, &solution.multipliers, 0.0),
         solution,

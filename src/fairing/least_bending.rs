@@ -8,7 +8,7 @@
 
 use super::bending::{BendingModel, bending_energy};
 use super::refresh::RefreshError;
-use crate::hull::HullError;
+use super::surface::surface_with;
 use crate::numeric::SymmetricBand;
 use crate::qp::{Problem, RepeatedSolver, Settings, Solution, SparseRows, Status};
 use crate::spline::BsplineSurface;
@@ -105,23 +105,18 @@ pub fn least_bending(
     kept: bool,
     settings: &Settings,
 ) -> Result<Option<LeastBending>, RefreshError> {
-    let at = |net: &[f64]| {
-        let points = surface.points().iter().zip(net).map(|(p, &y)| [p[0], y, p[2]]).collect();
-        BsplineSurface::new(surface.u().clone(), surface.v().clone(), points).map_err(HullError::from)
-    };
+    let at = |net: &[f64]| surface_with(surface, net);
     let mut net: Vec<f64> = surface.points().iter().map(|point| point[1]).collect();
-    let pick = |net: &[f64]| -> Vec<f64> { free.iter().map(|&i| net[i]).collect() };
-    let mut place = vec![None; net.len()];
-    free.iter().enumerate().for_each(|(k, &i)| place[i] = Some(k));
     let mut solver = RepeatedSolver::new(settings);
-    let mut x = pick(&net);
+    let mut x: Vec<f64> = free.iter().map(|&i| net[i]).collect();
     let Some(mut energy) = bending_energy(surface) else { return Ok(None) };
     let mut energies = if kept { vec![energy] } else { Vec::new() };
-    let mut best: Option<LeastBending> = None;
+    let mut last = None;
     let (mut programs, mut iterations) = (0, 0);
     for _ in 0..STEPS {
         let Some(model) = BendingModel::new(&at(&net)?) else { break };
-        let moved: Vec<f64> = net.iter().zip(&place).map(|(y, place)| place.map_or(0.0, |_| *y)).collect();
+        let mut moved = vec![0.0; net.len()];
+        free.iter().zip(&x).for_each(|(&i, &value)| moved[i] = value);
         let turned = model.curved.apply(&moved);
         let slope = free.iter().map(|&i| factor * (model.gradient[i] - turned[i]));
         let problem = Problem {
@@ -172,12 +167,18 @@ pub fn least_bending(
         } else if !settled {
             break;
         }
-        let promised = promised / (factor * energy);
-        let (net, energies) = (net.clone(), energies.clone());
-        best = Some(LeastBending { net, energies, promised, problem, solution, programs, iterations });
+        last = Some((promised / (factor * energy), problem, solution));
         if settled {
             break;
         }
     }
-    Ok(best.map(|best| LeastBending { programs, iterations, ..best }))
+    Ok(last.map(|(promised, problem, solution)| LeastBending {
+        net,
+        energies,
+        promised,
+        problem,
+        solution,
+        programs,
+        iterations,
+    }))
 }

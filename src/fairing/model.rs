@@ -93,6 +93,12 @@ impl Model {
         self.readings.iter().map(|reading| value(&reading.row, c) - reading.value).collect()
     }
 
+    /// sum w_k (a_k c - d_k)^2 \[m^2\].
+    #[must_use]
+    pub fn misfit(&self, c: &[f64], weights: &[f64]) -> f64 {
+        self.residuals(c).iter().zip(weights).map(|(r, w)| w * r * r).sum()
+    }
+
     /// Takes the known control values out.
     #[must_use]
     pub fn reduced(&self) -> Reduced {

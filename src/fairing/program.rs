@@ -268,7 +268,7 @@ impl Program {
         let solution = self.problem.solve(settings)?;
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
-        let misfit: f64 = model.residuals(&net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum();
+        let misfit = model.misfit(&net, smoother.weights());
         let objective = misfit + lambda * smoother.unit * model.energy_of(&net);
         Ok(Solved { solution, certificate, net, objective })
     }

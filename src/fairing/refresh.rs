@@ -64,8 +64,7 @@ pub(super) fn refresh(
         let hull = surface.hull_of(net)?;
         Ok(Model { energy: surface.true_energy(hull.surface()), ..model.clone() })
     };
-    let misfit =
-        |net: &[f64]| -> f64 { model.residuals(net).iter().zip(smoother.weights()).map(|(r, w)| w * r * r).sum() };
+    let misfit = |net: &[f64]| model.misfit(net, smoother.weights());
     let mut next = frozen(&solved.net)?;
     let charged = lambda * smoother.unit * model.energy_of(&solved.net);
     let first = next.energy_of(&solved.net);

@@ -282,14 +282,18 @@ fn rectangle(hull: &Hull, [u, v]: [KnotVector; 2]) -> Result<Hull, HullError> {
     Hull::new(hull.name(), *hull.particulars(), BsplineSurface::new(u, v, points)?, hull.deck().clone())
 }
 
+/// The same chart with other half-breadths.
+pub(super) fn surface_with(surface: &BsplineSurface<3>, y: &[f64]) -> Result<BsplineSurface<3>, HullError> {
+    let points = surface.points().iter().zip(y).map(|(p, &y)| [p[0], y, p[2]]).collect();
+    Ok(BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?)
+}
+
 /// The same hull with other half-breadths.
 ///
 /// # Errors
 /// [`HullError`] when the half-breadths make no hull.
 pub fn with_half_breadths(hull: &Hull, y: &[f64]) -> Result<Hull, HullError> {
-    let surface = hull.surface();
-    let points = surface.points().iter().zip(y).map(|(p, &y)| [p[0], y, p[2]]).collect();
-    let surface = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
+    let surface = surface_with(hull.surface(), y)?;
     let deck = BsplineCurve::new(hull.deck().knots().clone(), hull.deck().points().to_vec())?;
     Hull::new(hull.name(), *hull.particulars(), surface, deck)
 }

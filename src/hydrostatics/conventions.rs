@@ -135,10 +135,11 @@ impl Assumed {
         }
     }
 
-    /// Their symbols, `L_PP`, `B`, `T` and `D`, and whether each was assumed.
+    /// Symbols of those that were assumed besides the design draught: of `L_PP`, `B` and `D`.
     #[must_use]
-    pub fn symbols(&self) -> [(&'static str, bool); 4] {
-        [("L_PP", self.length), ("B", self.breadth), ("T", self.draught), ("D", self.depth)]
+    pub fn besides_draught(&self) -> Vec<&'static str> {
+        let all = [("L_PP", self.length), ("B", self.breadth), ("D", self.depth)];
+        all.into_iter().filter(|(_, assumed)| *assumed).map(|(symbol, _)| symbol).collect()
     }
 }
 
@@ -234,8 +235,7 @@ impl Conventions {
         if self.assumed.draught {
             list.push(say("design draught", "assumed: the table that the hull was laid through states none"));
         }
-        let others = self.assumed.symbols().into_iter().filter(|(symbol, assumed)| *assumed && *symbol != "T");
-        let others: Vec<&str> = others.map(|(symbol, _)| symbol).collect();
+        let others = self.assumed.besides_draught();
         if !others.is_empty() {
             let text =
                 format!("{} assumed: the table that the hull was laid through does not state them", others.join(", "));

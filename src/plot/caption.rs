@@ -52,8 +52,8 @@ pub(super) fn dimensions(inputs: &FigureInputs) -> String {
 
 /// What the stars mean, after `gap`; nothing where there are none.
 pub(super) fn assumed_note(inputs: &FigureInputs, gap: &str) -> String {
-    let assumed = inputs.curves.conventions.assumed;
-    if assumed.length || assumed.breadth || assumed.depth { format!("{gap}* assumed") } else { String::new() }
+    let none = inputs.curves.conventions.assumed.besides_draught().is_empty();
+    if none { String::new() } else { format!("{gap}* assumed") }
 }
 
 /// The design draught, `T 7.70 m`, and whether it was assumed.

@@ -100,7 +100,7 @@ impl Job<'_> {
     /// sum w r^2 + mu E with the metric of the curve itself.
     fn exact(&self, net: &[f64]) -> Result<f64, CurveError> {
         let energy = self.space.exact_energy(&self.space.curve(net)?);
-        let misfit: f64 = self.model.residuals(net).iter().zip(self.smoother.weights()).map(|(r, w)| w * r * r).sum();
+        let misfit = self.model.misfit(net, self.smoother.weights());
         Ok(misfit + self.lambda * self.smoother.unit * energy)
     }
 
