@@ -12,7 +12,7 @@
 use super::form::Hull;
 use super::immersion::Immersion;
 use crate::numeric::gauss_legendre;
-use crate::spline::MAX_DEGREE;
+use crate::spline::{KnotVector, MAX_DEGREE};
 
 /// Nodes of the rule that is refined where x depends on v.
 const NODES: usize = 7;
@@ -86,7 +86,7 @@ impl Cut {
     }
 }
 
-/// Weights of one piece: rows span_u - p ..= span_u, columns span_v - q ..= span_v.
+/// Weights of one piece: rows span_u - p ..= span_u, columns span_v - q ..= span_v; or coefficients of basis functions, power by power.
 type Block = [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1];
 
 /// One station within one cell of the knots.
@@ -101,6 +101,10 @@ struct Cell<'a> {
     height: f64,
     /// Whether the cell is next to the stern or the stem profile and x depends on v.
     at_profile: bool,
+    /// Middle of the span in u.
+    middle: f64,
+    /// Coefficients of the powers of u - middle, from the lowest, of the basis functions in u.
+    powers: Block,
 }
 
 impl Cell<'_> {
@@ -110,18 +114,23 @@ impl Cell<'_> {
         let surface = self.hull.surface();
         let (knots, p, q) = (surface.u(), surface.u().degree(), surface.v().degree());
         let columns = surface.shape()[1];
+        // x - X along the line as a polynomial in u less the middle of the span.
         let mut x = [0.0; MAX_DEGREE + 1];
-        for (i, x) in x.iter_mut().enumerate().take(p + 1) {
+        for i in 0..=p {
             let row = &surface.points()[(self.span_u - p + i) * columns + self.span_v - q..];
-            *x = across[..=q].iter().zip(row).map(|(b, point)| b * point[0]).sum();
+            let control: f64 = across[..=q].iter().zip(row).map(|(b, point)| b * point[0]).sum();
+            for (x, power) in x.iter_mut().zip(&self.powers).take(p + 1) {
+                *x += power[i] * control;
+            }
         }
+        x[0] -= self.station;
         let (mut low, mut high) = (knots.knots()[self.span_u], knots.knots()[self.span_u + 1]);
         let resolution = 2.0 * f64::EPSILON * low.abs().max(high.abs());
         let mut u = start.clamp(low, high);
         for _ in 0..100 {
-            let [basis, slopes] = knots.basis_derivatives::<2>(self.span_u, u);
-            let sum = |row: &[f64; MAX_DEGREE + 1]| row.iter().zip(&x).map(|(b, c)| b * c).sum::<f64>();
-            let (error, slope) = (sum(&basis) - self.station, sum(&slopes));
+            let t = u - self.middle;
+            let (error, slope) =
+                x[..=p].iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * t + c, slope * t + value));
             if error > 0.0 {
                 high = u;
             } else {
@@ -236,7 +245,9 @@ fn pieces(
             let outermost = span_u == p || span_u + 1 == surface.u().basis_count();
             let above = cuts.partition_point(|cut| cut.end < middle);
             let height = cuts[above].draught - hull.bottom();
-            let cell = Cell { hull, station, span_u, span_v, slanting, height, at_profile: slanting && outermost };
+            let (middle, powers) = power_basis(surface.u(), span_u);
+            let at_profile = slanting && outermost;
+            let cell = Cell { hull, station, span_u, span_v, slanting, height, at_profile, middle, powers };
             let mut start = u;
             let mut block: Block = Default::default();
             if cell.slanting {
@@ -250,6 +261,18 @@ fn pieces(
             }
         }
     }
+}
+
+/// The middle of a span, and the coefficients of the powers of t less it, from the lowest, of the basis functions that do not vanish there.
+fn power_basis(knots: &KnotVector, span: usize) -> (f64, Block) {
+    let middle = 0.5 * (knots.knots()[span] + knots.knots()[span + 1]);
+    let mut powers = knots.basis_derivatives::<{ MAX_DEGREE + 1 }>(span, middle);
+    let mut factorial = 1.0;
+    for (k, row) in powers.iter_mut().enumerate().skip(1) {
+        factorial *= k as f64;
+        row.iter_mut().for_each(|value| *value /= factorial);
+    }
+    (middle, powers)
 }
 
 /// Whether x depends on v within a cell of the knots.

@@ -10,6 +10,8 @@
 //! meets the upper edge, and there are no pieces where nothing is immersed. Where the waterline leaves through the keel line of
 //! a graded chart, v_T(u) is like a square root; rules on such pieces run in t of u = a + (b - a) t^2 (3 - 2t).
 
+use std::sync::OnceLock;
+
 use super::chart;
 use super::form::Hull;
 use crate::numeric::{bracketed_root, gauss_legendre};
@@ -75,6 +77,8 @@ pub(crate) struct Immersion<'a> {
     deck_immersed: bool,
     /// Below this a height is the draught \[m\].
     slack: f64,
+    /// The pieces in u, once they have been asked for.
+    pieces: OnceLock<Vec<Piece>>,
 }
 
 impl<'a> Immersion<'a> {
@@ -98,7 +102,7 @@ impl<'a> Immersion<'a> {
         let slack = 1e-9 * (hull.top() - hull.bottom());
         let draught = draught.clamp(hull.bottom(), hull.top());
         let deck_immersed = hull.is_cut_by_deck() && draught > lowest_deck + slack;
-        Some(Self { hull, draught, waterline, above, deck_immersed, slack })
+        Some(Self { hull, draught, waterline, above, deck_immersed, slack, pieces: OnceLock::new() })
     }
 
     /// The draught, the top of the surface when it is above that \[m\].
@@ -194,18 +198,11 @@ impl<'a> Immersion<'a> {
             let over = |u: f64, v: f64| self.above_deck(u, v);
             let afloat = |u: f64| self.hull.height_parameter_at(u, self.draught);
             for [from, to] in spans {
-                let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
-                let tolerance = f64::EPSILON * (to - from);
-                for k in 0..SAMPLES {
-                    let ends = (at(k), at(k + 1));
-                    for &v in &breakpoints {
-                        cuts.extend(bracketed_root(|u| over(u, v), ends.0, ends.1, tolerance));
-                    }
-                    if afloat(ends.0).is_some() && afloat(ends.1).is_some() {
-                        let gap = |u: f64| over(u, afloat(u).unwrap_or(lowest));
-                        cuts.extend(bracketed_root(gap, ends.0, ends.1, tolerance));
-                    }
+                for &v in &breakpoints {
+                    cuts.extend(crossings(|u| over(u, v), from, to));
                 }
+                // Where nothing is afloat there is no gap.
+                cuts.extend(crossings(|u| afloat(u).map_or(f64::NAN, |v| over(u, v)), from, to));
             }
         }
         cuts.sort_by(f64::total_cmp);
@@ -246,10 +243,12 @@ impl<'a> Immersion<'a> {
     }
 
     /// The pieces in u, in order; on level hulls one a span while the deck is dry.
-    pub(crate) fn pieces(&self) -> Vec<Piece> {
-        if !self.hull.is_level() {
-            return self.pieces_of_chart();
-        }
+    pub(crate) fn pieces(&self) -> &[Piece] {
+        self.pieces.get_or_init(|| if self.hull.is_level() { self.pieces_of_level() } else { self.pieces_of_chart() })
+    }
+
+    /// The pieces of a level hull.
+    fn pieces_of_level(&self) -> Vec<Piece> {
         let knots = self.hull.surface().u();
         let mut pieces = Vec::new();
         let lines = if self.deck_immersed { self.lines() } else { Vec::new() };
@@ -262,15 +261,8 @@ impl<'a> Immersion<'a> {
                 continue;
             }
             let mut cuts: Vec<f64> = deck_knots.iter().copied().filter(|&u| u > from && u < to).collect();
-            let tolerance = f64::EPSILON * (to - from);
             for &v in &lines {
-                let height = |u: f64| self.above_deck(u, v);
-                for k in 0..SAMPLES {
-                    let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
-                    if let Ok(u) = bracketed_root(height, at(k), at(k + 1), tolerance) {
-                        cuts.push(u);
-                    }
-                }
+                cuts.extend(crossings(|u| self.above_deck(u, v), from, to));
             }
             cuts.push(to);
             cuts.sort_by(f64::total_cmp);
@@ -308,4 +300,13 @@ impl<'a> Immersion<'a> {
             })
             .collect()
     }
+}
+
+/// The roots of `function` between `from` and `to` that [`SAMPLES`] equal intervals show; where it is not a number there is none.
+fn crossings(function: impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<f64> {
+    let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
+    let values: Vec<f64> = (0..=SAMPLES).map(|k| function(at(k))).collect();
+    let tolerance = f64::EPSILON * (to - from);
+    let changes = (0..SAMPLES).filter(|&k| values[k] * values[k + 1] <= 0.0);
+    changes.filter_map(|k| bracketed_root(&function, at(k), at(k + 1), tolerance).ok()).collect()
 }

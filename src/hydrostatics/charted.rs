@@ -213,7 +213,7 @@ impl<'a, const N: usize> Pass<'a, N> {
         let mut sums = [0.0; 4];
         let mut plane = Plane::default();
         let mut columns = vec![[0.0; 6]; hull.surface().shape()[1]];
-        let pieces = self.parted(&immersion.pieces());
+        let pieces = self.parted(immersion.pieces());
         for strip in &self.strips {
             let own: Vec<&Piece> = pieces.iter().filter(|p| p.from >= strip.from && p.to <= strip.to).collect();
             // The waterline stays within one span in v on each piece; where it leaves the strip nothing is immersed as a whole.

@@ -290,27 +290,52 @@ fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &Line) -> Bod
     }
 }
 
+/// The nodes on a line u = constant up to where the body ends there; those of whole spans are the same on all lines.
+struct NodesBelow<'a, const N: usize> {
+    hull: &'a Hull,
+    count: usize,
+    /// Spans in v.
+    spans: Vec<usize>,
+    /// The nodes of all spans.
+    all: Vec<Node<N>>,
+    /// The nodes of the span in which the body ends.
+    last: Vec<Node<N>>,
+}
+
+impl<'a, const N: usize> NodesBelow<'a, N> {
+    /// `count` nodes a span.
+    fn new(hull: &'a Hull, count: usize) -> Self {
+        let (spans, mut all) = (hull.surface().v().spans(), Vec::new());
+        spans.iter().for_each(|&span| nodes(hull, span, f64::INFINITY, count, &mut all));
+        Self { hull, count, spans, all, last: Vec::with_capacity(count) }
+    }
+
+    /// The nodes below v = `end`, from the lowest.
+    fn end(&mut self, end: f64) -> impl Iterator<Item = &Node<N>> {
+        let knots = self.hull.surface().v().knots();
+        let whole = self.spans.partition_point(|&span| knots[span + 1] <= end);
+        self.last.clear();
+        if let Some(&span) = self.spans.get(whole) {
+            nodes(self.hull, span, end, self.count, &mut self.last);
+        }
+        self.all[..whole * self.count].iter().chain(&self.last)
+    }
+}
+
 /// The integrals below a draught that may immerse the deck at side.
 fn body_below_deck<const N: usize>(hull: &Hull, immersion: &Immersion) -> Body {
     let surface = hull.surface();
     let (count, along) = (count_up(hull), count_along(hull));
     let mut columns = vec![[0.0; 4]; surface.shape()[1]];
-    let mut below: Vec<Node<N>> = Vec::new();
     let level = LEVEL_STRIP * (hull.top() - hull.bottom());
     let mut body = Body::default();
-    let fill = |end: f64, below: &mut Vec<Node<N>>| {
-        below.clear();
-        for span in surface.v().spans() {
-            nodes(hull, span, end, count, below);
-        }
-    };
+    let mut below = NodesBelow::<N>::new(hull, count);
     for piece in immersion.pieces() {
         let at_deck = piece.upper == UpperEnd::Deck;
         for (u, weight) in gauss_legendre(if at_deck { along.max(DECK_NODES) } else { along }).on(piece.from, piece.to)
         {
             collapse(hull, piece.span, u, &mut columns);
-            fill(immersion.end(u), &mut below);
-            for node in &below {
+            for node in below.end(immersion.end(u)) {
                 let ([x, y, along, _], skin) = point(node, &columns, level);
                 let profile = weight * node.weight * node.rise * along;
                 body.volume += 2.0 * profile * y;
@@ -324,8 +349,7 @@ fn body_below_deck<const N: usize>(hull: &Hull, immersion: &Immersion) -> Body {
         }
     }
     for (u, row) in [(surface.u().domain().0, 0), (surface.u().domain().1, surface.shape()[0] - 1)] {
-        fill(immersion.end(u), &mut below);
-        for node in &below {
+        for node in below.end(immersion.end(u)) {
             let [_, y, length] = profile(hull, node, row);
             body.ends += 2.0 * node.weight * y * length;
             if row == 0 {

@@ -131,7 +131,7 @@ pub(super) fn waterplane(hull: &Hull, immersion: &Immersion, rule: &Rule) -> Wat
         }
     };
     if immersion.deck_immersed() {
-        for Piece { span, from, to, upper, .. } in immersion.pieces() {
+        for &Piece { span, from, to, upper, .. } in immersion.pieces() {
             if upper == UpperEnd::Waterline {
                 take(span, from, to, &rule_nodes(hull, span, from, to, rule.count));
             }

@@ -6,7 +6,6 @@ use std::thread;
 
 use serde_json::Value;
 
-use super::comb_lines::comb_lines;
 use super::failure::Failure;
 use super::page::conventions_line;
 use super::result::JobResult;
@@ -16,7 +15,7 @@ use super::verdict::verdict;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{Conventions, Hydrostatics};
 use crate::plot::{
-    CombLine, FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
+    FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
     convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
     fairing_diagonals, fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects,
     fairing_waterlines, pareto_figure, smoothing_figure, surface_map, table_figure,
@@ -96,10 +95,9 @@ fn words(figure: Figure) -> [&'static str; 3] {
 fn fairing_jobs<'a>(
     record: &'a FairRecord,
     fairing: &'a Value,
-    (combs, chosen): (&'a OnceLock<FairingCombs>, &'a [CombLine]),
+    combs: &'a FairingCombs,
     conventions: &'a Conventions,
 ) -> Vec<Job<'a>> {
-    let combs = move || combs.get_or_init(|| FairingCombs::new(record, chosen));
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
@@ -158,7 +156,7 @@ fn fairing_jobs<'a>(
                 "Above the line with its combs, below the offsets less the fair line with the bars of their tolerances: the fair line, 0, \
                  leaves no bar. Dots that lie on one side over several stations are a change of form.",
             ],
-            Box::new(move |sheet| fairing_waterlines(record, combs(), sheet)),
+            Box::new(move |sheet| fairing_waterlines(record, combs, sheet)),
         ),
         scaled(
             [
@@ -166,7 +164,7 @@ fn fairing_jobs<'a>(
                 "Stations that moved most",
                 "The same for stations, laid on their side with the keel on the left.",
             ],
-            Box::new(move |sheet| fairing_stations(record, combs(), sheet)),
+            Box::new(move |sheet| fairing_stations(record, combs, sheet)),
         ),
         scaled(
             [
@@ -175,7 +173,7 @@ fn fairing_jobs<'a>(
                 "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
                  mark inflections: those that are left should be meant.",
             ],
-            Box::new(move |sheet| fairing_body_plan(record, combs(), sheet).map(Some)),
+            Box::new(move |sheet| fairing_body_plan(record, combs, sheet).map(Some)),
         ),
         scaled(
             [
@@ -183,7 +181,7 @@ fn fairing_jobs<'a>(
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
             ],
-            Box::new(move |sheet| fairing_half_breadth_plan(record, combs(), sheet).map(Some)),
+            Box::new(move |sheet| fairing_half_breadth_plan(record, combs, sheet).map(Some)),
         ),
         scaled(
             [
@@ -192,7 +190,7 @@ fn fairing_jobs<'a>(
                 "Buttocks were not used in the fit, a strip each: humps of the combs that show here alone are humps of the surface between \
                  the lines.",
             ],
-            Box::new(move |sheet| some(fairing_buttocks(record, combs(), sheet))),
+            Box::new(move |sheet| some(fairing_buttocks(record, combs, sheet))),
         ),
         scaled(
             [
@@ -201,7 +199,7 @@ fn fairing_jobs<'a>(
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before. Their combs should \
                  run smoothly from end to end.",
             ],
-            Box::new(move |sheet| some(fairing_diagonals(record, combs(), sheet))),
+            Box::new(move |sheet| some(fairing_diagonals(record, combs, sheet))),
         ),
         job(
             [
@@ -296,26 +294,20 @@ fn condition_figure(result: &JobResult, inputs: &FigureInputs, before: Option<&H
     sheet(&title, &words, table)
 }
 
-/// What several figures are drawn from, made when the first of them asks for it.
-#[derive(Default)]
-struct Shared {
-    maps: OnceLock<SurfaceMaps>,
-    combs: OnceLock<FairingCombs>,
-}
-
 /// What is drawn of a result.
 fn jobs<'a>(
     result: &'a JobResult,
     (inputs, before): (&'a FigureInputs<'a>, Option<&'a Hydrostatics>),
-    shared: &'a Shared,
-    chosen: &'a [CombLine],
+    combs: Option<&'a FairingCombs>,
+    maps: &'a OnceLock<SurfaceMaps>,
 ) -> Vec<Job<'a>> {
-    let Shared { maps, combs } = shared;
+    // Made when the first figure asks for them.
     let maps = move || maps.get_or_init(|| SurfaceMaps::new(inputs.hull, inputs.before));
     let mut jobs: Vec<Job<'a>> = result
         .fairing
         .iter()
-        .flat_map(|(record, fairing)| fairing_jobs(record, fairing, (combs, chosen), &inputs.curves.conventions))
+        .zip(combs)
+        .flat_map(|((record, fairing), combs)| fairing_jobs(record, fairing, combs, &inputs.curves.conventions))
         .collect();
     let came = [
         "verdict",
@@ -387,11 +379,11 @@ pub(super) fn report_figures(
     result: &JobResult,
     inputs: &FigureInputs<'_>,
     before: Option<&Hydrostatics>,
+    combs: Option<&FairingCombs>,
     settings: &ReportSettings,
 ) -> Result<Vec<ReportFigure>, Failure> {
-    let shared = Shared::default();
-    let chosen = comb_lines(result, settings)?;
-    let jobs = jobs(result, (inputs, before), &shared, &chosen);
+    let maps = OnceLock::new();
+    let jobs = jobs(result, (inputs, before), combs, &maps);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
     // Neighbours are drawn from the same and would wait for each other: one from the second half of the list, then one from the first. The

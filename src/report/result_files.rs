@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 use std::thread;
 
+use super::comb_lines::comb_lines;
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::manifest_file;
@@ -12,7 +13,7 @@ use super::result_page::report_page;
 use super::result_tables::report_tables;
 use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
-use crate::plot::{FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
+use crate::plot::{FairingCombs, FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +45,15 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let hull = &result.hull;
     let mut draughts = result.draughts.clone();
     draughts.push(hull.particulars().draught);
-    let mut curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
+    let chosen = comb_lines(result, settings)?;
+    // The combs take as long as the curves of form.
+    let (combs, mut curves) = thread::scope(|scope| {
+        let combs = || result.fairing.as_ref().map(|(record, _)| FairingCombs::new(record, &chosen));
+        let combs = scope.spawn(combs);
+        let curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
+        (combs.join(), curves)
+    });
+    let combs = combs.map_err(|_| Failure::Internal("the combs could not be made".to_owned()))?;
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
     let (source, dense) =
@@ -61,7 +70,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         .fairing
         .as_ref()
         .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
-    let figures = report_figures(result, &inputs, before.as_ref(), settings)?;
+    let figures = report_figures(result, &inputs, before.as_ref(), combs.as_ref(), settings)?;
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let pages: Vec<Page<'_>> = figures
         .iter()
