@@ -26,7 +26,7 @@ use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
-use crate::qp::{ProblemError, Settings, Status};
+use crate::qp::{ProblemError, RepeatedSolver, Settings, Status};
 
 /// Dearest pattern, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
@@ -229,10 +229,10 @@ impl Prepared {
 /// [`FairError`] when the question is none; that wishes cannot be had is the status of the answer.
 pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
     let prepared = Prepared::new(surface, settings)?;
-    fair_prepared(surface, settings, &prepared)
+    fair_prepared(surface, settings, &prepared, &mut RepeatedSolver::new(&settings.solver))
 }
 
-/// Fairs with a weight and a noise that are known.
+/// Fairs with a weight and a noise that are known; `solver` solves the programs with signs, one after the other.
 ///
 /// # Errors
 /// [`FairError`] when the question is none.
@@ -240,6 +240,7 @@ pub fn fair_prepared(
     surface: &mut FairSurface,
     settings: &FairSettings,
     prepared: &Prepared,
+    solver: &mut RepeatedSolver<'_>,
 ) -> Result<Faired, FairError> {
     let Prepared { smoother, smoothed, .. } = prepared;
     let (lambda, sigma) = (prepared.lambda, prepared.sigma);
@@ -288,7 +289,7 @@ pub fn fair_prepared(
         let mut found = [0, 1].map(|k| pattern(&forms[k], smoother, smoothed, sigma));
         for round in 0..ROUNDS {
             let candidate = Program::new(model, smoother, lambda, &wishes, Some((&forms, &found)));
-            let answer = candidate.solve(model, smoother, lambda, &settings.solver)?;
+            let answer = candidate.solve_after(model, smoother, lambda, solver)?;
             programs += 1;
             iterations += answer.solution.iterations;
             let feasible = answer.solution.status != Status::Infeasible;

@@ -49,8 +49,9 @@ pub(super) fn constraints(
     settings: &FairSettings,
     faired: &Faired,
     [before, after]: [&Hull; 2],
+    solver: &mut RepeatedSolver<'_>,
 ) -> Vec<Held> {
-    let prices = faired.prices_of_constraints(&surface.model, settings.constraints.len(), &settings.solver);
+    let prices = faired.prices_of_constraints(&surface.model, settings.constraints.len(), solver);
     let list = settings.constraints.iter().zip(prices).enumerate();
     list.map(|(k, (&constraint, price))| {
         let row = |name: RowName| name == RowName::Constraint(k);
@@ -106,8 +107,7 @@ impl Faired {
 
     /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after the other.
     #[must_use]
-    pub fn prices_of_constraints(&self, model: &Model, count: usize, settings: &Settings) -> Vec<f64> {
-        let mut solver = RepeatedSolver::new(settings);
+    pub fn prices_of_constraints(&self, model: &Model, count: usize, solver: &mut RepeatedSolver<'_>) -> Vec<f64> {
         let price = |k: usize| {
             let mut problem = self.program.problem.clone();
             let own: Vec<usize> = self.rows(|name| name == RowName::Constraint(k)).collect();

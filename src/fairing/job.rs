@@ -20,7 +20,8 @@ use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
 use super::told::{Watched, changes, written};
 use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable};
-use crate::qp::{Settings, Status};
+use crate::numeric::at_once;
+use crate::qp::{RepeatedSolver, Settings, Status};
 
 /// Least tolerance over the breadth: below it a difference is rounding.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
@@ -218,15 +219,6 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-/// Two things at once, whose results do not depend on each other.
-pub(super) fn beside<A: Send, B>(first: impl FnOnce() -> A + Send, second: impl FnOnce() -> B) -> (A, B) {
-    std::thread::scope(|scope| {
-        let first = scope.spawn(first);
-        let second = second();
-        (first.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), second)
-    })
-}
-
 impl Job {
     /// Fairs a table.
     ///
@@ -287,13 +279,16 @@ impl Job {
         };
         let resolution = quantum.max(0.1 * prepared.sigma);
         settings.seen = resolution;
-        let mut faired = fair_prepared(&mut surface, &settings, &prepared)?;
+        let mut solver = RepeatedSolver::new(&self.solver);
+        let (watched, faired) =
+            at_once(|| watched.counted(resolution), || fair_prepared(&mut surface, &settings, &prepared, &mut solver));
+        let mut faired = faired?;
         // Of several hundred offsets some are further off than three noise levels. Where nobody named the tolerances, they give way.
         let least = faired.diagnosis.as_ref().and_then(Diagnosis::of_tolerances_alone);
         if let Some(least) = least.filter(|least| self.names_no_tolerance() && *least <= MOST_WIDENING) {
             surface.widen(least * WIDER);
             prepared.lines = prepared.lines.iter().map(|line| TableLine::new(&surface, line.line)).collect();
-            faired = fair_prepared(&mut surface, &settings, &prepared)?;
+            faired = fair_prepared(&mut surface, &settings, &prepared, &mut solver)?;
             notes.push(format!(
                 "tolerances are {:.2} times three noise levels: with less, the offsets contradict each other, the ends of the hull or its \
                  greatest half-breadth",
@@ -304,14 +299,14 @@ impl Job {
         let mut held = None;
         let mut lines = if surface.own {
             // Nothing is repeated on a net of its own: the prices are final.
-            let (lines, prices) = beside(
-                || watched.turns(&after, resolution),
-                || held::constraints(&surface, &settings, &faired, [&before, &after]),
+            let (lines, prices) = at_once(
+                || watched.turns(&after),
+                || held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver),
             );
             held = Some(prices);
             lines
         } else {
-            watched.turns(&after, resolution)
+            watched.turns(&after)
         };
         if self.signs && !surface.own {
             let repeated =
@@ -320,8 +315,8 @@ impl Job {
             Attempt { faired, after, lines } = repeated.until_none_is_worse(attempt, resolution, guarded)?;
         }
         let changes = changes(table, &surface, &after, &excluded);
-        for turns in &mut lines {
-            let Some(line) = Line::of(turns.cut) else { continue };
+        let least = |turns: &mut Turns| {
+            let Some(line) = Line::of(turns.cut) else { return };
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),
@@ -330,8 +325,12 @@ impl Job {
                 }
                 None => None,
             };
-        }
-        let held = held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after]));
+        };
+        let half = lines.len() / 2;
+        let (some, others) = lines.split_at_mut(half);
+        at_once(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
+        let held =
+            held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver));
         let rules = held::rules(&surface, &settings, &faired);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());

@@ -9,7 +9,7 @@ use super::model::{Limit, Model, Reduced, Row};
 use super::pattern::{Pattern, SignForms};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
-use crate::qp::{Certificate, Problem, ProblemError, Settings, Solution, SparseRows, Status};
+use crate::qp::{Certificate, Problem, ProblemError, RepeatedSolver, Settings, Solution, SparseRows, Status};
 
 /// What a row of the program stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -265,7 +265,21 @@ impl Program {
         lambda: f64,
         settings: &Settings,
     ) -> Result<Solved, ProblemError> {
-        let solution = self.problem.solve(settings)?;
+        self.solve_after(model, smoother, lambda, &mut RepeatedSolver::new(settings))
+    }
+
+    /// The same after the program that `solver` solved last.
+    ///
+    /// # Errors
+    /// [`ProblemError`] when the numbers make no problem.
+    pub fn solve_after(
+        &self,
+        model: &Model,
+        smoother: &Smoother,
+        lambda: f64,
+        solver: &mut RepeatedSolver<'_>,
+    ) -> Result<Solved, ProblemError> {
+        let solution = solver.solve(&self.problem)?;
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let misfit = model.misfit(&net, smoother.weights());

@@ -6,8 +6,9 @@ use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
 use super::job::{JobError, Turns};
 use super::oblique::oblique_limits;
 use super::surface::FairSurface;
-use super::told::Watched;
+use super::told::Counted;
 use crate::hull::{Cut, Hull};
+use crate::qp::RepeatedSolver;
 
 /// Most times that it is done again.
 const REPEATS: usize = 6;
@@ -39,7 +40,7 @@ pub(super) struct Repeated<'a> {
     pub(super) surface: &'a mut FairSurface,
     pub(super) settings: &'a mut FairSettings,
     pub(super) prepared: &'a Prepared,
-    pub(super) watched: &'a Watched,
+    pub(super) watched: &'a Counted,
 }
 
 impl Repeated<'_> {
@@ -81,9 +82,9 @@ impl Repeated<'_> {
                 settings.oblique.extend(oblique_limits(&surface.hull, &surface.start, cut, seen));
                 oblique.push(cut);
             }
-            let faired = fair_prepared(surface, settings, prepared)?;
+            let faired = fair_prepared(surface, settings, prepared, &mut RepeatedSolver::new(&settings.solver))?;
             let after = surface.hull_of(&faired.net)?;
-            let lines = watched.turns(&after, seen);
+            let lines = watched.turns(&after);
             let next = Attempt { faired, after, lines };
             if next.is_optimal() && next.excess() < best.excess() {
                 (best, last) = (next, None);

@@ -2,7 +2,7 @@
 
 use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, MISFIT};
-use super::job::{Job, JobError, LEAST_TOLERANCE, beside};
+use super::job::{Job, JobError, LEAST_TOLERANCE};
 use super::lines::proposed_lines;
 use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
 use super::robust::gross_errors;
@@ -11,6 +11,7 @@ use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
 use crate::hull::{Entry, FitMethod, Hull, HullError, OffsetTable};
+use crate::numeric::at_once;
 
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
@@ -127,7 +128,7 @@ impl Modelled {
         let fitted = Hull::fit(charted, &FitMethod::Graded)?;
         let before = fitted.hull;
         let (watched, modelled) =
-            beside(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
+            at_once(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
         let (proposals, start, surface, search) = modelled?;
         Ok(Self { before, notes: fitted.notes, proposals, start, surface, search, watched })
     }

@@ -3,7 +3,7 @@
 use super::inspect::{Planes, Traced};
 use super::job::{Change, Turns};
 use super::surface::{FairSurface, Origin};
-use crate::hull::{Entry, Hull, OffsetTable, default_waterlines};
+use crate::hull::{Cut, Entry, Hull, OffsetTable, default_waterlines};
 
 /// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
 pub(super) fn changes(
@@ -89,10 +89,24 @@ impl Watched {
         Self { planes, before }
     }
 
-    /// Inflections before and after; `tolerance` is the departure that can just be seen \[m\].
-    pub(super) fn turns(&self, after: &Hull, tolerance: f64) -> Vec<Turns> {
-        let new = Traced::new(after, &self.planes).inflections(tolerance);
-        let cuts = self.before.inflections(tolerance).into_iter().filter_map(|(cut, before)| {
+    /// The inflections before; `tolerance` is the departure that can just be seen \[m\].
+    pub(super) fn counted(self, tolerance: f64) -> Counted {
+        Counted { before: self.before.inflections(tolerance), planes: self.planes, tolerance }
+    }
+}
+
+/// Lines with their inflections before.
+pub(super) struct Counted {
+    planes: Planes,
+    before: Vec<(Cut, usize)>,
+    tolerance: f64,
+}
+
+impl Counted {
+    /// Inflections before and after.
+    pub(super) fn turns(&self, after: &Hull) -> Vec<Turns> {
+        let new = Traced::new(after, &self.planes).inflections(self.tolerance);
+        let cuts = self.before.iter().filter_map(|&(cut, before)| {
             let after = new.iter().find(|(other, _)| *other == cut)?.1;
             Some(Turns { cut, before, after, minimum: None })
         });

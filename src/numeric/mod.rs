@@ -1,4 +1,4 @@
-//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median.
+//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median, two threads.
 
 mod banded;
 mod cholesky;
@@ -6,6 +6,7 @@ mod least_squares;
 mod median;
 mod quadrature;
 mod root;
+mod threads;
 
 pub use banded::{BandedLu, SingularMatrix};
 pub use cholesky::{BandedCholesky, SymmetricBand};
@@ -13,3 +14,4 @@ pub use least_squares::BandedLeastSquares;
 pub use median::median;
 pub use quadrature::{GaussRule, gauss_legendre};
 pub use root::{RootError, bracketed_root};
+pub use threads::at_once;

@@ -18,8 +18,8 @@ use super::zero_lines::zero_lines;
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{KnotLine, MapPoint, SurfaceMap};
 use crate::hull::Hull;
+use crate::numeric::at_once;
 use std::f64::consts::PI;
-use std::thread;
 
 /// Columns and rows of the grid, about.
 const GRID: [usize; 2] = [331, 141];
@@ -167,12 +167,9 @@ impl SurfaceMaps {
     #[must_use]
     pub fn new(hull: &Hull, before: Option<&Hull>) -> Self {
         let map = |hull: &Hull| SurfaceMap::at_stations(hull, GRID[0], GRID[1]);
-        let (after, before) = match before {
-            Some(before) => thread::scope(|scope| {
-                let other = scope.spawn(|| map(before));
-                (map(hull), other.join().ok())
-            }),
-            None => (map(hull), None),
+        let (before, after) = match before {
+            Some(before) => at_once(|| Some(map(before)), || map(hull)),
+            None => (None, map(hull)),
         };
         let surface = hull.surface();
         let ((u0, u1), (v0, _)) = (surface.u().domain(), surface.v().domain());

@@ -1,7 +1,6 @@
 //! The job of `report`: a result in, its figures and pages out. Nothing is written here.
 
 use std::sync::OnceLock;
-use std::thread;
 
 use super::comb_lines::comb_lines;
 use super::failure::Failure;
@@ -13,6 +12,7 @@ use super::result_page::report_page;
 use super::result_tables::report_tables;
 use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
+use crate::numeric::at_once;
 use crate::plot::{FairingCombs, FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
@@ -46,14 +46,9 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let mut draughts = result.draughts.clone();
     draughts.push(hull.particulars().draught);
     let chosen = comb_lines(result, settings)?;
+    let combs = || result.fairing.as_ref().map(|(record, _)| FairingCombs::new(record, &chosen));
     // The combs take as long as the curves of form.
-    let (combs, mut curves) = thread::scope(|scope| {
-        let combs = || result.fairing.as_ref().map(|(record, _)| FairingCombs::new(record, &chosen));
-        let combs = scope.spawn(combs);
-        let curves = CurvesOfForm::new(hull, &draughts, &result.conventions);
-        (combs.join(), curves)
-    });
-    let combs = combs.map_err(|_| Failure::Internal("the combs could not be made".to_owned()))?;
+    let (combs, mut curves) = at_once(combs, || CurvesOfForm::new(hull, &draughts, &result.conventions));
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
     let (source, dense) =
@@ -81,13 +76,12 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         .collect();
     let pages = &pages;
     // The PDF takes as long as page and tables together.
-    let (pdf, page, tables) = thread::scope(|scope| {
-        let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
-        let pdf = scope.spawn(move || write_pdf(&heading, pages, settings.sheet));
-        let page = report_page(result, &design, before.as_ref(), &curves, &figures);
-        (pdf.join(), page, report_tables(result, &curves))
-    });
-    let pdf = pdf.map_err(|_| Failure::Internal("report.pdf: it could not be made".to_owned()))?.map_err(internal)?;
+    let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
+    let (pdf, (page, tables)) = at_once(
+        || write_pdf(&heading, pages, settings.sheet),
+        || (report_page(result, &design, before.as_ref(), &curves, &figures), report_tables(result, &curves)),
+    );
+    let pdf = pdf.map_err(internal)?;
     let mut files =
         vec![OutputFile::text("report.html", page), OutputFile { name: "report.pdf".to_owned(), contents: pdf }];
     files.extend(tables?);

@@ -25,6 +25,10 @@ type Point = [f64; 3];
 const STEPS: usize = 60;
 /// Least speed along the section, in speeds of a regular surface.
 const SLOWEST: f64 = 1e-6;
+/// How far beyond the last two points of a curve the next is expected, in their distance.
+const FARTHEST: f64 = 2.0;
+/// A step over the length of the domain after which the next would be rounding: each squares the error.
+const SETTLED: f64 = 1e-8;
 /// Points to a span among which that search may start.
 const STARTS: usize = 3;
 
@@ -49,6 +53,27 @@ impl Starts {
     /// The square of the distance of a point from the box.
     fn apart(&self, point: Point) -> f64 {
         (0..3).map(|d| (self.low[d] - point[d]).max(point[d] - self.high[d]).max(0.0).powi(2)).sum()
+    }
+}
+
+/// The last two points of a curve that were found.
+#[derive(Debug, Clone, Copy, Default)]
+struct Course {
+    last: Option<(f64, [f64; 2])>,
+    before: Option<(f64, [f64; 2])>,
+}
+
+impl Course {
+    /// Parameters of the surface that are to be expected at `t` of the curve: on the straight line through the last two.
+    fn expected(&self, t: f64) -> Option<[f64; 2]> {
+        let (a, at) = self.last?;
+        let Some((b, from)) = self.before.filter(|(b, _)| (a - b).abs() > f64::EPSILON) else { return Some(at) };
+        let share = ((t - a) / (a - b)).clamp(-FARTHEST, FARTHEST);
+        Some([0, 1].map(|k| at[k] + share * (at[k] - from[k])))
+    }
+
+    fn passed(&mut self, t: f64, at: [f64; 2]) {
+        (self.before, self.last) = (self.last, Some((t, at)));
     }
 }
 
@@ -144,8 +169,10 @@ impl<'a> Locator<'a> {
             let next = inside([at[0] + step[0], at[1] + step[1]]);
             let moved = self.surface.tangents(next[0], next[1]);
             let remaining = minus(point, moved.point);
-            let still = (next[0] - at[0]).abs() <= 4.0 * f64::EPSILON * (du.1 - du.0)
-                && (next[1] - at[1]).abs() <= 4.0 * f64::EPSILON * (dv.1 - dv.0);
+            // Where the step is held back it says nothing of the distance.
+            let settled = if damping <= 1e-6 { SETTLED } else { 4.0 * f64::EPSILON };
+            let still = (next[0] - at[0]).abs() <= settled * (du.1 - du.0)
+                && (next[1] - at[1]).abs() <= settled * (dv.1 - dv.0);
             if dot(remaining, remaining) <= dot(gap, gap) {
                 (at, tangents, gap) = (next, moved, remaining);
                 damping = (0.1 * damping).max(1e-14);
@@ -337,7 +364,7 @@ impl Trace {
             None => (pieces, 0.0),
         };
         let along_net = on_net.then(|| locator.sense(&branch.curve, &pieces, n, tolerance));
-        let mut near: Option<[f64; 2]> = None;
+        let mut course = Course::default();
         let profile = Profile::sample(&pieces, branch.closed, |t| {
             if let Some(sense) = along_net {
                 let [point, first, second, third] = branch.curve.derivatives::<4>(t);
@@ -346,8 +373,8 @@ impl Trace {
                 return Some(Local { point, velocity: flat(first), curvature: sense? * kappa, slope: sense? * slope });
             }
             let [point, velocity] = branch.curve.derivatives::<2>(t);
-            let at = locator.locate(point, near, tolerance)?;
-            near = Some(at);
+            let at = locator.locate(point, course.expected(t), tolerance)?;
+            course.passed(t, at);
             let (direction, kappa, slope) = locator.curvature(at, n)?;
             let turned = if dot(direction, velocity) < 0.0 { -1.0 } else { 1.0 };
             let point = flat(minus(point, origin));

@@ -365,7 +365,8 @@ fn departure(run: &[Node], from: f64, to: f64) -> f64 {
             distance(a, p)
         }
     };
-    let inside = run.iter().filter(|node| node.s > from && node.s < to).map(|node| off(node.point));
+    let first = run.partition_point(|node| node.s <= from);
+    let inside = run[first..].iter().take_while(|node| node.s < to).map(|node| off(node.point));
     // A stretch between two nodes still has a middle.
     inside.fold(off(place(run, 0.5 * (from + to)).point), f64::max)
 }

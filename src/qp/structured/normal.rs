@@ -28,20 +28,18 @@ fn pattern(quadratic: &SparseRows, rows: &SparseRows, inside: &[bool]) -> (Vec<u
         let first = indices.len();
         seen[column] = column;
         indices.push(column);
-        let mut take = |index: usize, indices: &mut Vec<usize>| {
-            if index > column && seen[index] != column {
-                seen[index] = column;
-                indices.push(index);
+        let mut take = |below: &[usize]| {
+            for &index in &below[below.partition_point(|&index| index <= column)..] {
+                if seen[index] != column {
+                    seen[index] = column;
+                    indices.push(index);
+                }
             }
         };
-        for &index in quadratic.row(column).0 {
-            take(index, &mut indices);
-        }
+        take(quadratic.row(column).0);
         for &row in transposed.row(column).0 {
             if inside[row] {
-                for &index in rows.row(row).0 {
-                    take(index, &mut indices);
-                }
+                take(rows.row(row).0);
             }
         }
         indices[first..].sort_unstable();
