@@ -391,6 +391,49 @@ fn a_changed_file_is_faired_again() {
     assert_ne!(before, fs::read(out.join("fairing.json")).unwrap());
 }
 
+/// Wigley's half-breadths of a hull of 100 m, the stations written by `name`.
+fn wigley_table(name: impl Fn(f64) -> String) -> String {
+    let heights: Vec<f64> = (0..=8).map(|k| 0.75 * f64::from(k)).collect();
+    let mut text = format!("station,{}\n", heights.iter().map(|z| format!("{z}")).collect::<Vec<_>>().join(","));
+    for station in 0..=20 {
+        let t = f64::from(station) / 10.0 - 1.0;
+        let at = |z: &f64| format!("{:.4}", 5.0 * (1.0 - t * t) * (1.0 - (1.0 - z / 6.0).powi(2)));
+        let row: Vec<String> = heights.iter().map(at).collect();
+        text.push_str(&format!("{},{}\n", name(f64::from(station)), row.join(",")));
+    }
+    text
+}
+
+/// Stations that have numbers stand where the job's L_PP puts them, and the fair table says so; without a length that is told.
+#[test]
+fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
+    let folder = folder("numbered");
+    let numbered = folder.join("numbered.csv");
+    fs::write(&numbered, wigley_table(|station| format!("{station}"))).unwrap();
+    let (_, outputs) = faired(&numbered, &[]);
+    assert!(outputs.outcome.notes.iter().any(|note| note.starts_with("W320 stations are numbered")));
+    let metres = folder.join("metres.csv");
+    fs::write(&metres, wigley_table(|station| format!("{} m", 5.0 * station))).unwrap();
+    let (_, wanted) = faired(&metres, &[("--job", "dimensions.Lpp", "100 m")]);
+    let volume = |outputs: &FairOutputs| outputs.rows[1].displacement_volume;
+    // One file beside the table says another length, and more.
+    for beside in [None, Some("[table]\nname = \"Wigley\"\nLpp = 50.0\n")] {
+        if let Some(beside) = beside {
+            fs::write(folder.join("numbered.toml"), beside).unwrap();
+        }
+        let (_, outputs) = faired(&numbered, &[("--job", "dimensions.Lpp", "100 m")]);
+        assert!((volume(&outputs) / volume(&wanted) - 1.0).abs() < 1e-9, "{} {}", volume(&outputs), volume(&wanted));
+        assert!(outputs.rounding.volume_share.unwrap().abs() < 1e-4);
+        // The fair table alone is that hull, to what a table tells of its volume.
+        let again = folder.join("again.csv");
+        fs::write(&again, file(&outputs, "offsets.csv")).unwrap();
+        fs::write(folder.join("again.toml"), file(&outputs, "offsets.toml")).unwrap();
+        let (job, repeated) = faired(&again, &[]);
+        assert!((volume(&repeated) / volume(&wanted) - 1.0).abs() < 1e-3);
+        assert_eq!(job.table.name == "Wigley", beside.is_some());
+    }
+}
+
 /// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line bends more often.
 #[test]
 fn the_bending_energy_is_minimised_within_what_is_held() {

@@ -66,8 +66,8 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.take(Canvas::text_place(place, name, &style).grown(0.4));
         canvas.text(place, name, &style);
     }
-    let mut series =
-        vec![Series { name: "A(x)", points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
+    let name = if inputs.before.is_some() { "after" } else { "A(x)" };
+    let mut series = vec![Series { name, points, secondary: false, colour: colour::BLUE, dash: None, name_at: 0.2 }];
     if let Some(before) = inputs.before {
         let old = SectionalAreaCurve::new(before, design.draught, &stations);
         let apart = old.areas.iter().zip(&curve.areas).map(|(old, new)| (new - old).abs()).fold(0.0, f64::max);

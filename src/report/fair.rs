@@ -9,17 +9,17 @@ use super::failure::{Failure, problem};
 use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
-use super::source::{read_bytes, read_table_file, ship_name, utf8};
+use super::source::{Said, read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, JobFile, RuleMark};
 use crate::exchange::{
-    ManifestEntry, Particulars, RoundingEffect, TableProblem, TableWriting, changes_csv, conventions_json,
+    ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv, conventions_json,
     fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
 };
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
-use crate::hull::{Functional, Hull, OffsetTable, TableLayout};
+use crate::hull::{Functional, Hull, OffsetTable, StatedParticulars, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
 
@@ -37,6 +37,8 @@ pub struct FairJob {
     table_file: PathBuf,
     /// Name and text of the conventions beside the table.
     beside: Option<(String, String)>,
+    /// Main dimensions that the job says.
+    stated: StatedParticulars,
     /// Rules of the job with their places.
     rules: Vec<RuleMark>,
     /// The files that were read; the first is the one that the command named.
@@ -118,16 +120,11 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     } else {
         None
     };
-    let (mut table, reading) = read_table_file(&table_file)?;
+    let (mut table, reading) = read_table_stated(&table_file, &said.stated)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
-    let (stated, over) = (&mut table.stated, &said.stated);
-    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
-    stated.breadth = over.breadth.or(stated.breadth);
-    stated.draught = over.draught.or(stated.draught);
-    stated.depth = over.depth.or(stated.depth);
-    let length = match stated.length_between_perpendiculars {
+    let length = match table.stated.length_between_perpendiculars {
         Some(length) => length,
         None => fitted(&table, &table_file)?.particulars().length_between_perpendiculars,
     };
@@ -135,7 +132,18 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let density = said.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
-    Ok(FairJob { table, job, reading, conventions, table_file, beside, rules: said.rules, inputs, files })
+    Ok(FairJob {
+        table,
+        job,
+        reading,
+        conventions,
+        table_file,
+        beside,
+        stated: said.stated,
+        rules: said.rules,
+        inputs,
+        files,
+    })
 }
 
 /// The surface through a table.
@@ -185,9 +193,25 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
     table
 }
 
+/// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the job says.
+fn conventions_beside(job: &FairJob) -> Option<String> {
+    let beside = job.beside.as_ref().map(|(_, text)| text.clone());
+    let Some((_, said)) = Said::dimensions(&job.stated).file() else { return beside };
+    let Some(beside) = beside else { return Some(said) };
+    let (mut all, over) = (beside.parse::<toml::Table>().ok()?, said.parse::<toml::Table>().ok()?);
+    for (name, keys) in over {
+        let table = all.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
+        if let (toml::Value::Table(table), toml::Value::Table(keys)) = (table, keys) {
+            table.extend(keys);
+        }
+    }
+    toml::to_string(&all).ok()
+}
+
 /// What rounding did to the offsets and to the volume; the table as it is read back.
 fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (RoundingEffect, Option<OffsetTable>) {
-    let beside = job.beside.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
+    let said = Said::dimensions(&job.stated).file();
+    let beside = job.beside.iter().chain(&said).map(|(name, text)| (name.as_str(), text.as_str()));
     let back = read_table_with(name, text.as_bytes(), beside).ok().map(|read| read.table);
     let volume = |table: &OffsetTable| {
         let mut table = table.clone();
@@ -223,7 +247,10 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         let help = "Look at the table with `loftsman check` and `loftsman fit`";
         Failure::Input(vec![problem("E175", &job.table_file, error.to_string(), help)])
     };
-    let outcome = job.job.run(&job.table).map_err(refusal)?;
+    let mut outcome = job.job.run(&job.table).map_err(refusal)?;
+    // What reading the table had to guess decides the hull as much.
+    let guessed = job.reading.iter().filter(|problem| problem.severity == Severity::Warning);
+    outcome.notes.splice(0..0, guessed.map(remark));
     let draught = outcome.after.particulars().draught;
     let row = |hull: &Hull| {
         let mut rows = CurvesOfForm::new(hull, &[draught], &job.conventions).rows;
@@ -250,9 +277,8 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         json_file("fairing.json", &certificate)?,
         json_file("summary.json", &summary)?,
     ];
-    if let Some((_, text)) = &job.beside {
-        // What the table leaves open belongs to the new one as well.
-        files.push(OutputFile::text("offsets.toml", text.clone()));
+    if let Some(text) = conventions_beside(job) {
+        files.push(OutputFile::text("offsets.toml", text));
     }
     if figures {
         files.extend(super::fair_figures::fair_figures(&FairRecord::new(&job.table, &outcome))?);

@@ -13,14 +13,16 @@ use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::result_files::source_words;
 use super::sanity;
-use super::source::{read_bytes, read_table_file, ship_name, utf8};
+use super::source::{read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
     ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
     write_hull,
 };
 use crate::fairing::{Suspects, suspects};
-use crate::hull::{Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, VolumeEstimate};
+use crate::hull::{
+    Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
+};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
 
@@ -112,25 +114,13 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
     let bytes = read_bytes(&table_file)?;
     // The file that the command named comes first.
     inputs.insert(if is_method(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
-    let (mut table, notes) = read_table_file(&table_file)?;
+    let over = StatedParticulars { draught: draught.or(method.stated.draught), ..method.stated };
+    let (mut table, notes) = read_table_stated(&table_file, &over)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
-    let (stated, over) = (&mut table.stated, &method.stated);
-    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
-    stated.breadth = over.breadth.or(stated.breadth);
-    stated.draught = draught.or(over.draught).or(stated.draught);
-    stated.depth = over.depth.or(stated.depth);
     let suspects = suspects(&table);
     Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs })
-}
-
-/// A remark about the table without the name of its file.
-fn remark(problem: &TableProblem) -> String {
-    let TableProblem { code, row, message, remedy, .. } = problem;
-    let row = row.map(|row| format!("row {row}: ")).unwrap_or_default();
-    let (gap, remedy) = if remedy.is_empty() { ("", "") } else { (". ", remedy.trim_end_matches('.')) };
-    format!("{code} {row}{message}{gap}{remedy}")
 }
 
 /// Points of sections beside the surface: number, root mean square and the one that is missed most.

@@ -9,7 +9,7 @@ use super::failure::{Failure, problem};
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
-use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section};
+use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section, StatedParticulars};
 use crate::hydrostatics::{Assumed, Conventions};
 use crate::parametric::{Family, Generated};
 
@@ -174,8 +174,19 @@ pub struct Said {
 }
 
 impl Said {
+    /// Main dimensions \[m\].
+    pub(super) fn dimensions(stated: &StatedParticulars) -> Self {
+        let dimensions = [
+            ("Lpp", stated.length_between_perpendiculars),
+            ("B", stated.breadth),
+            ("T", stated.draught),
+            ("D", stated.depth),
+        ];
+        Self { keys: dimensions.into_iter().filter_map(|(key, value)| Some((key, format!("{} m", value?)))).collect() }
+    }
+
     /// The conventions as a file: its name in messages, and its text.
-    fn file(&self) -> Option<(String, String)> {
+    pub(super) fn file(&self) -> Option<(String, String)> {
         let lines: Vec<String> = self.keys.iter().map(|(key, value)| format!("{key} = {value:?}\n")).collect();
         (!lines.is_empty()).then(|| ("command line".to_owned(), format!("[table]\n{}", lines.concat())))
     }
@@ -222,6 +233,31 @@ pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), 
 /// Those of [`read_table_file`].
 pub fn read_table_file_with(path: &Path, said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
     table_of(path, &read_bytes(path)?, said)
+}
+
+/// The same, with main dimensions over those that the table states: numbered stations and ratios stand where these put them.
+///
+/// # Errors
+/// Those of [`read_table_file`].
+pub(super) fn read_table_stated(
+    path: &Path,
+    over: &StatedParticulars,
+) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    let (mut table, notes) = read_table_file_with(path, &Said::dimensions(over))?;
+    let stated = &mut table.stated;
+    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
+    stated.breadth = over.breadth.or(stated.breadth);
+    stated.draught = over.draught.or(stated.draught);
+    stated.depth = over.depth.or(stated.depth);
+    Ok((table, notes))
+}
+
+/// A remark about a table without the name of its file.
+pub(super) fn remark(problem: &TableProblem) -> String {
+    let TableProblem { code, row, message, remedy, .. } = problem;
+    let row = row.map(|row| format!("row {row}: ")).unwrap_or_default();
+    let (gap, remedy) = if remedy.is_empty() { ("", "") } else { (". ", remedy.trim_end_matches('.')) };
+    format!("{code} {row}{message}{gap}{remedy}")
 }
 
 fn table_of(path: &Path, bytes: &[u8], said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
