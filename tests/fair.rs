@@ -429,9 +429,19 @@ fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
         fs::write(&again, file(&outputs, "offsets.csv")).unwrap();
         fs::write(folder.join("again.toml"), file(&outputs, "offsets.toml")).unwrap();
         let (job, repeated) = faired(&again, &[]);
-        assert!((volume(&repeated) / volume(&wanted) - 1.0).abs() < 1e-3);
+        assert!((volume(&repeated) / volume(&wanted) - 1.0).abs() < 1e-4);
         assert_eq!(job.table.name == "Wigley", beside.is_some());
     }
+}
+
+/// A table that is right but for its rounding is not moved for the displacement that it does not tell as well as the hull.
+#[test]
+fn a_table_that_is_right_stays() {
+    let metres = folder("right").join("metres.csv");
+    fs::write(&metres, wigley_table(|station| format!("{} m", 5.0 * station))).unwrap();
+    let (_, outputs) = faired(&metres, &[("--job", "dimensions.Lpp", "100 m")]);
+    let (rms, largest, _) = outputs.outcome.moves();
+    assert!(rms < 5e-5 && largest < 1e-4, "{rms} {largest}");
 }
 
 /// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line bends more often.

@@ -225,8 +225,19 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let Started { found, before, mut notes, noise, quantum, proposals, mut surface, search, excluded, watched } =
-            Started::new(self, table)?;
+        let Started {
+            found,
+            before,
+            mut notes,
+            noise,
+            quantum,
+            proposals,
+            mut surface,
+            search,
+            gap,
+            excluded,
+            watched,
+        } = Started::new(self, table)?;
         let (draught, depth) = (before.particulars().draught, before.particulars().depth);
         if draught > depth * (1.0 + 1e-9) {
             return Err(JobError::Draught { draught, depth });
@@ -242,7 +253,7 @@ impl Job {
             }
         };
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
-        let apart = search.as_ref().map_or(Ok(0.0), |search| search.gap(&surface, &before).map(|gap| 6.0 * gap))?;
+        let apart = 6.0 * gap;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         // What a rule says of the inflections of a line stands over the guard of them.

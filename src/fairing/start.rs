@@ -2,7 +2,7 @@
 
 use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, MISFIT};
-use super::job::{Job, JobError, LEAST_TOLERANCE};
+use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
 use super::lines::proposed_lines;
 use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
 use super::robust::gross_errors;
@@ -34,6 +34,8 @@ pub(super) struct Started {
     pub(super) surface: FairSurface,
     /// The search for the weight, on a net of its own.
     pub(super) search: Option<Search>,
+    /// Half the mean distance \[m\] of such a net from the surface through the table, of what their displaced volumes differ by.
+    pub(super) gap: f64,
     /// Cells that are left out.
     pub(super) excluded: Vec<Cell>,
     /// The lines that are counted, on the surface before.
@@ -105,9 +107,15 @@ impl Started {
                 }
             }
         }
-        if modelled.surface.own && (!modelled.follows(noise) || modelled.swings(&cleaned.clean)) {
-            modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;
-            modelled.search = None;
+        let mut gap = 0.0;
+        if modelled.surface.own {
+            gap = modelled.gap()?;
+            // Offsets that tell the hull better than its displacement between them is known are not moved for the difference.
+            let dear = gap > noise && !matches!(job.holding, Holding::Given(_));
+            if dear || !modelled.follows(noise) || modelled.swings(&cleaned.clean) {
+                modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;
+                (modelled.search, gap) = (None, 0.0);
+            }
         }
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
@@ -118,7 +126,7 @@ impl Started {
             ));
         }
         let excluded = cleaned.excluded;
-        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, excluded, watched })
+        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, gap, excluded, watched })
     }
 }
 
@@ -193,6 +201,16 @@ impl Modelled {
         self.surface.simple && remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
     }
 
+    /// Half the mean distance \[m\] of a smoothed net of its own from the surface through the table, of what their displaced volumes differ by.
+    fn gap(&self) -> Result<f64, JobError> {
+        let Some(search) = &self.search else { return Ok(0.0) };
+        let own = search.hull(&self.surface)?;
+        let volume = Constraint::Displacement(0.0);
+        let p = self.before.particulars();
+        let apart = (volume.value(&own) - volume.value(&self.before)).abs();
+        Ok(apart / (2.0 * p.length_between_perpendiculars * p.draught))
+    }
+
     /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.
     fn gross_errors(&self) -> Result<Vec<(Cell, f64)>, FairError> {
         let Some(search) = &self.search else { return Ok(Vec::new()) };
@@ -224,13 +242,5 @@ impl Search {
     /// The hull of the smoothed net.
     fn hull(&self, surface: &FairSurface) -> Result<Hull, HullError> {
         surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))
-    }
-
-    /// Half the mean distance \[m\] between two surfaces whose displaced volumes differ.
-    pub(super) fn gap(&self, surface: &FairSurface, before: &Hull) -> Result<f64, JobError> {
-        let own = self.hull(surface)?;
-        let volume = Constraint::Displacement(0.0);
-        let p = before.particulars();
-        Ok((volume.value(&own) - volume.value(before)).abs() / (2.0 * p.length_between_perpendiculars * p.draught))
     }
 }
