@@ -355,12 +355,7 @@ impl JobFile {
     /// This job with what `other` says over it; locks, tolerances of lines and section areas are added.
     #[must_use]
     pub fn with(mut self, other: Self) -> Self {
-        let (stated, over) = (&mut self.stated, &other.stated);
-        stated.length_between_perpendiculars =
-            over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
-        stated.breadth = over.breadth.or(stated.breadth);
-        stated.draught = over.draught.or(stated.draught);
-        stated.depth = over.depth.or(stated.depth);
+        self.stated = other.stated.over(&self.stated);
         for (quantity, wish) in other.hold {
             self.hold.retain(|(mine, _)| *mine != quantity && mine.twin() != Some(quantity));
             self.hold.push((quantity, wish));

@@ -126,6 +126,17 @@ impl StatedParticulars {
     pub fn states_draught(&self) -> bool {
         self.draught.is_some_and(|draught| draught.is_finite() && draught > 0.0)
     }
+
+    /// These, and of `under` what they leave open.
+    #[must_use]
+    pub fn over(&self, under: &Self) -> Self {
+        Self {
+            length_between_perpendiculars: self.length_between_perpendiculars.or(under.length_between_perpendiculars),
+            breadth: self.breadth.or(under.breadth),
+            draught: self.draught.or(under.draught),
+            depth: self.depth.or(under.depth),
+        }
+    }
 }
 
 impl From<&PrincipalParticulars> for StatedParticulars {

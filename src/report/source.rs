@@ -244,11 +244,7 @@ pub(super) fn read_table_stated(
     over: &StatedParticulars,
 ) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
     let (mut table, notes) = read_table_file_with(path, &Said::dimensions(over))?;
-    let stated = &mut table.stated;
-    stated.length_between_perpendiculars = over.length_between_perpendiculars.or(stated.length_between_perpendiculars);
-    stated.breadth = over.breadth.or(stated.breadth);
-    stated.draught = over.draught.or(stated.draught);
-    stated.depth = over.depth.or(stated.depth);
+    table.stated = over.over(&table.stated);
     Ok((table, notes))
 }
 
