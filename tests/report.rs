@@ -279,13 +279,14 @@ fn tables_agree_in_their_notations_and_with_the_hull() {
 }
 
 #[test]
-fn the_pdf_has_a_page_a_figure_at_true_size() {
+fn the_pdf_has_the_figures_at_true_size() {
     let (_, files) = faired();
     let pdf = &files.iter().find(|file| file.name == "report.pdf").unwrap().contents;
     assert!(pdf.starts_with(b"%PDF-"));
     let plain = String::from_utf8_lossy(pdf);
     let boxes: Vec<&str> = plain.split("/MediaBox").skip(1).map(|rest| rest[..40.min(rest.len())].trim()).collect();
-    assert_eq!(boxes.len(), HULL.len() + FAIRED.len());
+    // What the fairing came to and what is held stand on one sheet.
+    assert_eq!(boxes.len(), HULL.len() + FAIRED.len() - 1);
     // 420 mm x 297 mm in points.
     for found in boxes {
         assert!(found.contains("1190.55") && found.contains("841.88"), "{found}");

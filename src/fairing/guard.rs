@@ -2,7 +2,9 @@
 //! bend more often than they did.
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
-//! 2. Lines that cost more than [`PRICE`] are let go; when nothing satisfies all, those that the proof of it charges most.
+//!    Where its curve is straight between bends of one sign it is asked for that sign as well.
+//! 2. Lines that cost more than [`PRICE`] are asked for the signs at those bends alone, and then let go; when nothing satisfies all, those
+//!    that the proof of it charges most.
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies.
 //!
@@ -20,7 +22,7 @@ use super::surface::FairSurface;
 use crate::qp::{ProblemError, Settings, Status};
 
 /// Most programs.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 12;
 
 /// Most iterations of a program: what takes more has next to nothing within its limits.
 const ITERATIONS: usize = 100;
@@ -67,8 +69,24 @@ impl Guarded {
 struct Asked {
     line: usize,
     limits: Vec<Limit>,
-    /// Signs of the start, which are not let go.
-    start: bool,
+    what: Signs,
+}
+
+/// Whose signs a line is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Signs {
+    /// Those of the curve with the least inflections, along all of the line.
+    Least,
+    /// The same, but where that curve is straight.
+    Bends,
+    /// Those of the start, which are not let go.
+    Start,
+}
+
+impl Asked {
+    fn is_start(&self) -> bool {
+        self.what == Signs::Start
+    }
 }
 
 /// What is solved again and again.
@@ -100,9 +118,9 @@ impl Question<'_> {
         let mut asked: Vec<Asked> = Vec::new();
         for (k, line) in lines.iter().enumerate() {
             if self.kept.contains(&line.line) {
-                asked.push(Asked { line: k, limits: self.signs_of_start(line), start: true });
+                asked.push(Asked { line: k, limits: self.signs_of_start(line), what: Signs::Start });
             } else if self.released.iter().all(|(gone, _)| *gone != line.line) && line.bends_too_often(&free.net) {
-                asked.push(Asked { line: k, limits: line.wished(start), start: false });
+                asked.push(Asked { line: k, limits: line.wished(start, true), what: Signs::Least });
             }
         }
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
@@ -111,19 +129,19 @@ impl Question<'_> {
             let last = round + 1 == ROUNDS;
             if last {
                 // No agreement: only what cannot contradict itself.
-                for gone in asked.iter().filter(|asked| !asked.start) {
+                for gone in asked.iter().filter(|asked| !asked.is_start()) {
                     guarded.released.push((lines[gone.line].line, f64::INFINITY));
                 }
-                asked.retain(|asked| asked.start);
+                asked.retain(Asked::is_start);
             }
             let net = guarded.accepted.as_ref().map_or(&free.net, |(_, solved)| &solved.net).clone();
             let mut added = false;
             if round > 0 || nothing(&asked) {
                 for (k, line) in lines.iter().enumerate() {
-                    let known = asked.iter().any(|asked| asked.line == k && asked.start);
+                    let known = asked.iter().any(|asked| asked.line == k && asked.is_start());
                     if !known && line.count(&net) > line.count(start) {
                         asked.retain(|asked| asked.line != k);
-                        asked.push(Asked { line: k, limits: self.signs_of_start(line), start: true });
+                        asked.push(Asked { line: k, limits: self.signs_of_start(line), what: Signs::Start });
                         added = true;
                     }
                 }
@@ -137,11 +155,10 @@ impl Question<'_> {
             if feasible {
                 let charges = charges(&program, &solved, &asked, &free.net);
                 let unit = self.sigma * self.sigma;
-                let dear = |k: usize| !asked[k].start && charges[k] > PRICE * unit;
+                let dear = |k: usize| !asked[k].is_start() && charges[k] > PRICE * unit;
                 if !last && (0..asked.len()).any(dear) {
                     let gone: Vec<usize> = (0..asked.len()).filter(|&k| dear(k)).collect();
-                    guarded.released.extend(gone.iter().map(|&k| (lines[asked[k].line].line, charges[k] / unit)));
-                    remove(&mut asked, &gone);
+                    self.let_go(&mut asked, &gone, |k| charges[k] / unit, &mut guarded);
                     guarded.accepted = None;
                     continue;
                 }
@@ -149,19 +166,40 @@ impl Question<'_> {
                 continue;
             }
             let charges = charges(&program, &solved, &asked, &free.net);
-            let most = (0..asked.len()).filter(|&k| !asked[k].start).map(|k| charges[k]).fold(0.0, f64::max);
+            let most = (0..asked.len()).filter(|&k| !asked[k].is_start()).map(|k| charges[k]).fold(0.0, f64::max);
             let gone: Vec<usize> =
-                (0..asked.len()).filter(|&k| !asked[k].start && charges[k] >= SHARE * most).collect();
+                (0..asked.len()).filter(|&k| !asked[k].is_start() && charges[k] >= SHARE * most).collect();
             if gone.is_empty() {
                 break;
             }
-            guarded.released.extend(gone.iter().map(|&k| (lines[asked[k].line].line, f64::INFINITY)));
-            remove(&mut asked, &gone);
+            self.let_go(&mut asked, &gone, |_| f64::INFINITY, &mut guarded);
             guarded.accepted = None;
         }
-        let names = |start: bool| asked.iter().filter(|a| a.start == start).map(|a| lines[a.line].line).collect();
+        let names = |start: bool| asked.iter().filter(|a| a.is_start() == start).map(|a| lines[a.line].line).collect();
         (guarded.asked, guarded.kept) = (names(false), names(true));
         Ok(guarded)
+    }
+
+    /// Lines of `asked` are asked for less, or let go where there is nothing less to ask for.
+    fn let_go(&self, asked: &mut Vec<Asked>, gone: &[usize], price: impl Fn(usize) -> f64, guarded: &mut Guarded) {
+        let mut index = 0;
+        asked.retain_mut(|asked| {
+            let k = index;
+            index += 1;
+            if !gone.contains(&k) {
+                return true;
+            }
+            let line = &self.lines[asked.line];
+            if asked.what == Signs::Least {
+                let bends = line.wished(&self.surface.start, false);
+                if bends.len() < asked.limits.len() {
+                    *asked = Asked { line: asked.line, limits: bends, what: Signs::Bends };
+                    return true;
+                }
+            }
+            guarded.released.push((line.line, price(k)));
+            false
+        });
     }
 
     /// Limits that keep a line at the signs of the start.
@@ -201,12 +239,4 @@ fn charges(program: &Program, solved: &Solved, asked: &[Asked], free: &[f64]) ->
         charges.push(TableLine::charge(&asked.limits, own, free));
     }
     charges
-}
-
-fn remove(asked: &mut Vec<Asked>, gone: &[usize]) {
-    let mut index = 0;
-    asked.retain(|_| {
-        index += 1;
-        !gone.contains(&(index - 1))
-    });
 }

@@ -94,9 +94,9 @@ impl TableLine {
         self.least.as_ref().is_some_and(|least| least.curve.is_some() && least.count <= most)
     }
 
-    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`.
+    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`; `between` its bends as well.
     #[must_use]
-    pub fn wished(&self, start: &[f64]) -> Vec<Limit> {
+    pub fn wished(&self, start: &[f64], between: bool) -> Vec<Limit> {
         let Some((least, curve)) = self.least.as_ref().and_then(|least| Some((least, least.curve.as_ref()?))) else {
             return Vec::new();
         };
@@ -111,19 +111,18 @@ impl TableLine {
             .map(|interval| [interval.from.min(interval.at), interval.to.max(interval.at)])
             .collect();
         let none = dead(&self.bends, start);
-        let mut limits = Vec::new();
-        for bend in &self.bends {
-            let x = bend.at;
-            if !(from..=to).contains(&x) || free.iter().any(|[a, b]| (*a..=*b).contains(&x)) {
-                continue;
-            }
-            let sign = second(x);
-            if sign.abs() <= STRAIGHT * largest {
-                continue;
-            }
-            limits.extend(bend.limit(sign > 0.0, start, none));
-        }
-        limits
+        let inside = self.bends.iter().filter(|bend| (from..=to).contains(&bend.at));
+        let signs: Vec<(&Bend, i8)> = inside
+            .map(|bend| {
+                let k = second(bend.at);
+                (bend, if k.abs() <= STRAIGHT * largest { 0 } else { k.signum() as i8 })
+            })
+            .collect();
+        let told: Vec<i8> = signs.iter().map(|(_, sign)| *sign).collect();
+        let told = if between { filled(&told) } else { told };
+        let free = |x: f64| free.iter().any(|[a, b]| (*a..=*b).contains(&x));
+        let asked = signs.iter().zip(told).filter(|((bend, _), sign)| *sign != 0 && !free(bend.at));
+        asked.filter_map(|((bend, _), sign)| bend.limit(sign > 0, start, none)).collect()
     }
 
     /// Sum of multiplier times violation at `net` over limits of the line.
@@ -136,5 +135,42 @@ impl TableLine {
                 z.abs() * (limit.lower - y).max(y - limit.upper).max(0.0)
             })
             .sum()
+    }
+}
+
+/// Between its bends the curve of an optimal basis is straight: signs with those of both neighbours in place of zeros, or of the one neighbour at an end; zeros where the neighbours differ.
+fn filled(signs: &[i8]) -> Vec<i8> {
+    let mut filled = signs.to_vec();
+    let mut last = None;
+    for k in 0..=signs.len() {
+        let here = signs.get(k).copied();
+        if here == Some(0) {
+            continue;
+        }
+        let before = last.map(|k: usize| signs[k]);
+        if let Some(sign) = before.or(here).filter(|sign| here.is_none_or(|here| here == *sign)) {
+            filled[last.map_or(0, |k| k + 1)..k].fill(sign);
+        }
+        last = Some(k);
+    }
+    filled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::filled;
+
+    #[test]
+    fn straight_parts_bend_as_beside_them_where_that_is_one_way() {
+        let cases: [(&[i8], &[i8]); 5] = [
+            (&[1, 0, 0, 1, 0], &[1, 1, 1, 1, 1]),
+            (&[0, -1, 0, 1, 0, 0, 1], &[-1, -1, 0, 1, 1, 1, 1]),
+            (&[0, 0], &[0, 0]),
+            (&[-1, 1], &[-1, 1]),
+            (&[], &[]),
+        ];
+        for (given, expected) in cases {
+            assert_eq!(filled(given), expected, "{given:?}");
+        }
     }
 }

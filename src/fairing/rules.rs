@@ -97,7 +97,7 @@ pub(super) fn turned(
             for (k, most, line, _) in &ruled {
                 let least = lines.iter().find(|other| other.line == *line && other.least_at_most(*most));
                 if let (Some(line), Some(place)) = (least, fresh.iter_mut().find(|(rule, _)| rule == k)) {
-                    place.1 = line.wished(net);
+                    place.1 = line.wished(net, true);
                 }
             }
             limits = with(&fresh);

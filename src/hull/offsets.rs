@@ -19,6 +19,26 @@ pub struct OffsetStation {
     pub x: f64,
 }
 
+impl OffsetStation {
+    /// Whether its name is its place in metres, to 5 mm.
+    #[must_use]
+    pub fn is_named_by_place(&self) -> bool {
+        self.name.parse::<f64>().is_ok_and(|x| (x - self.x).abs() < 5e-3)
+    }
+
+    /// The station in a sentence: `station 5` of a table whose stations have names; `station at x = 35 m` where the name is the place, which
+    /// would be taken for the number of another station of a drawing. 0 is AP either way.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let name = &self.name;
+        if self.is_named_by_place() && self.x.abs() >= 5e-3 {
+            format!("station at x = {name} m")
+        } else {
+            format!("station {name}")
+        }
+    }
+}
+
 /// What belongs to a station besides its half-breadths. Values are absent where there is no hull.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StationOffsets {

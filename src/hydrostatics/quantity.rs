@@ -406,7 +406,7 @@ pub const QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "LE",
         symbol: "L_E",
-        name: "length of entrance",
+        name: "length of entrance, to FP",
         unit: "m",
         definition: "fore end of the parallel middle body, or largest section, to FP",
         decimals: 3,
@@ -424,7 +424,7 @@ pub const QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "LR",
         symbol: "L_R",
-        name: "length of run",
+        name: "length of run, from AP",
         unit: "m",
         definition: "AP to the aft end of the parallel middle body, or largest section",
         decimals: 3,

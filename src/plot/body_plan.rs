@@ -77,6 +77,9 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     for half in [Half::Aft, Half::Fore] {
         name_stations(canvas, &mut placer, grid, view, half, midship, text_size);
     }
+    for half in [Half::Aft, Half::Fore] {
+        name_flat_end(canvas, &mut placer, grid, view, half, text_size);
+    }
     // At the bilge too, where a name keeps off the neighbours.
     let style = TextStyle::new(0.9 * text_size, Anchor::Middle);
     for (k, (name, length)) in owners.iter().enumerate() {
@@ -88,11 +91,36 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     canvas.end_group();
 }
 
+/// Whether the hull ends in a plane there that can be seen on paper.
+fn has_flat_end(grid: &LinesGrid, view: &View, half: Half) -> bool {
+    grid.ends[usize::from(half == Half::Fore)].iter().any(|p| p[1] * view.scale > 0.1)
+}
+
+/// The name of the transom, or of a flat bow, over its corner at the deck, where no station stands at it.
+fn name_flat_end(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    grid: &LinesGrid,
+    view: &View,
+    half: Half,
+    text_size: f64,
+) {
+    let fore = usize::from(half == Half::Fore);
+    let at_end = |plane: &GridPlane| (plane.at - grid.length[fore]).abs() <= 1e-3 * grid.station_spacing;
+    let corner = grid.ends[fore].iter().max_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
+    let Some(corner) = corner.filter(|_| has_flat_end(grid, view, half) && !grid.stations.iter().any(at_end)) else {
+        return;
+    };
+    let at = view.at([half.sign() * corner[1], corner[2]]);
+    let name = if half == Half::Aft { "transom" } else { "flat bow" };
+    name_at_deck(canvas, placer, name, at, &half_room(grid, view, half), text_size);
+}
+
 /// The transom (aft) or a flat bow (forward): its edge and its upper edge.
 fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half) -> Option<Vec<[f64; 2]>> {
     let end = &grid.ends[usize::from(half == Half::Fore)];
     let sign = half.sign();
-    if !end.iter().any(|p| p[1] * view.scale > 0.1) {
+    if !has_flat_end(grid, view, half) {
         return None;
     }
     let mut edge: Vec<_> = end.iter().map(|p| [sign * p[1], p[2]]).collect();
@@ -172,7 +200,14 @@ fn draw_grid(
     let distance = |plane: &GridPlane| grid.buttock_label(plane).replacen(&plane.name, "", 1).trim().to_owned();
     let (one_row, two_rows) =
         (widest(&|plane| grid.buttock_label(plane)) < room_of_one, widest(&distance) < room_of_one);
-    for plane in &grid.buttocks {
+    // Names alone that are wider than their distance: every second, or every third.
+    let names_alone = widest(&|plane| plane.name.clone()) + 0.5 * text_size;
+    let every = if one_row || two_rows {
+        1
+    } else {
+        (names_alone / (grid.buttock_spacing * view.scale)).ceil().max(1.0) as usize
+    };
+    for (k, plane) in grid.buttocks.iter().enumerate() {
         for sign in [-1.0, 1.0] {
             let x = view.at([sign * plane.at, 0.0])[0];
             canvas.line([x, frame.top], [x, frame.bottom], &GRID);
@@ -180,8 +215,10 @@ fn draw_grid(
                 vec![grid.buttock_label(plane)]
             } else if two_rows {
                 vec![plane.name.clone(), distance(plane)]
-            } else {
+            } else if (k + 1) % every == 0 {
                 vec![plane.name.clone()]
+            } else {
+                Vec::new()
             };
             for (row, text) in rows.iter().enumerate() {
                 let at = [x, frame.bottom + text_size * (0.95 + 1.2 * row as f64)];
@@ -222,15 +259,7 @@ fn name_stations(
     midship: f64,
     text_size: f64,
 ) {
-    let style = TextStyle::new(text_size, Anchor::Middle).halo();
-    let reach = grid.half_breadth * view.scale + SIDE_ROOM;
-    let top = view.at([0.0, grid.height[1]])[1] - TOP_ROOM;
-    // Names stay on the side of their sections.
-    let [centre, base] = view.origin;
-    let room = match half {
-        Half::Aft => Rectangle::new(centre - reach, top, centre - 0.4, base),
-        Half::Fore => Rectangle::new(centre + 0.4, top, centre + reach, base),
-    };
+    let room = half_room(grid, view, half);
     let mut groups: Vec<([f64; 2], Vec<&GridPlane>)> = Vec::new();
     // From the centre line out: there is least room beside it.
     let mut planes: Vec<&GridPlane> = grid.stations.iter().filter(|plane| half.has(plane.at, midship)).collect();
@@ -252,12 +281,35 @@ fn name_stations(
             (first, last) = (last, first);
         }
         let name = if planes.len() > 1 { range(&first.name, &last.name) } else { first.name.clone() };
-        // From the deck up and aside, the nearest first.
-        let mut shifts: Vec<[f64; 2]> =
-            (0..15).flat_map(|row| (-4..=4).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)])).collect();
-        shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
-        let place = |[dx, dy]: [f64; 2]| [at[0] + dx * text_size, at[1] - (0.9 + dy) * text_size];
-        let places: Vec<_> = shifts.into_iter().map(place).collect();
-        placer.name_off_curves(canvas, &name, &style, &places, &room, (at, &THREAD));
+        name_at_deck(canvas, placer, &name, at, &room, text_size);
     }
+}
+
+/// Where names of one half stand: on the side of their sections.
+fn half_room(grid: &LinesGrid, view: &View, half: Half) -> Rectangle {
+    let reach = grid.half_breadth * view.scale + SIDE_ROOM;
+    let top = view.at([0.0, grid.height[1]])[1] - TOP_ROOM;
+    let [centre, base] = view.origin;
+    match half {
+        Half::Aft => Rectangle::new(centre - reach, top, centre - 0.4, base),
+        Half::Fore => Rectangle::new(centre + 0.4, top, centre + reach, base),
+    }
+}
+
+/// A name over the end `at` of a section at the deck: up and aside, the nearest first.
+fn name_at_deck(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    name: &str,
+    at: [f64; 2],
+    room: &Rectangle,
+    text_size: f64,
+) {
+    let style = TextStyle::new(text_size, Anchor::Middle).halo();
+    let mut shifts: Vec<[f64; 2]> =
+        (0..15).flat_map(|row| (-4..=4).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)])).collect();
+    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
+    let place = |[dx, dy]: [f64; 2]| [at[0] + dx * text_size, at[1] - (0.9 + dy) * text_size];
+    let places: Vec<_> = shifts.into_iter().map(place).collect();
+    placer.name_off_curves(canvas, name, &style, &places, room, (at, &THREAD));
 }

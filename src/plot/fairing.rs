@@ -22,8 +22,8 @@ use crate::qp::Status;
 const SIDE: f64 = 38.0;
 const HEAD: f64 = 50.0;
 const FOOT: f64 = 34.0;
-/// Room at the sides of views along the ship \[mm\].
-pub(super) const LONG_SIDE: f64 = 20.0;
+/// Room aft and forward of views along the ship \[mm\]: names and heights stand aft.
+pub(super) const LONG_SIDES: [f64; 2] = [19.5, 10.0];
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
 const CHORD: f64 = 0.01;
 
@@ -227,16 +227,26 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     Ok(canvas)
 }
 
+/// The largest scale at which a view along the ship from `x[0]` to `x[1]` \[m\] fits into `paper` \[mm\].
+pub(super) fn long_scale(x: [f64; 2], paper: [f64; 2]) -> u32 {
+    drawing_scale(x[1] - x[0], paper[0] - LONG_SIDES.iter().sum::<f64>())
+}
+
+/// Where a view along the ship `width` \[mm\] long begins: in the middle of `paper`, where that leaves names their room.
+pub(super) fn long_left(paper: [f64; 2], width: f64) -> f64 {
+    (0.5 * (paper[0] - width)).max(LONG_SIDES[0])
+}
+
 pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
-    let room = [paper[0] - 2.0 * LONG_SIDE, paper[1] - HEAD - FOOT - 20.0];
-    let n = drawing_scale(x[1] - x[0], room[0]);
+    let room = paper[1] - HEAD - FOOT - 20.0;
+    let n = long_scale(x, paper);
     let millimetres = 1000.0 / f64::from(n);
     // A whole number of times wider than long, so that waterlines keep apart.
-    let stretch = (room[1] / (breadth * millimetres)).floor().clamp(1.0, 10.0);
+    let stretch = (room / (breadth * millimetres)).floor().clamp(1.0, 10.0);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
     let plan = Plan {
         record,
@@ -247,9 +257,9 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
         room: paper,
         longest: LONGEST,
     };
-    let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
+    let left = long_left(paper, millimetres * (x[1] - x[0]));
     // What is left of the height stands above and below.
-    let floor = paper[1] - FOOT - 4.0 - 0.5 * (room[1] - stretch * breadth * millimetres).max(0.0);
+    let floor = paper[1] - FOOT - 4.0 - 0.5 * (room - stretch * breadth * millimetres).max(0.0);
     let at = move |p: [f64; 3]| [left + millimetres * (p[0] - x[0]), floor - stretch * millimetres * p[1]];
     let mut canvas = Canvas::new(paper[0], paper[1]);
     for station in &record.lines.stations {
@@ -356,9 +366,8 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
 pub(super) fn station_words(record: &FairRecord) -> String {
     let stations = &record.lines.stations;
-    let is_place = |station: &OffsetStation| station.name.parse::<f64>().is_ok_and(|x| (x - station.x).abs() < 5e-3);
     match (stations.first(), stations.last()) {
-        (Some(a), Some(b)) if !stations.iter().all(is_place) => format!(
+        (Some(a), Some(b)) if !stations.iter().all(OffsetStation::is_named_by_place) => format!(
             "stations by their names in the table, from {} at x = {:.2} m to {} at x = {:.2} m forward of AP",
             caption::plain(&a.name),
             a.x,

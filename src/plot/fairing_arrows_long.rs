@@ -6,7 +6,7 @@
 //! own, millimetres of move a millimetre of arrow.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{LONG_SIDE, base, curves, extent, short};
+use super::fairing::{LONG_SIDES, base, curves, extent, long_left, long_scale, short};
 use super::fairing_arrows::{AFTER, BEFORE, arrow, head, key, longest, ring};
 use super::label::{LabelPlacer, Preference, length};
 use super::scale::{drawing_scale, sheet_scale};
@@ -22,7 +22,7 @@ use crate::hydrostatics::Conventions;
 /// Room above the profile, between the views and below them \[mm\].
 const HEAD: f64 = 33.0;
 const BETWEEN: f64 = 26.0;
-const FOOT: f64 = 29.0;
+const FOOT: f64 = 32.0;
 
 /// Draws both views; `conventions` say whether the draught was assumed.
 ///
@@ -90,9 +90,9 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     let z = [z[0], deck.iter().map(|p| p[2]).fold(z[1], f64::max)];
     let breadth = deck.iter().map(|p| p[1]).fold(breadth, f64::max);
     let room = paper[1] - HEAD - BETWEEN - FOOT;
-    let n = drawing_scale(x[1] - x[0], paper[0] - 2.0 * LONG_SIDE).max(drawing_scale(breadth + z[1] - z[0], room));
+    let n = long_scale(x, paper).max(drawing_scale(breadth + z[1] - z[0], room));
     let millimetres = 1000.0 / f64::from(n);
-    let left = 0.5 * (paper[0] - millimetres * (x[1] - x[0]));
+    let left = long_left(paper, millimetres * (x[1] - x[0]));
     // One stretch for both views, so that they can be compared.
     let stretch = (room / ((breadth + z[1] - z[0]) * millimetres)).floor().clamp(1.0, 10.0);
     let across = stretch * millimetres;
@@ -146,9 +146,9 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     if (z[0]..=z[1]).contains(&draught) {
         let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
         canvas.line(from, to, &DESIGN);
-        placer.name_point(&mut canvas, &format!("DWL {draught:.2}"), &style, &[[from[0] - 2.0, from[1]]], &window);
-        let mark = TextStyle { anchor: Anchor::Start, ..style };
-        canvas.text([to[0] + 1.0, to[1]], conventions.draught_mark().trim(), &mark);
+        // Over its after end, inside the view: there is no room for as many words beside it.
+        let words = format!("DWL {draught:.2} m{}", conventions.draught_mark());
+        canvas.text([from[0] + 1.5, from[1] - 2.4], &words, &TextStyle { anchor: Anchor::Start, ..style }.halo());
     }
     for &height in record.lines.waterlines.iter().filter(|height| **height <= z[1]) {
         let [from, to] = [profile.at(aft(height)), profile.at(fore(height))];
@@ -203,7 +203,7 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
             plan.move_a_millimetre
         ),
     ];
-    let start = left.min(LONG_SIDE);
+    let start = left.min(LONG_SIDES[0]);
     canvas.text([start, HEAD - 7.0], &words[0], &small);
     canvas.text([start, plan.at([x[0], breadth, 0.0])[1] - 6.0], &words[1], &small);
     for text in canvas.texts() {

@@ -118,8 +118,8 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
             }
             Along::Height => {
                 let station = &record.lines.stations[k];
-                let name: String = caption::plain(&station.name).chars().take(12).collect();
-                (format!("station {name}"), station_cut(record, station.x))
+                let name: String = caption::plain(&station.words()).chars().take(24).collect();
+                (name, station_cut(record, station.x))
             }
         };
         Line { name, cut, offsets, moves }

@@ -4,11 +4,10 @@
 //! ship.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{Drawn, LONG_SIDE, Plan, curves, draw, extent, title};
+use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, long_scale, title};
 use super::fairing_combs::{FairingCombs, some};
 use super::fairing_curves::{Range, figures};
 use super::label::LabelPlacer;
-use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
 use super::view::GRID;
@@ -18,7 +17,7 @@ use crate::hull::Cut;
 
 /// Room above and below the strips \[mm\].
 const HEAD: f64 = 22.0;
-const FOOT: f64 = 34.0;
+const FOOT: f64 = 37.0;
 /// Most strips of a sheet, and room over each for its words \[mm\].
 const MOST: usize = 4;
 const WORDS: f64 = 7.5;
@@ -124,7 +123,7 @@ pub(super) fn compose(
     let (x, ..) = extent(record).filter(|_| bounds[0][0].is_finite()).ok_or_else(nothing)?;
     let (low, high) = (bounds[0][0].min(x[0]), bounds[0][1].max(x[1]));
     let [bottom, top] = bounds[1];
-    let n = drawing_scale(high - low, paper[0] - 2.0 * LONG_SIDE);
+    let n = long_scale([low, high], paper);
     let millimetres = 1000.0 / f64::from(n);
     let pitch = (paper[1] - HEAD - FOOT) / cuts.len() as f64;
     let room = pitch - WORDS - 2.0 * LONGEST;
@@ -132,7 +131,7 @@ pub(super) fn compose(
     let [words, across, heights, axis] = kind.words();
     let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
     let plan = Plan { record, combs, title: words, scale, heights, room: paper, longest: LONGEST };
-    let left = 0.5 * (paper[0] - millimetres * (high - low));
+    let left = long_left(paper, millimetres * (high - low));
     let height = stretch * millimetres * (top - bottom);
     let mut canvas = Canvas::new(paper[0], paper[1]);
     let mut drawn: Option<Drawn> = None;

@@ -14,7 +14,7 @@ use super::{PlotError, Svg, caption};
 use crate::fairing::job::Change;
 use crate::fairing::record::{Crossing, FairRecord};
 use crate::fairing::surface::Origin;
-use crate::hull::LineKind;
+use crate::hull::{LineKind, OffsetStation};
 use crate::units::Notation;
 
 /// Width of the sheet \[mm\].
@@ -278,10 +278,10 @@ fn head(canvas: &mut Canvas, record: &FairRecord, map: &Map) {
     let (rms, _, largest) = record.moves();
     let rms = rms / unit.length;
     let called = largest.map(|change| {
-        let station = record.lines.stations.get(change.station).map_or("", |s| s.name.as_str());
+        let station = record.lines.stations.get(change.station).map_or_else(String::new, OffsetStation::words);
         let line = change.origin.words(change.z);
         let size = moved(change) / unit.length;
-        format!("largest move {size:+.2} {} at station {}, {line}", unit.words[1], caption::plain(station))
+        format!("largest move {size:+.2} {} at {}, {line}", unit.words[1], caption::plain(&station))
     });
     let second = format!(
         "moves in {}, outward positive{}    {rms:.2} {} RMS    {}",

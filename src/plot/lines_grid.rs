@@ -175,7 +175,9 @@ impl LinesGrid {
 
     /// Name and height of a waterline: `WL 3  1.50 m`.
     pub(super) fn waterline_label(&self, plane: &GridPlane) -> String {
-        format!("{}  {:.*} m", plane.name, decimals(self.waterline_spacing).max(2), plane.at)
+        let is_half = plane.name.contains('½');
+        let step = if is_half { 0.5 * self.waterline_spacing } else { self.waterline_spacing };
+        format!("{}  {:.*} m", plane.name, decimals(step).max(2), plane.at)
     }
 
     /// Name and distance of a buttock: `II  3.0 m`.

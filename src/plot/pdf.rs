@@ -70,6 +70,11 @@ impl Read<'_> {
         self.size[0] <= room[0] + 0.1 && self.size[1] <= room[1] + 0.1
     }
 
+    /// Whether `below` has room under it.
+    fn leaves_room_for(&self, below: &Self, room: [f64; 2]) -> bool {
+        self.fits(room) && below.fits([room[0], room[1] - self.size[1]])
+    }
+
     /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of it.
     fn draw_framed(
         &self,
@@ -103,6 +108,24 @@ fn page(
     Ok(())
 }
 
+/// Two figures that stand over each other in the frame of `sheet`, under one title.
+fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet) -> Result<(), PlotError> {
+    let [upper, lower] = pair.map(|figure| &figure.titles);
+    let title = format!("{}. {}", upper.title, lower.title);
+    let caption = format!("{} {}", upper.caption, lower.caption);
+    let titles = Titles { title: &title, caption: &caption, last: lower.number[0], ..*upper };
+    page(document, sheet.size(), |surface| {
+        place(surface, framed(sheet, sheet, &titles).tree()?.as_ref(), [0.0, 0.0])?;
+        let spare = sheet.room()[1] - pair[0].size[1] - pair[1].size[1];
+        let mut top = sheet.frame().top + 1.0 + spare / 3.0;
+        for figure in pair {
+            place(surface, &figure.tree, [0.5 * (sheet.size()[0] - figure.size[0]), top])?;
+            top += figure.size[1] + spare / 3.0;
+        }
+        Ok(())
+    })
+}
+
 /// A figure on a page of its own.
 fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet) -> Result<(), PlotError> {
     let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
@@ -117,7 +140,7 @@ fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet) -> Resul
 
 /// The figures at true size, each with frame, title block and check bar, or as the whole sheet where it is larger than the frame leaves.
 ///
-/// Pages are in the order of the figures. On A3 a figure has a sheet of its own. On A1 one that was drawn larger has a sheet of its own, and
+/// Pages are in the order of the figures. On A3 a figure has a sheet of its own, or shares it with the next where both are low enough. On A1 one that was drawn larger has a sheet of its own, and
 /// those that fit into the frame of A3 stand up to four to a sheet, as they follow each other.
 ///
 /// # Errors
@@ -130,14 +153,26 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
         let tree = figure.svg.tree()?;
         let number = [k + 1, figures.len()];
         let Heading { ship, source, date } = *heading;
-        let titles = Titles { ship, title: figure.title, caption: figure.caption, number, source, date };
+        let titles = Titles { ship, title: figure.title, caption: figure.caption, number, last: k + 1, source, date };
         Ok(Read { titles, size: size(&tree), tree })
     };
     let all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
     let is_small = |figure: &Read<'_>| sheet != Sheet::A3 && figure.fits(ROOM);
     for run in all.chunk_by(|a, b| is_small(a) == is_small(b)) {
         if !is_small(&run[0]) {
-            run.iter().try_for_each(|figure| draw_alone(&mut document, figure, sheet))?;
+            let mut rest = run;
+            while let Some((first, others)) = rest.split_first() {
+                rest = match others.split_first() {
+                    Some((below, after)) if first.leaves_room_for(below, sheet.room()) => {
+                        draw_pair(&mut document, [first, below], sheet)?;
+                        after
+                    }
+                    _ => {
+                        draw_alone(&mut document, first, sheet)?;
+                        others
+                    }
+                };
+            }
             continue;
         }
         for four in run.chunks(4) {

@@ -35,7 +35,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
-        "1 : {scale}   {}   stations L_PP / 20 = {:.3} m from AP   moulded{}",
+        "1 : {scale}   {}   stations L_PP / 20 = {:.3} m from AP, half stations at the ends   moulded{}",
         caption::dimensions(inputs),
         grid.station_spacing,
         caption::assumed_note(inputs, "   ")

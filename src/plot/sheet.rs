@@ -72,6 +72,8 @@ pub(super) struct Titles<'a> {
     pub(super) caption: &'a str,
     /// Number of the drawing, and how many there are.
     pub(super) number: [usize; 2],
+    /// Number of the last drawing on it, where it has more than one.
+    pub(super) last: usize,
     /// What the drawing was made from.
     pub(super) source: &'a str,
     /// Its date, as it was given.
@@ -117,7 +119,12 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
 /// `drawing 3 of 24   A3, true size`.
 fn numbered(titles: &Titles<'_>, sheet: Sheet) -> String {
     let [number, count] = titles.number;
-    format!("drawing {number} of {count}   {}, true size", sheet.as_str())
+    let drawings = if titles.last > number {
+        format!("drawings {number} and {}", titles.last)
+    } else {
+        format!("drawing {number}")
+    };
+    format!("{drawings} of {count}   {}, true size", sheet.as_str())
 }
 
 /// The program and the date.

@@ -5,7 +5,7 @@
 //! black lines mark zero. Colours are steps of the square root of the curvature, full at a size that nineteen twentieths of the side do not
 //! pass. Zebra stripes are the reflections of lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous,
 //! have kinks where only the tangent plane is, and break at knuckles. Both sides of a knot line of the surface are looked at: where curvature
-//! jumps by a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so that what the surface is made with
+//! jumps by a quarter of a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so that what the surface is made with
 //! is not taken for a bump. Between the points of the map the curvature, or the angle of the reflection, is linear.
 
 use super::canvas::{Anchor, Canvas, HAIR, Pen, Rectangle, TextStyle};
@@ -43,6 +43,8 @@ const SIGNS: f64 = 9.0;
 const STRIPES: f64 = 16.0;
 /// Least angle between the tangent planes of the two sides of a line that is a knuckle \[rad\].
 const KNUCKLE: f64 = 0.02;
+/// Least jump of curvature that is shown, in steps of colour: borders of colours are seen to step by it.
+const JUMP_STEP: f64 = 0.25;
 /// Lines across which curvature jumps, and knuckles.
 pub(super) const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
 pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
@@ -350,14 +352,16 @@ fn half(corners: &[Corner], sign: impl Fn(f64) -> f64) -> Vec<Corner> {
     part
 }
 
-/// The knot lines of the surface where curvature `which` jumps by a step of colour, or the tangent plane breaks.
+/// The knot lines of the surface where curvature `which` jumps by [`JUMP_STEP`] or more, or the tangent plane breaks.
 fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, full: f64) {
     let step = |value: f64| (value.abs() / full).min(1.0).sqrt().copysign(value) * f64::from(STEPS);
     for found in &map.breaks {
         let mut runs: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
         for [a, b] in map.across(found) {
             let jump = full > 0.0
-                && a.curvature.zip(b.curvature).is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= 1.0);
+                && a.curvature
+                    .zip(b.curvature)
+                    .is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= JUMP_STEP);
             let angle =
                 a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
             let knuckle = found.line == KnotLine::Knuckle && angle >= KNUCKLE;

@@ -283,9 +283,9 @@ fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &Suspect, wor
     let width = 0.5 * WIDTH - MARGIN - 3.0;
     let station = &table.stations[suspect.station];
     let first = format!(
-        "{}   station {}, {} {} m: {}, {:+.1} local noise; expected {} ± {:.1} mm",
+        "{}   {}, {} {} m: {}, {:+.1} local noise; expected {} ± {:.1} mm",
         suspect.id,
-        caption::plain(&station.station.name),
+        caption::plain(&station.station.words()),
         words.across,
         rounded(table.waterlines[suspect.waterline]),
         suspect.written,

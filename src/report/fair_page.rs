@@ -55,8 +55,8 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 
 /// "station 5, waterline 2.000 m".
 fn place(job: &FairJob, change: &Change) -> String {
-    let name = job.table.stations.get(change.station).map_or("", |station| station.station.name.as_str());
-    format!("station {name}, {}", change.origin.words(change.z))
+    let station = job.table.stations.get(change.station).map_or_else(String::new, |station| station.station.words());
+    format!("{station}, {}", change.origin.words(change.z))
 }
 
 /// The offsets: how many stayed, how many moved more, how many are suspected.

@@ -294,9 +294,9 @@ fn misfit_lines(job: &FitJob, fitted: &Fitted) -> String {
     }
     if let Some(points) = points {
         let worst = &points.worst;
-        let station = job.table.stations.get(worst.station).map(|s| s.station.name.as_str()).unwrap_or_default();
+        let station = job.table.stations.get(worst.station).map(|s| s.station.words()).unwrap_or_default();
         let line = format!(
-            "{} points of sections, missed in half-breadth by {} m at most (station {station}, z {:.3} m), {} m RMS.",
+            "{} points of sections, missed in half-breadth by {} m at most ({station}, z {:.3} m), {} m RMS.",
             points.count,
             small(worst.residual().abs()),
             worst.height,

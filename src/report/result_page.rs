@@ -208,7 +208,7 @@ pub(super) fn constraints(fairing: &Value) -> Table {
                 value(&held["target"]),
                 value(&held["before"]),
                 value(&held["after"]),
-                figures(&held["residual"], 2),
+                residual(&held["residual"], held["target"].as_f64().unwrap_or_default().abs()),
                 figures(&held["multiplier"], 3),
                 price(&held["price"]),
             ],
@@ -224,13 +224,20 @@ pub(super) fn constraints(fairing: &Value) -> Table {
                 blank(),
                 blank(),
                 blank(),
-                figures(&rule["violation"], 2),
+                residual(&rule["violation"], 1.0),
                 figures(&rule["multiplier"], 3),
                 price(&rule["price"]),
             ],
         ));
     }
     table
+}
+
+/// What is missed of a target of the size `scale`, in words where it is rounding; the digits of that are in `fairing.json`.
+fn residual(value: &Value, scale: f64) -> String {
+    const ROUNDING: f64 = 1e-12;
+    let within = |missed: &f64| missed.abs() <= ROUNDING * scale;
+    value.as_f64().filter(within).map_or_else(|| figures(value, 2), |_| "0 to rounding".to_owned())
 }
 
 fn inflections(fairing: &Value) -> Table {

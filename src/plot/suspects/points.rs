@@ -59,9 +59,9 @@ fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &PointSuspect
     let station = &table.stations[suspect.station];
     let style = TextStyle::new(2.6, Anchor::Start);
     let first = format!(
-        "{}   station {}, point {}: y {} z {}, {} from the curve of its neighbours, {:+.1} local noise",
+        "{}   {}, point {}: y {} z {}, {} from the curve of its neighbours, {:+.1} local noise",
         suspect.id,
-        caption::plain(&station.station.name),
+        caption::plain(&station.station.words()),
         suspect.point,
         rounded(suspect.given[0]),
         rounded(suspect.given[1]),
