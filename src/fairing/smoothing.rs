@@ -262,7 +262,8 @@ impl Smoother {
 
     /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten,
     /// and every weight that was tried, in rising order. Where features of the hull are cut, RSS pays for it: unlike the weight
-    /// that leaves residuals of size sigma, this one does not smooth until they are.
+    /// that leaves residuals of size sigma, this one does not smooth until they are. Tried without success: never less than the weight of least
+    /// GCV, which takes the roughness of published tables for noise (Series 60 with 2 mm of noise, five tables: 4.2 mm for 3.1 mm, an S-175 6.0 mm for 4.1 mm).
     ///
     /// # Errors
     /// [`SingularMatrix`] when no weight of the scan gives a net.

@@ -442,7 +442,7 @@ pub const QUANTITIES: &[Quantity] = &[
     Quantity {
         key: "DLR",
         symbol: "Δ/(0.01L)^3",
-        name: "displacement-length ratio",
+        name: "displacement-length ratio, by (0.01 L)^3",
         unit: "t/m3",
         definition: "displacement / (0.01 L)^3",
         decimals: 2,

@@ -125,12 +125,14 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     }
     let right = TextStyle::new(LETTERS, Anchor::Start);
     canvas.text([at(end, p.draught)[0] + 1.5, at(end, p.draught)[1]], "DWL", &right);
-    let mut last = f64::INFINITY;
+    // The height of the design waterline before those beside it.
+    let mut named = vec![at(low, p.draught)[1]];
+    canvas.text([left - 2.0, named[0]], &format!("{:.2} m", p.draught), &names);
     for &z in &table.heights {
         let y = at(low, z)[1];
-        if last - y >= 3.6 {
+        if named.iter().all(|other| (other - y).abs() >= 3.6) {
             canvas.text([left - 2.0, y], &format!("{z:.2} m"), &names);
-            last = y;
+            named.push(y);
         }
     }
     let profile: Vec<[f64; 2]> = outline::centreplane(hull).into_iter().map(|[x, z]| at(x, z)).collect();
@@ -141,6 +143,10 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (mut placer, mut numbers) = (LabelPlacer::default(), Vec::new());
     for (k, &x) in table.stations.iter().enumerate() {
         let Some(keel) = keel_height(hull, x) else { continue };
+        // A bulb before a raked stem has area below its profile at the station.
+        let is_empty = |row: &[Option<f64>]| row[k].is_none_or(|area| area <= 1e-9 * largest);
+        let empty = levels.iter().zip(&dense.areas).take_while(|(_, row)| is_empty(row)).last();
+        let keel = keel.min(empty.map_or(bottom, |(z, _)| *z).max(bottom) + (top - bottom) / LEVELS as f64);
         canvas.line(at(x, keel), at(x, hull.deck_height(x)), &Pen::new(0.2, "#000000"));
         let mut points: Vec<[f64; 2]> = vec![at(x, keel)];
         let mut add = |z: f64, area: f64| {

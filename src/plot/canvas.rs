@@ -134,6 +134,9 @@ pub(super) struct Canvas {
     texts: Vec<PlacedText>,
 }
 
+/// What stays free at the edges of a sheet \[mm\].
+const EDGE: f64 = 3.0;
+
 /// Size of a subscript \[mm\] in a text of `size`: nearly three quarters of it, but no less than letters are anywhere.
 fn subscript(size: f64) -> f64 {
     (0.72 * size).max(size.min(LETTERS))
@@ -238,6 +241,15 @@ fn write_element(out: &mut String, at: [f64; 2], pieces: &[(bool, &str)], style:
 
 impl Canvas {
     /// An empty white sheet [mm].
+    /// How far it is from a place in a direction of length 1 to [`EDGE`] millimetres before the edge of the sheet \[mm\].
+    pub(super) fn room(&self, from: [f64; 2], direction: [f64; 2]) -> f64 {
+        let to_edge = |d: usize, size: f64| {
+            let end = if direction[d] > 0.0 { size - EDGE } else { EDGE };
+            if direction[d] == 0.0 { f64::INFINITY } else { (end - from[d]) / direction[d] }
+        };
+        to_edge(0, self.width).min(to_edge(1, self.height)).max(0.0)
+    }
+
     pub(super) fn new(width: f64, height: f64) -> Self {
         Self {
             width,

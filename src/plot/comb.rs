@@ -84,11 +84,12 @@ impl CombScale {
             let outward = (far[0] - feet[k][0]) * normal[0] + (far[1] - feet[k][1]) * normal[1];
             let size = norm(tooth.tooth) / self.curvature * STATED;
             let tip = |size: f64| [0, 1].map(|d| feet[k][d] + size.copysign(outward) * normal[d]);
-            if size > self.longest {
+            let longest_here = self.longest.min(canvas.room(feet[k], normal.map(|c| c * 1f64.copysign(outward))));
+            if size > longest_here {
                 left_out = true;
                 canvas.polyline(&std::mem::take(&mut tips), &pens.tips);
                 if longest.is_none_or(|(most, _)| size > most) {
-                    longest = Some((size, [feet[k], tip(self.longest)]));
+                    longest = Some((size, [feet[k], tip(longest_here)]));
                 }
                 continue;
             }

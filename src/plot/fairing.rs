@@ -86,7 +86,11 @@ pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f6
             let in_pieces = on(&[Face::Side]).len() > 1;
             let foot = lines.iter().flatten().min_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
             let is_open = foot.is_some_and(|foot| foot[1] > OPEN * hull.particulars().breadth);
+            // A bulb under a flare is in two pieces too, far wider than the stem beside it.
+            let widest = |points: &mut dyn Iterator<Item = &[f64; 3]>| points.map(|p| p[1]).fold(0.0, f64::max);
+            let breadth = widest(&mut lines.iter().flatten());
             let edge = if in_pieces || is_open { end_curve(hull, x) } else { None };
+            let edge = edge.filter(|edge| widest(&mut edge.iter()) >= 0.5 * breadth);
             edge.map_or(lines, |edge| vec![edge])
         }
         Cut::Diagonal { .. } => on(&[Face::Side, Face::Bottom, Face::Transom, Face::Bow]),

@@ -6,7 +6,7 @@
 //! own, millimetres of move a millimetre of arrow.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{LONG_SIDES, base, curves, extent, long_left, long_scale, short};
+use super::fairing::{LONG_SIDES, base, curves, extent, long_left, long_scale, short, station_words};
 use super::fairing_arrows::{AFTER, BEFORE, arrow, head, key, longest, ring};
 use super::label::{LabelPlacer, Preference, length};
 use super::scale::{drawing_scale, sheet_scale};
@@ -194,7 +194,7 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     let small = TextStyle::new(3.2, Anchor::Start);
     let words = [
         format!(
-            "PROFILE    buttocks by y; arrows: how far they rise or fall, {:.1} mm at most, 1 mm of arrow = {} mm",
+            "PROFILE    heights by z [m], buttocks by y; arrows: how far they rise or fall, {:.1} mm at most, 1 mm of arrow = {} mm",
             1000.0 * highest,
             profile.move_a_millimetre
         ),
@@ -227,6 +227,8 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     head(&mut canvas, record, paper, &format!("scale 1:{n}{stretched}"));
     let y = paper[1] - 14.0;
     canvas.text([14.0, y], "AFT", &small);
+    let middle = TextStyle::new(LETTERS, Anchor::Middle);
+    canvas.text([0.5 * paper[0], y], &station_words(record), &middle);
     canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);

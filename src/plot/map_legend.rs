@@ -17,6 +17,8 @@ pub(super) struct Legend {
     pub(super) full: f64,
     /// Knot lines at which curvature may jump and that are not marked.
     pub(super) more: usize,
+    /// Whether lines where curvature jumps, and knuckles, are marked.
+    pub(super) marked: [bool; 2],
     /// Whether ends of the keel are marked.
     pub(super) ends: bool,
     /// Whether the hull before fairing is there too.
@@ -28,11 +30,6 @@ impl Legend {
     pub(super) fn draw(&self, canvas: &mut Canvas, y: f64) {
         let style = TextStyle::new(TEXT, Anchor::Start);
         self.colours(canvas, y);
-        let jumps = if self.more > 0 {
-            format!("curvature may jump at {} lines of the surface that are not drawn", self.more)
-        } else {
-            "curvature jumps across a line of the surface".to_owned()
-        };
         let mut x = LEFT;
         let mut item = |canvas: &mut Canvas, row: f64, pen: Option<&Pen>, words: &str, first: bool| {
             if first {
@@ -47,15 +44,24 @@ impl Legend {
             canvas.text([x + 13.0, at], words, &style);
             x = Canvas::text_place([x + 13.0, at], words, &style).right + 6.0;
         };
-        item(canvas, 1.0, Some(&JUMP), &jumps, true);
-        item(canvas, 1.0, Some(&KNUCKLE_LINE), "knuckle", false);
-        item(canvas, 1.0, None, "no side: beyond deck and profiles, or on the flat of bottom, which is plane", false);
-        if self.ends {
-            let words = "end of the keel: beyond it girths begin at the profile; rows step there, and colours and stripes with them, not the \
-                         surface";
-            item(canvas, 2.0, Some(&KEEL_END), words, true);
+        item(canvas, 1.0, None, "no side: beyond deck and profiles, or on the flat of bottom, which is plane", true);
+        if self.marked[0] {
+            item(canvas, 1.0, Some(&JUMP), "curvature jumps across a line of the surface", false);
         }
-        if self.pair {
+        if self.marked[1] {
+            item(canvas, 1.0, Some(&KNUCKLE_LINE), "knuckle", false);
+        }
+        if self.ends {
+            let colours = if self.kind == SurfaceMapKind::Zebra { "stripes" } else { "colours" };
+            let words = format!(
+                "end of the keel: beyond it girths begin at the profile; rows step there, and {colours} with them, not the surface"
+            );
+            item(canvas, 2.0, Some(&KEEL_END), &words, true);
+        }
+        if self.more > 0 {
+            let words = format!("curvature may jump at {} lines of the surface, too many to be drawn", self.more);
+            canvas.text([LEFT, y + 3.0 * ROW], &words, &style);
+        } else if self.pair && self.marked[0] {
             let words = "before and after have the same net: through the table its lines carry a continuous curvature, after fairing they need \
                          not, so that dashes may stand after alone";
             canvas.text([LEFT, y + 3.0 * ROW], words, &style);

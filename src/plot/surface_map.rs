@@ -211,6 +211,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
     canvas.text([0.5 * ROOM[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let words = "the side developed: girth of each station from the centreplane, or from the stern or stem profile where it has no keel";
     canvas.text([0.5 * ROOM[0], 15.0], words, &TextStyle::new(TEXT, Anchor::Middle));
+    let mut marked = [false; 2];
     for (k, side) in sides.iter().enumerate() {
         let top = 28.0 + PITCH * k as f64;
         let chart = Chart {
@@ -230,7 +231,8 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
                 canvas.polyline(&line, &Pen::new(0.3, "#000000"));
             }
         }
-        draw_breaks(&mut canvas, &chart, side.map, jumps, jump);
+        let drawn = draw_breaks(&mut canvas, &chart, side.map, jumps, jump);
+        marked = [0, 1].map(|k| marked[k] || drawn[k]);
         for &x in &ends {
             let [at, _] = chart.place([x, 0.0]);
             canvas.line([at, chart.frame.bottom], [at, chart.frame.top], &KEEL_END);
@@ -249,6 +251,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
         kind,
         full,
         more: sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0),
+        marked,
         ends: !ends.is_empty(),
         pair: before.is_some(),
     };
@@ -352,8 +355,10 @@ fn half(corners: &[Corner], sign: impl Fn(f64) -> f64) -> Vec<Corner> {
     part
 }
 
-/// The knot lines of the surface where curvature `which` jumps by [`JUMP_STEP`] or more, or the tangent plane breaks.
-fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, full: f64) {
+/// The knot lines of the surface where curvature `which` jumps by [`JUMP_STEP`] or more, or the tangent plane breaks. Whether there are lines of
+/// either kind.
+fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, full: f64) -> [bool; 2] {
+    let mut drawn = [false; 2];
     let step = |value: f64| (value.abs() / full).min(1.0).sqrt().copysign(value) * f64::from(STEPS);
     for found in &map.breaks {
         let mut runs: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
@@ -366,6 +371,7 @@ fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usiz
                 a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
             let knuckle = found.line == KnotLine::Knuckle && angle >= KNUCKLE;
             let place = chart.place([a.at[0], a.girth]);
+            drawn = [drawn[0] || jump && !knuckle, drawn[1] || knuckle];
             for (run, (here, pen)) in runs.iter_mut().zip([(jump && !knuckle, &JUMP), (knuckle, &KNUCKLE_LINE)]) {
                 if here {
                     run.push(place);
@@ -378,6 +384,7 @@ fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usiz
         canvas.polyline(&jumps, &JUMP);
         canvas.polyline(&knuckles, &KNUCKLE_LINE);
     }
+    drawn
 }
 
 /// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature is positive and
