@@ -1,5 +1,5 @@
-//! Whole jobs of fairing without pictures: tables of 21 stations and 11 waterlines of Wigley's hull with 2 mm and 25 mm of noise, for
-//! which at most 30 ms are wanted.
+//! Whole jobs of fairing without pictures: tables of 21 stations and 11 waterlines of Wigley's hull with 2 mm and 25 mm
+//! of noise, for which at most 30 ms are wanted.
 
 #[path = "../tests/truth_hulls/mod.rs"]
 mod truth_hulls;

@@ -1,6 +1,6 @@
-//! Elapsed time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured interior point
-//! against Clarabel in the same run, a second solve after one lock was moved, and the least bending energy within the same rows (336 and
-//! 2,400 unknowns). `cargo bench --bench qp [-- 336]`.
+//! Elapsed time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured
+//! interior point against Clarabel in the same run, a second solve after one lock was moved, and the least bending
+//! energy within the same rows (336 and 2,400 unknowns). `cargo bench --bench qp [-- 336]`.
 
 #[path = "../tests/qp_problems/mod.rs"]
 mod qp_problems;
@@ -44,7 +44,8 @@ fn warm(problem: &Problem, lock: usize) -> [f64; 2] {
     [cold, start.elapsed().as_secs_f64()]
 }
 
-/// Seconds from the program of least thin-plate energy to the least bending energy within its rows, shortest of `rounds`, and the end.
+/// Seconds from the program of least thin-plate energy to the least bending energy within its rows, shortest of
+/// `rounds`, and the end.
 fn bending(problem: &Problem, net: [usize; 2], rounds: usize) -> (f64, LeastBending) {
     let mut shortest = f64::INFINITY;
     let start = problem.solve(&Settings::default()).unwrap().x;

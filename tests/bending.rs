@@ -117,8 +117,8 @@ fn a_folded_chart_has_no_energy() {
     assert!(bending_energy(&surface).is_some() && bending_energy(&folded).is_none());
 }
 
-/// At the end the gradient of the true functional, by differences, is balanced by the multipliers of the rows; the rows hold, no step
-/// raised the energy, and no point between it and others that keep the rows is better.
+/// At the end the gradient of the true functional, by differences, is balanced by the multipliers of the rows; the rows
+/// hold, no step raised the energy, and no point between it and others that keep the rows is better.
 #[test]
 fn the_least_energy_is_stationary_within_the_rows() {
     let net = [14, 10];

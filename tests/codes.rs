@@ -49,8 +49,8 @@ fn codes(text: &str) -> Vec<(char, String)> {
         .collect()
 }
 
-/// Codes that the program says, codes that the heads of its files explain, and codes that its tests name: those of `tests/`, and those of
-/// the tests within the sources.
+/// Codes that the program says, codes that the heads of its files explain, and codes that its tests name: those of
+/// `tests/`, and those of the tests within the sources.
 fn known() -> [BTreeSet<String>; 3] {
     let [mut said, mut explained, mut tested] = [const { BTreeSet::new() }; 3];
     let mut files = Vec::new();

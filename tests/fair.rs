@@ -444,7 +444,8 @@ fn a_table_that_is_right_stays() {
     assert!(rms < 5e-5 && largest < 1e-4, "{rms} {largest}");
 }
 
-/// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line bends more often.
+/// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
+/// bends more often.
 #[test]
 fn the_bending_energy_is_minimised_within_what_is_held() {
     let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);

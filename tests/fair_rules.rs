@@ -253,8 +253,8 @@ fn metacentre_and_wetted_surface_are_held() {
     }
 }
 
-/// 25 stations and 21 waterlines of a hull with a chine at 6 m from end to end, which the table does not declare; noise of 2 mm from
-/// a sequence of its own (Weyl).
+/// 25 stations and 21 waterlines of a hull with a chine at 6 m from end to end, which the table does not declare; noise
+/// of 2 mm from a sequence of its own (Weyl).
 fn chined() -> OffsetTable {
     let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
     let mut count = 0;

@@ -77,10 +77,10 @@ fn swings(hull: &Hull, greatest: f64) -> [f64; 2] {
     range.map(|r| r / greatest)
 }
 
-/// Volumes published, or exact for Wigley's hull; the allowed part is what the data justify (the parents of Series 60 have
-/// eight waterlines, two of them below a quarter of the draught). The coaster's printed table is itself below its IGES file at small
-/// draughts: there the file encloses 59.439 and 190.29 m^3 at T = 0.5 and 1.0 m, which an independent integration of its surfaces has
-/// too (59.439, 190.285), and 59.252 and 189.59 m^3 are printed.
+/// Volumes published, or exact for Wigley's hull; the allowed part is what the data justify (the parents of Series 60
+/// have eight waterlines, two of them below a quarter of the draught). The coaster's printed table is itself below its
+/// IGES file at small draughts: there the file encloses 59.439 and 190.29 m^3 at T = 0.5 and 1.0 m, which an
+/// independent integration of its surfaces has too (59.439, 190.285), and 59.252 and 189.59 m^3 are printed.
 #[test]
 fn published_volumes() {
     let hulls = [
@@ -208,8 +208,9 @@ fn a_box_of_three_points_a_section() {
     assert!((volume / 10_000.0 - 1.0).abs() < 1e-9, "{volume}");
 }
 
-/// Sections with flat bottoms, bulbs, skegs and nearly level sterns: points met, nothing swings, published volumes. The hollows of meshes
-/// that are put on one height (GHS, trawler) leave a trace in half-breadth that is long where the section is nearly level.
+/// Sections with flat bottoms, bulbs, skegs and nearly level sterns: points met, nothing swings, published volumes. The
+/// hollows of meshes that are put on one height (GHS, trawler) leave a trace in half-breadth that is long where the
+/// section is nearly level.
 #[test]
 fn sections_are_followed_around_ledges_and_bulbs() {
     let cases = [

@@ -152,7 +152,8 @@ fn the_flat_of_side_is_flat() {
         assert_eq!(fitted.chart, Chart::Level);
         for i in 0..=120 {
             let x = f64::from(i);
-            // From the edge itself where it is level for two spaces on both sides, else from the waterline above it at the stations on both sides.
+            // From the edge itself where it is level for two spaces on both sides, else from the waterline above it at
+            // the stations on both sides.
             let beside = edge(10.0 * (x / 10.0).floor()).max(edge(10.0 * (x / 10.0).ceil()));
             let next = lines.iter().copied().find(|&z| z >= beside).unwrap_or(9.0);
             let from = if (50.0..=70.0).contains(&x) { 3.0 } else { next };
@@ -366,7 +367,8 @@ proptest! {
 
 #[test]
 fn what_is_plumb_stays_plumb_and_what_is_closed_stays_closed() {
-    // A stem that rakes below the second waterline and is plumb above it, with breadth; a keel without breadth that opens over a bulb.
+    // A stem that rakes below the second waterline and is plumb above it, with breadth; a keel without breadth that
+    // opens over a bulb.
     let keel = [0.0, 0.15, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.13, 0.15, 0.0];
     let lines = [0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
     let stations = steps(0.0, 120.0, 12);

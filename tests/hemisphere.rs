@@ -147,7 +147,8 @@ fn towards_the_pole() {
     assert!(surface.jet(1.0, FRAC_PI_2).curvature().is_none());
 }
 
-/// Without the symmetries (open knots by averaging, chord lengths) the ends spoil it: a cubic errs by 11 per cent, degree 7 by 6e-4.
+/// Without the symmetries (open knots by averaging, chord lengths) the ends spoil it: a cubic errs by 11 per cent,
+/// degree 7 by 6e-4.
 #[test]
 fn open_interpolation_is_limited_by_its_ends() {
     let sites = chord_parameters();

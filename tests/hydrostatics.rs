@@ -147,8 +147,8 @@ fn knots(degree: usize, breaks: &[f64]) -> KnotVector {
     KnotVector::from_breakpoints(degree, breaks, &vec![1; breaks.len() - 2]).unwrap()
 }
 
-/// y = 8 g (1 - ((x - 47 - z) / 60)^2) with g = z (20 - z) / 100 on lines x = u + slant z: the area is a parabola in x with its vertex at
-/// 47 + int g z dz / int g dz.
+/// y = 8 g (1 - ((x - 47 - z) / 60)^2) with g = z (20 - z) / 100 on lines x = u + slant z: the area is a parabola in x
+/// with its vertex at 47 + int g z dz / int g dz.
 #[test]
 fn largest_section_where_the_lines_slant() {
     for slant in [0.5, -0.7, 2.0] {

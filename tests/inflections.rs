@@ -218,8 +218,8 @@ fn numbers_that_make_no_bands() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Coarse values and bands make many near misses. The number must be certified, and no curve through the middle of random values
-    /// within the bands may have fewer changes.
+    /// Coarse values and bands make many near misses. The number must be certified, and no curve through the middle of
+    /// random values within the bands may have fewer changes.
     #[test]
     fn random_bands(
         values in prop::collection::vec(0..7i32, 4..12),

@@ -459,8 +459,9 @@ fn a_parabola_has_its_curvature_outward() {
     }
 }
 
-/// Curvatures of y = (B/2) (1 - (2x/L - 1)^2) (1 - (1 - z/T)^2) as a graph over the centreplane: K = (y_xx y_zz - y_xz^2) / (1 + y_x^2 +
-/// y_z^2)^2 and H = -((1 + y_z^2) y_xx - 2 y_x y_z y_xz + (1 + y_x^2) y_zz) / (2 (1 + y_x^2 + y_z^2)^(3/2)).
+/// Curvatures of y = (B/2) (1 - (2x/L - 1)^2) (1 - (1 - z/T)^2) as a graph over the centreplane: K = (y_xx y_zz -
+/// y_xz^2) / (1 + y_x^2 + y_z^2)^2 and H = -((1 + y_z^2) y_xx - 2 y_x y_z y_xz + (1 + y_x^2) y_zz) / (2 (1 + y_x^2 +
+/// y_z^2)^(3/2)).
 #[test]
 fn maps_of_the_wigley_hull_have_its_curvature_and_girth() {
     let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };

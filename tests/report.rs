@@ -1,5 +1,5 @@
-//! The command `report`: what it reads and refuses, its files, their bytes, the structure of its figures against kept ones, and the page in a
-//! browser.
+//! The command `report`: what it reads and refuses, its files, their bytes, the structure of its figures against kept
+//! ones, and the page in a browser.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -309,7 +309,8 @@ fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
     assert_eq!(text(&files, "sections.svg"), text(&small, "sections.svg"));
 }
 
-/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide: their attribute times the scale of the groups around them.
+/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide: their attribute times the scale of the
+/// groups around them.
 fn letters(svg: &str) -> Vec<f64> {
     let number = |text: &str, key: &str| -> Option<f64> {
         let rest = &text[text.find(key)? + key.len()..];

@@ -1,9 +1,9 @@
 //! `check` on sections given as points and on heights at buttocks: planted errors are found, clean tables are silent.
 //!
-//! A planted error is one slip of the pen (digits swapped, a look-alike digit, one digit wrong, a decimal slipped) in y or z of a
-//! point with three points on either side, that moves the point at least LEAST off the polygon through the true neighbours; what moves it
-//! less, or along the section, changes no section. Tables that must not be carried are read from the folder LOFTSMAN_DATA (or
-//! ../shared/data) and said to be skipped when it is absent.
+//! A planted error is one slip of the pen (digits swapped, a look-alike digit, one digit wrong, a decimal slipped) in y
+//! or z of a point with three points on either side, that moves the point at least LEAST off the polygon through the
+//! true neighbours; what moves it less, or along the section, changes no section. Tables that must not be carried are
+//! read from the folder LOFTSMAN_DATA (or ../shared/data) and said to be skipped when it is absent.
 
 use std::fs;
 use std::path::{Path, PathBuf};

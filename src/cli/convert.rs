@@ -15,8 +15,8 @@ use crate::units::Notation;
 pub(super) struct Arguments {
     /// Table of offsets or body in any of the formats below; hull.json, a folder that holds one, or a design file
     table: PathBuf,
-    /// File to write instead of stdout. Its ending says the format: .csv, .xlsx (a workbook); or one of those of `export`: .step, .igs,
-    /// .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, .bri, .ftm, .mlt
+    /// File to write instead of stdout. Its ending says the format: .csv, .xlsx (a workbook); or one of those of
+    /// `export`: .step, .igs, .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, .bri, .ftm, .mlt
     output: Option<PathBuf>,
     /// Format of the file, one of those of `export`, where its ending does not say it
     #[arg(short, long, value_parser = super::export::format, value_name = "FORMAT")]
@@ -51,8 +51,8 @@ fn layout(word: &str) -> Result<TableLayout, String> {
     }
 }
 
-/// The ending of the file must say a format: that of a table, or that of the table which is written back. A name without any is that of a
-/// stream.
+/// The ending of the file must say a format: that of a table, or that of the table which is written back. A name
+/// without any is that of a stream.
 fn known_ending(output: &Path, table: Option<&Path>) -> Result<(), Failure> {
     let Some(ending) = output.extension() else { return Ok(()) };
     let own = table.and_then(Path::extension).is_some_and(|own| own.eq_ignore_ascii_case(ending));

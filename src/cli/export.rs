@@ -35,18 +35,19 @@ pub(super) struct Arguments {
     /// Edges of a mesh across deck, bottom and transom, about
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
     across: u16,
-    /// Height above the base line that is z = 0 in the files: a length up to a hundred depths, or `waterline` for the design draught
+    /// Height above the base line that is z = 0 in the files: a length up to a hundred depths, or `waterline` for the
+    /// design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
     /// Draught of panels, and of the offsets for Michlet, above the base line [default: of the hull]
     #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     draught: Option<f64>,
-    /// Length of the sides of panels; without it a fiftieth of Lpp, or as much less, down to a quarter of that, as brings the volume of the
-    /// panels within 0.5 % of the hull's
+    /// Length of the sides of panels; without it a fiftieth of Lpp, or as much less, down to a quarter of that, as
+    /// brings the volume of the panels within 0.5 % of the hull's
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     panel: Option<f64>,
-    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two triangles. With 0 all
-    /// panels are planar; 0.01 makes about half as many
+    /// What corners of a quadrilateral panel may leave their mean plane by, over its longer diagonal; others become two
+    /// triangles. With 0 all panels are planar; 0.01 makes about half as many
     #[arg(long, value_parser = flatness, value_name = "RATIO", default_value_t = 0.0, allow_hyphen_values = true)]
     flatness: f64,
     /// Overwrite files that are there already

@@ -38,7 +38,8 @@ pub(super) struct Arguments {
     /// Least departure from a batten that is seen on paper
     #[arg(long, value_parser = positive, value_name = "LENGTH", default_value = "0.1 mm")]
     resolution: f64,
-    /// n of the scale 1:n of the drawing; without it the largest of 10, 25, 50, 100, 200, 500 at which the ship is at most 2.5 m long
+    /// n of the scale 1:n of the drawing; without it the largest of 10, 25, 50, 100, 200, 500 at which the ship is at
+    /// most 2.5 m long
     #[arg(long, value_parser = scale, value_name = "N")]
     scale: Option<f64>,
     /// Least departure that counts, on the ship, instead of resolution and scale

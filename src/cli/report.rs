@@ -23,7 +23,8 @@ pub(super) struct Arguments {
     /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
     #[arg(long, value_parser = sheet, value_name = "SHEET", default_value = "A3")]
     sheet: Sheet,
-    /// Lines of a faired table that bear combs, by kind and name or distance in metres: "station 5, waterline 2.0, buttock 1.5, diagonal 3"
+    /// Lines of a faired table that bear combs, by kind and name or distance in metres: "station 5, waterline 2.0,
+    /// buttock 1.5, diagonal 3"
     #[arg(long, value_name = "LINES", default_value = "", hide_default_value = true)]
     combs: String,
     /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the same bytes

@@ -214,7 +214,8 @@ fn family(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The commented design file of the template `name`, or of the preset that it is another word for; none when there is no such template.
+/// The commented design file of the template `name`, or of the preset that it is another word for; none when there is
+/// no such template.
 #[must_use]
 pub fn template(name: &str) -> Option<String> {
     let name = preset_of(name);

@@ -1,9 +1,10 @@
 //! Single curves as CSV: what `fair-curve` reads, and its `curve.csv` and `fairing.json`.
 //!
-//! Columns, by their names in the first line or in this order: abscissa (`x`), ordinate (`y`), tolerance, flag; others are not read. Units may
-//! stand in the names, `y [mm]`. Cells have the grammar of tables of offsets ([`crate::units::parse_cell`]): feet-inches-eighths, brackets
-//! for doubtful ordinates, `?` for one that is to be predicted, marks `K` (knuckle), `T` (tangent point) and `!` (locked) on the
-//! ordinate or in the column of flags. Lines that are empty or begin with `#` are passed over.
+//! Columns, by their names in the first line or in this order: abscissa (`x`), ordinate (`y`), tolerance, flag; others
+//! are not read. Units may stand in the names, `y [mm]`. Cells have the grammar of tables of offsets
+//! ([`crate::units::parse_cell`]): feet-inches-eighths, brackets for doubtful ordinates, `?` for one that is to be
+//! predicted, marks `K` (knuckle), `T` (tangent point) and `!` (locked) on the ordinate or in the column of flags.
+//! Lines that are empty or begin with `#` are passed over.
 
 use serde_json::{Value, json};
 

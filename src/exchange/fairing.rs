@@ -275,7 +275,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "noise": { "sigma": number(faired.sigma) },
         // The functional of true curvature at the convex answer and after each refresh of its metric.
         "refreshes": faired.refreshed.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
-        // The integral of k1^2 + k2^2 over the surface at the convex answer and after each step, and what the last step still promised.
+        // The integral of k1^2 + k2^2 over the surface at the convex answer and after each step, and what the last step
+        // still promised.
         "bending": faired.bent.as_ref().map(|bent| json!({
             "energies": bent.energies.iter().map(|value| number(*value)).collect::<Vec<_>>(), "promised": number(bent.promised),
         })),
@@ -320,9 +321,9 @@ fn without_noise(value: f64) -> f64 {
     if value.abs() < 1e-12 { 0.0 } else { value }
 }
 
-/// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first outline), place, before, after, move (outward positive), tolerance,
-/// the share of it that is used, whether it is locked or was left out as a suspect, and its text in the old table and in
-/// `written`, the new one as it is read back.
+/// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first
+/// outline), place, before, after, move (outward positive), tolerance, the share of it that is used, whether it is
+/// locked or was left out as a suspect, and its text in the old table and in `written`, the new one as it is read back.
 #[must_use]
 pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&OffsetTable>) -> String {
     let head = [

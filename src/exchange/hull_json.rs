@@ -1,10 +1,11 @@
 //! `hull.json`: the hull as numbers, read back bit for bit.
 //!
-//! An object with `format` "loftsman-hull", `version` 1, `name`, `particulars` (Lpp, B, T, D), `surface` (`degree` in u and
-//! v, `knots` in u and v, and the nets `x`, `y`, `z`: one list for each control point along the ship, aft to forward, with
-//! one number for each control point from bottom to top; on a level hull all lists of `z` are equal), `deck` (degree, knots, x, z of the deck at side) and
-//! `conventions`. All lengths in metres. Numbers are the shortest decimals that read back to the same bits. Members that a
-//! reader does not know are left alone, so that later programs can add to version 1.
+//! An object with `format` "loftsman-hull", `version` 1, `name`, `particulars` (Lpp, B, T, D), `surface` (`degree` in u
+//! and v, `knots` in u and v, and the nets `x`, `y`, `z`: one list for each control point along the ship, aft to
+//! forward, with one number for each control point from bottom to top; on a level hull all lists of `z` are equal),
+//! `deck` (degree, knots, x, z of the deck at side) and `conventions`. All lengths in metres. Numbers are the shortest
+//! decimals that read back to the same bits. Members that a reader does not know are left alone, so that later programs
+//! can add to version 1.
 
 use serde::{Deserialize, Serialize};
 

@@ -132,8 +132,8 @@ impl From<ConventionsRecord> for Conventions {
     }
 }
 
-/// The conventions as a JSON object: density \[t/m^3\], coefficient_length, section_for_Cp, lcb_reference, shell, keel_thickness \[m\], KG \[m\],
-/// and the reference points in words.
+/// The conventions as a JSON object: density \[t/m^3\], coefficient_length, section_for_Cp, lcb_reference, shell,
+/// keel_thickness \[m\], KG \[m\], and the reference points in words.
 #[must_use]
 pub fn conventions_json(conventions: &Conventions) -> Value {
     let mut value = serde_json::to_value(ConventionsRecord::from(conventions)).unwrap_or(Value::Null);
@@ -157,7 +157,8 @@ pub fn row_json(row: &Hydrostatics) -> Value {
     Value::Object(object)
 }
 
-/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`; null for a body of triangles.
+/// `{"conventions": {...}, "rows": [{"T": ..., ...}, ...], "hull": {...}}`, the hull as in `hull.json`; null for a body
+/// of triangles.
 ///
 /// # Errors
 /// A number that JSON cannot write; a [`Hull`] has none.

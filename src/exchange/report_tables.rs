@@ -51,8 +51,8 @@ pub fn section_areas_csv(stations: &[f64], heights: &[f64], areas: &[Vec<Option<
     text
 }
 
-/// The hydrostatic table as a workbook: a sheet of the table with one row of keys and one of units, a sheet of `conventions` (what, how),
-/// and a sheet that defines every quantity. Same table, same bytes.
+/// The hydrostatic table as a workbook: a sheet of the table with one row of keys and one of units, a sheet of
+/// `conventions` (what, how), and a sheet that defines every quantity. Same table, same bytes.
 ///
 /// # Errors
 /// What a workbook cannot hold, in words.

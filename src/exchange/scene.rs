@@ -1,10 +1,10 @@
 //! The scene of the viewer of a report: sides of hulls as grids with curvature, curves of planes, combs; as one JSON object.
 //!
-//! Port side alone; lengths in metres to a tenth of a millimetre, curvatures to four digits. `midship` is L_PP/2; `full` the Gaussian and mean curvature
-//! of the full colours; `hulls` are in the order they were given; each has
-//! `name`, `rows` (points of a column), `points` (x, y, z, column by column from aft, keel to deck), `gaussian` and `mean` (as long as there are
-//! points; 0 where there is no tangent plane), `curves` by kind as lists of x, y, z, and `combs` by kind as `feet` and `teeth`,
-//! the tooth in 1/m.
+//! Port side alone; lengths in metres to a tenth of a millimetre, curvatures to four digits. `midship` is L_PP/2;
+//! `full` the Gaussian and mean curvature of the full colours; `hulls` are in the order they were given; each has
+//! `name`, `rows` (points of a column), `points` (x, y, z, column by column from aft, keel to deck), `gaussian` and
+//! `mean` (as long as there are points; 0 where there is no tangent plane), `curves` by kind as lists of x, y, z, and
+//! `combs` by kind as `feet` and `teeth`, the tooth in 1/m.
 
 use serde_json::{Value, json};
 

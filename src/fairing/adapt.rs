@@ -1,31 +1,32 @@
 //! An energy whose weight varies over the net of a fit: less smoothing where the surface bends sharply.
 //!
-//! The energy is that of true curvature with the metric of the start ([`super::metric`]). Its terms (waterlines, mixed, stations) are weighed
-//! each for itself: with e_k the part of a term that the start has in a cell of the knots over the area of the cell, averaged with the cells
-//! around it, it counts
+//! The energy is that of true curvature with the metric of the start ([`super::metric`]). Its terms (waterlines, mixed,
+//! stations) are weighed each for itself: with e_k the part of a term that the start has in a cell of the knots over
+//! the area of the cell, averaged with the cells around it, it counts
 //!
 //! ```text
 //! rho_k = min(1, median(e) / e_k)^1.5:
 //! ```
 //!
-//! one weight for the whole surface either leaves the noise of the side or cuts the bilge and the ends, whose energies lie decades
-//! apart; one weight for all terms lets the stations go where only the waterlines turn, at the bow. Across a line of the net where only the
-//! slope is continuous, the energy of order 3 sees nothing of a jump J of the curvature; the start has next to
-//! none there where it is smooth, and smoothing would make one. It is charged as a rate J/h over the mean length h of
-//! the spans beside it,
+//! one weight for the whole surface either leaves the noise of the side or cuts the bilge and the ends, whose energies
+//! lie decades apart; one weight for all terms lets the stations go where only the waterlines turn, at the bow. Across
+//! a line of the net where only the slope is continuous, the energy of order 3 sees nothing of a jump J of the
+//! curvature; the start has next to none there where it is smooth, and smoothing would make one. It is charged as a
+//! rate J/h over the mean length h of the spans beside it,
 //!
 //! ```text
 //! 10 rho int J^2 / h,   rho that of the cells beside it, or (median(e) / e_J)^1.5 by the density e_J of the start's own jump where that is less:
 //! ```
 //!
-//! tangent lines, at which the start jumps, are spared. A rise of curvature that may be shared between jumps and the spans is least with
-//! 1/(1 + 10) of it in the jumps. (Smoothing splines with a varying weight: Pintore, Speckman & Holmes 2006.) Measured on benches/truth, three
-//! tables each: a Series 60 with 2 mm comes to 2.8 mm (3.8 mm with derivatives by the parameters of the chart and one weight for all
-//! terms), with 41 mm to 25.8 mm (25.8), an S-175 with 2 mm to 3.9 mm (3.8), with 64 mm to 43.6 mm (45.6), and no saws are left on the
-//! stations of the DTC. Charging jumps once instead of ten times: 3.6 and 3.8 mm with half of every rise in the jumps; a hundred times: 3.2 and
-//! 4.5 mm. Exponents 1 and 2 are within a tenth. Tried without success: weighing the cells again by the net that was smoothed (S-175 with 2 mm: 4.9 mm);
-//! true curvature on charts that do not run level, whose waterlines graze the lines of the net at the keel (a trawler: waterlines 148 > 172
-//! changes of sign instead of 148).
+//! tangent lines, at which the start jumps, are spared. A rise of curvature that may be shared between jumps and the
+//! spans is least with 1/(1 + 10) of it in the jumps. (Smoothing splines with a varying weight: Pintore, Speckman &
+//! Holmes 2006.) Measured on benches/truth, three tables each: a Series 60 with 2 mm comes to 2.8 mm (3.8 mm with
+//! derivatives by the parameters of the chart and one weight for all terms), with 41 mm to 25.8 mm (25.8), an S-175
+//! with 2 mm to 3.9 mm (3.8), with 64 mm to 43.6 mm (45.6), and no saws are left on the stations of the DTC. Charging
+//! jumps once instead of ten times: 3.6 and 3.8 mm with half of every rise in the jumps; a hundred times: 3.2 and 4.5
+//! mm. Exponents 1 and 2 are within a tenth. Tried without success: weighing the cells again by the net that was
+//! smoothed (S-175 with 2 mm: 4.9 mm); true curvature on charts that do not run level, whose waterlines graze the lines
+//! of the net at the keel (a trawler: waterlines 148 > 172 changes of sign instead of 148).
 
 use super::cells::{Cells, Row, add_square};
 use super::metric::Metric;
@@ -193,15 +194,15 @@ mod tests {
         assert!((found / (CHARGE * 256.0) - 1.0).abs() < 1e-6, "{found}");
     }
 
-    /// The same half-breadths over a chart with waves of its own: what is smooth on the stations costs nothing, whatever its control values
-    /// are.
+    /// The same half-breadths over a chart with waves of its own: what is smooth on the stations costs nothing,
+    /// whatever its control values are.
     #[test]
     fn waves_of_the_chart_cost_nothing() {
         let (u, v) = (KnotVector::uniform(3, 8).unwrap(), KnotVector::uniform(3, 8).unwrap());
         let plain = surface(&u, &v, |_, _| 0.0);
         let columns = v.basis_count();
-        // Lines u = const swing by 3 m, and the section y = 5 + 0.2 x - 1e-3 x^2 / 2 follows: a quadratic of a spline has no control values
-        // that are simple, a linear one has.
+        // Lines u = const swing by 3 m, and the section y = 5 + 0.2 x - 1e-3 x^2 / 2 follows: a quadratic of a spline
+        // has no control values that are simple, a linear one has.
         let waved: Vec<[f64; 3]> = plain
             .points()
             .iter()

@@ -6,9 +6,10 @@
 //! F = int int (k1^2 + k2^2) dA = int int (N^2 / W^5 - 2 (r t - s^2) / W^3) dx dz,     N = (1 + q^2) r - 2 p q s + (1 + p^2) t
 //! ```
 //!
-//! of the principal curvatures k1 and k2 (4 H^2 - 2 K by mean and Gaussian curvature; do Carmo, Differential Geometry of Curves and
-//! Surfaces, 1976, 3-3), a number without a unit. x and z stay functions of the parameters, so that p to t are linear in the half-breadths;
-//! Gauss sums over the cells of the net, with as many nodes in either direction as its degree plus one.
+//! of the principal curvatures k1 and k2 (4 H^2 - 2 K by mean and Gaussian curvature; do Carmo, Differential Geometry
+//! of Curves and Surfaces, 1976, 3-3), a number without a unit. x and z stay functions of the parameters, so that p to
+//! t are linear in the half-breadths; Gauss sums over the cells of the net, with as many nodes in either direction as
+//! its degree plus one.
 //!
 //! The second derivatives of the integrand by p to t are exact and are taken without their negative part: F is not convex, its
 //! quadratic model is.

@@ -28,8 +28,8 @@ pub const DEAD: f64 = 0.01;
 /// A line that leaves its chord by less is straight \[m\].
 const STRAIGHT: f64 = 1e-5;
 
-/// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and nothing lies strictly
-/// within them all.
+/// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and
+/// nothing lies strictly within them all.
 const ROOM: f64 = 0.01;
 
 /// A line of the ship's drawing.
@@ -116,8 +116,9 @@ impl Bend {
 }
 
 impl Bend {
-    /// The limit that gives the numerator a sign, scaled to size 1, but for a part of the dead band about `none` \[1/m\], the curvature
-    /// below which there is none, at the slopes of `net`; none where the line has no bend to give.
+    /// The limit that gives the numerator a sign, scaled to size 1, but for a part of the dead band about `none`
+    /// \[1/m\], the curvature below which there is none, at the slopes of `net`; none where the line has no bend to
+    /// give.
     #[must_use]
     pub fn limit(&self, positive: bool, net: &[f64], none: f64) -> Option<Limit> {
         let scaled = self.scaled(net, ROOM * none)?;
@@ -176,8 +177,9 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     }
 }
 
-/// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make flats of all else,
-/// and at least that of an arc as long as the line that leaves its chord by a hundredth of a millimetre.
+/// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make
+/// flats of all else, and at least that of an arc as long as the line that leaves its chord by a hundredth of a
+/// millimetre.
 #[must_use]
 pub fn dead(bends: &[Bend], net: &[f64]) -> f64 {
     let length = bends.first().zip(bends.last()).map_or(0.0, |(first, last)| (last.at - first.at).abs());
@@ -210,10 +212,11 @@ pub fn changes(signs: &[i8]) -> usize {
     told.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the band is left open, and
-/// no more than what departs by `seen` \[m\] over the length of the part. Lobes that depart by less than `seen` from their chord, which
-/// nobody counts, may fade but not grow: they would be counted. Where `strictly`, nothing is in the dead band, and a line all of whose lobes that
-/// are counted turn one way turns that way everywhere: lobes of the other sign might join to one that is seen.
+/// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the
+/// band is left open, and no more than what departs by `seen` \[m\] over the length of the part. Lobes that depart by
+/// less than `seen` from their chord, which nobody counts, may fade but not grow: they would be counted. Where
+/// `strictly`, nothing is in the dead band, and a line all of whose lobes that are counted turn one way turns that way
+/// everywhere: lobes of the other sign might join to one that is seen.
 #[must_use]
 pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Limit> {
     let none = dead(bends, start);

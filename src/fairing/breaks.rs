@@ -1,5 +1,5 @@
-//! Straight parts of a table: parallel bodies, flats of side and bottom, straight floors, found from the offsets, and how the curves
-//! leave them.
+//! Straight parts of a table: parallel bodies, flats of side and bottom, straight floors, found from the offsets, and
+//! how the curves leave them.
 //!
 //! The lines that run one way (all waterlines, or all stations) are straight between two offsets when the straight lines of
 //! least squares leave no more than the noise,
@@ -8,10 +8,12 @@
 //! RSS <= sigma^2 (f + 3 sqrt(2 f)),   f = (sites - 2) lines.
 //! ```
 //!
-//! The longest such parts are taken, and once more those of 1.3 sigma, since sigma may have been estimated too low by chance (by a quarter or more in
-//! three of thirty tables of the benchmark's middle body with 10 mm): of both lists the one with the least criterion below stands. At their ends the curves are continuous in value and slope (tangent line: four-fold knot of a
-//! quintic net) or in curvature as well (three-fold knot); kind and place come from pooled cross-validation, in which all
-//! lines are smoothed one by one on the same knots with the same weight and share their leverages h,
+//! The longest such parts are taken, and once more those of 1.3 sigma, since sigma may have been estimated too low by
+//! chance (by a quarter or more in three of thirty tables of the benchmark's middle body with 10 mm): of both lists the
+//! one with the least criterion below stands. At their ends the curves are continuous in value and slope (tangent line:
+//! four-fold knot of a quintic net) or in curvature as well (three-fold knot); kind and place come from pooled
+//! cross-validation, in which all lines are smoothed one by one on the same knots with the same weight and share their
+//! leverages h,
 //!
 //! ```text
 //! GCV = M RSS / (M - gamma L sum h)^2,   M readings on L lines, gamma = 1.2.
@@ -80,8 +82,8 @@ impl Course {
         self.straight.iter().any(|[a, b]| (*a..=*b).contains(&mid))
     }
 
-    /// Quintic knots on [0, 1] with the breaks, and about `spans` spans shared out by the numbers of the offsets between the breaks;
-    /// straight parts have one.
+    /// Quintic knots on [0, 1] with the breaks, and about `spans` spans shared out by the numbers of the offsets
+    /// between the breaks; straight parts have one.
     ///
     /// # Errors
     /// [`SplineError`] when breaks coincide.
@@ -138,8 +140,8 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// The least value of the criterion over the weight, downhill from the power `near` of a course like this where it is known; none where
-    /// no weight determines the splines.
+    /// The least value of the criterion over the weight, downhill from the power `near` of a course like this where it
+    /// is known; none where no weight determines the splines.
     fn criterion(&self, course: &Course, near: Option<i32>) -> Option<Fit> {
         let lines: Vec<&Vec<f64>> = self.values.iter().filter(|values| is_whole(values)).collect();
         let knots = course.knots(&self.sites, self.spans).ok()?;

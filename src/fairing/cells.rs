@@ -1,6 +1,7 @@
 //! The cells of a net and the lines between them: bases at Gauss nodes, and sums of squares over them.
 //!
-//! Everything is measured in parameters that run from 0 to 1. What is summed are combinations of partial derivatives of the half-breadth,
+//! Everything is measured in parameters that run from 0 to 1. What is summed are combinations of partial derivatives of
+//! the half-breadth,
 //!
 //! ```text
 //! sum_st c_st d^(s+t) y / du^s dv^t,

@@ -1,9 +1,10 @@
 //! The program without signs; where it has no answer, the best compromise: every other wish, with tolerances as wide as they must
 //! be, and why.
 //!
-//! Limits that would hardly ever matter, of half-breadths far from 0 and B/2 and of what the surface moves between the offsets, are
-//! asked for where an answer breaks them, until it breaks none. What contradicts itself goes on doing so with more limits: the tolerances are
-//! wide from then on, and only where that is not wide enough any more the least widening is asked for again.
+//! Limits that would hardly ever matter, of half-breadths far from 0 and B/2 and of what the surface moves between the
+//! offsets, are asked for where an answer breaks them, until it breaks none. What contradicts itself goes on doing so
+//! with more limits: the tolerances are wide from then on, and only where that is not wide enough any more the least
+//! widening is asked for again.
 
 use super::constraint::{between, broken, control_values};
 use super::fair::FairError;

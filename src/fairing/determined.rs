@@ -1,9 +1,10 @@
 //! Rows that equalities decide already: an equality that follows from others, and limits of what is fixed.
 //!
-//! Lines that are fixed cross each other and cells that are locked, and on a flat every limit of the half-breadth is met by equality. Such
-//! rows leave a program without an interior and its multipliers without a value. The equalities are orthonormalised one after another
-//! (modified Gram-Schmidt); a row that lies in their span has the value that their right-hand sides give it, and is left out where this
-//! is within its limits. A row that they decide otherwise stays: then the wishes cannot all be had.
+//! Lines that are fixed cross each other and cells that are locked, and on a flat every limit of the half-breadth is
+//! met by equality. Such rows leave a program without an interior and its multipliers without a value. The equalities
+//! are orthonormalised one after another (modified Gram-Schmidt); a row that lies in their span has the value that
+//! their right-hand sides give it, and is left out where this is within its limits. A row that they decide otherwise
+//! stays: then the wishes cannot all be had.
 
 use super::model::Row;
 

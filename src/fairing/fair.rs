@@ -4,9 +4,10 @@
 //! 1. The weight: on a net of its own by generalised cross-validation, not below what the rounding of the table alone asks for, and
 //!    sigma from it; on the net of a fit by Mallows' criterion for the noise of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
-//! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) / sigma^2. Above [`PRICE`] the lobe with the
-//!    greatest sum of multiplier times raw violation gets its own sign back, and the program is solved again. On the net of a fit,
-//!    whose features are no noise: the lines of the table by [`super::guard`].
+//! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) /
+//!    sigma^2. Above [`PRICE`] the lobe with the greatest sum of multiplier times raw violation gets its own sign back,
+//!    and the program is solved again. On the net of a fit, whose features are no noise: the lines of the table by
+//!    [`super::guard`].
 
 use super::bending::bending_energy;
 use super::bends::Line;
@@ -77,8 +78,8 @@ pub struct FairSettings {
     pub seen: f64,
     /// Whether the energy is that of true curvature, by refreshing the metric.
     pub true_curvature: bool,
-    /// Whether the bending energy of the surface takes the place of the energy at last; what else is charged (straight parts, the start
-    /// between offsets) stays.
+    /// Whether the bending energy of the surface takes the place of the energy at last; what else is charged (straight
+    /// parts, the start between offsets) stays.
     pub bending: bool,
     /// The solver.
     pub solver: Settings,
@@ -177,8 +178,9 @@ impl Prepared {
         let (sigma, search) = match (settings.weight, settings.table_noise) {
             (Some(weight), _) => (None, (weight, Vec::new())),
             (None, Some(noise)) if !surface.own => {
-                // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of the table.
-                // What is within the tolerance of a designer counts as the roughness of a drawing and gets no more room than he gives.
+                // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of
+                // the table. What is within the tolerance of a designer counts as the roughness of a drawing and gets
+                // no more room than he gives.
                 let (noise, most) = (noise.max(settings.least_noise), settings.most_noise.max(settings.least_noise));
                 let sigma = if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12);
                 (Some(sigma), smoother.for_noise(sigma)?)
@@ -400,8 +402,8 @@ pub fn fair_prepared(
     })
 }
 
-/// The least bending energy from an answer on, weighed so that it costs there what the energy before it did; program and answer become
-/// those of its last step. None where the chart folds.
+/// The least bending energy from an answer on, weighed so that it costs there what the energy before it did; program
+/// and answer become those of its last step. None where the chart folds.
 fn least_bending_of(
     surface: &FairSurface,
     smoother: &Smoother,

@@ -3,8 +3,8 @@
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
 //!    Where its curve is straight between bends of one sign it is asked for that sign as well.
-//! 2. Lines that cost more than [`PRICE`] are asked for the signs at those bends alone, and then let go; when nothing satisfies all, those
-//!    that the proof of it charges most.
+//! 2. Lines that cost more than [`PRICE`] are asked for the signs at those bends alone, and then let go; when nothing
+//!    satisfies all, those that the proof of it charges most.
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies.
 //!
@@ -77,7 +77,7 @@ struct Asked {
 enum Signs {
     /// Those of the curve with the least inflections, along all of the line.
     Least,
-    /// The same, but where that curve is straight.
+    /// The same where that curve bends; none where it is straight.
     Bends,
     /// Those of the start, which are not let go.
     Start,

@@ -1,7 +1,7 @@
 //! When the wishes cannot all be had: how far each would have to give way, by linear programs over the same rows.
 //!
-//! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s delta_k (and s delta_k
-//!   besides the room between the offsets), and the rest.
+//! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s
+//!   delta_k (and s delta_k besides the room between the offsets), and the rest.
 //! * For each rule of lines and regions alone: the least slack of all its rows with which the rest can be had.
 //! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave, min and max
 //!   of its row. The distance from its target to that interval is what it would have to give.
@@ -33,8 +33,8 @@ pub struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// The least factor on the tolerances when these contradict each other, the limits of half-breadths or the ends of the hull, whatever
-    /// constraint is dropped.
+    /// The least factor on the tolerances when these contradict each other, the limits of half-breadths or the ends of
+    /// the hull, whatever constraint is dropped.
     #[must_use]
     pub fn of_tolerances_alone(&self) -> Option<f64> {
         self.widening.filter(|_| self.rules.is_empty() && self.reaches.iter().all(|reach| reach.row.is_none()))
@@ -59,8 +59,8 @@ pub fn least_widening(program: &Program, settings: &Settings) -> Result<Option<f
     })
 }
 
-/// The least t with which the program can be had; `give` says of a row by how much its limits are narrowed first, and by how much they
-/// give way for each unit of t; none of a row whose limits stay.
+/// The least t with which the program can be had; `give` says of a row by how much its limits are narrowed first, and
+/// by how much they give way for each unit of t; none of a row whose limits stay.
 fn least_factor(
     program: &Program,
     settings: &Settings,
@@ -144,8 +144,8 @@ fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result
     least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))
 }
 
-/// Everything that can be said of a program without a solution, whose least widening is known, and the programs that it took. `cut` says with
-/// which further limits an x is none that counts.
+/// Everything that can be said of a program without a solution, whose least widening is known, and the programs that it
+/// took. `cut` says with which further limits an x is none that counts.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.

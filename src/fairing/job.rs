@@ -32,7 +32,8 @@ const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
-/// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that has an answer.
+/// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that
+/// has an answer.
 const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
 
@@ -55,8 +56,8 @@ pub enum Holding {
 /// How far a reading may move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerance {
-    /// The same for the whole table \[m\], three levels of the most that is taken for noise on the net of a fit; none: three noise levels, at
-    /// least two quanta of the writing.
+    /// The same for the whole table \[m\], three levels of the most that is taken for noise on the net of a fit; none:
+    /// three noise levels, at least two quanta of the writing.
     pub table: Option<f64>,
     /// For single stations: (index, tolerance \[m\]).
     pub stations: Vec<(usize, f64)>,
@@ -294,7 +295,8 @@ impl Job {
         let (watched, faired) =
             at_once(|| watched.counted(resolution), || fair_prepared(&mut surface, &settings, &prepared, &mut solver));
         let mut faired = faired?;
-        // Of several hundred offsets some are further off than three noise levels. Where nobody named the tolerances, they give way.
+        // Of several hundred offsets some are further off than three noise levels. Where nobody named the tolerances,
+        // they give way.
         let least = faired.diagnosis.as_ref().and_then(Diagnosis::of_tolerances_alone);
         if let Some(least) = least.filter(|least| self.names_no_tolerance() && *least <= MOST_WIDENING) {
             surface.widen(least * WIDER);

@@ -9,8 +9,9 @@
 //! sum_k |z_k| v_k / sigma^2
 //! ```
 //!
-//! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by no more than the
-//! sum over all lines. A line dearer than [`super::fair::PRICE`] is let go, and so is the dearest one by the proof when nothing satisfies all.
+//! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by
+//! no more than the sum over all lines. A line dearer than [`super::fair::PRICE`] is let go, and so is the dearest one
+//! by the proof when nothing satisfies all.
 
 use super::bends::{Bend, Line, bends, changes, dead, signs};
 use super::inflections::{Bands, Inflections, minimum_inflections};
@@ -63,8 +64,8 @@ impl TableLine {
         Self { line, bends: bends(surface, line), least }
     }
 
-    /// The least number of inflections within the tolerances of the offsets, and whether it is proved, for a line of a net that keeps
-    /// them: a net without inflection is the proof itself, else the search of [`super::inflections`].
+    /// The least number of inflections within the tolerances of the offsets, and whether it is proved, for a line of a
+    /// net that keeps them: a net without inflection is the proof itself, else the search of [`super::inflections`].
     #[must_use]
     pub fn minimum(surface: &FairSurface, line: Line, net: &[f64]) -> Option<(usize, bool)> {
         let values: Vec<f64> = bends(surface, line).iter().map(|bend| value(&bend.numerator, net)).collect();
@@ -102,27 +103,22 @@ impl TableLine {
         };
         let (from, to) = curve.knots().domain();
         let second = |x: f64| curve.derivatives::<3>(x)[2][0];
-        let largest = self.bends.iter().filter(|bend| (from..=to).contains(&bend.at)).map(|bend| second(bend.at).abs());
-        let largest = largest.fold(0.0, f64::max);
+        let inside: Vec<&Bend> = self.bends.iter().filter(|bend| (from..=to).contains(&bend.at)).collect();
+        let values: Vec<f64> = inside.iter().map(|bend| second(bend.at)).collect();
+        let largest = values.iter().fold(0.0, |largest: f64, k| largest.max(k.abs()));
+        let bent: Vec<i8> =
+            values.iter().map(|k| if k.abs() <= STRAIGHT * largest { 0 } else { k.signum() as i8 }).collect();
+        let asked = if between { filled(&bent) } else { bent };
         let free: Vec<[f64; 2]> = least
             .stretches
             .iter()
             .flat_map(|stretch| &stretch.inflections)
             .map(|interval| [interval.from.min(interval.at), interval.to.max(interval.at)])
             .collect();
-        let none = dead(&self.bends, start);
-        let inside = self.bends.iter().filter(|bend| (from..=to).contains(&bend.at));
-        let signs: Vec<(&Bend, i8)> = inside
-            .map(|bend| {
-                let k = second(bend.at);
-                (bend, if k.abs() <= STRAIGHT * largest { 0 } else { k.signum() as i8 })
-            })
-            .collect();
-        let told: Vec<i8> = signs.iter().map(|(_, sign)| *sign).collect();
-        let told = if between { filled(&told) } else { told };
         let free = |x: f64| free.iter().any(|[a, b]| (*a..=*b).contains(&x));
-        let asked = signs.iter().zip(told).filter(|((bend, _), sign)| *sign != 0 && !free(bend.at));
-        asked.filter_map(|((bend, _), sign)| bend.limit(sign > 0, start, none)).collect()
+        let none = dead(&self.bends, start);
+        let asked = inside.into_iter().zip(asked).filter(|(bend, sign)| *sign != 0 && !free(bend.at));
+        asked.filter_map(|(bend, sign)| bend.limit(sign > 0, start, none)).collect()
     }
 
     /// Sum of multiplier times violation at `net` over limits of the line.
@@ -138,7 +134,8 @@ impl TableLine {
     }
 }
 
-/// Between its bends the curve of an optimal basis is straight: signs with those of both neighbours in place of zeros, or of the one neighbour at an end; zeros where the neighbours differ.
+/// Between its bends the curve of an optimal basis is straight: signs with those of both neighbours in place of zeros,
+/// or of the one neighbour at an end; zeros where the neighbours differ.
 fn filled(signs: &[i8]) -> Vec<i8> {
     let mut filled = signs.to_vec();
     let mut last = None;

@@ -1,10 +1,10 @@
 //! The least bending energy of a surface within the rows of a program, exactly: not that of a frozen metric.
 //!
-//! J(c) = x'P x / 2 + q'x + mu F(c) with F of [`super::bending`] and x the free half-breadths c. Each step minimises the quadratic
-//! model of J without its negative part over the same rows, a convex program with its certificate, and is halved until J falls by
-//! a part of what the model promises (Armijo 1966): the points between two that keep linear rows keep them. Where a step promises
-//! nothing more the point is stationary for the true problem (sequential quadratic programming: Nocedal and Wright, Numerical Optimization,
-//! 2006, 18.1).
+//! J(c) = x'P x / 2 + q'x + mu F(c) with F of [`super::bending`] and x the free half-breadths c. Each step minimises
+//! the quadratic model of J without its negative part over the same rows, a convex program with its certificate, and is
+//! halved until J falls by a part of what the model promises (Armijo 1966): the points between two that keep linear
+//! rows keep them. Where a step promises nothing more the point is stationary for the true problem (sequential
+//! quadratic programming: Nocedal and Wright, Numerical Optimization, 2006, 18.1).
 
 use super::bending::{BendingModel, bending_energy};
 use super::refresh::RefreshError;
@@ -88,9 +88,9 @@ fn sum(p: &SparseRows, m: &SymmetricBand, free: &[usize], factor: f64) -> Sparse
     SparseRows::from_entries(free.len(), free.len(), &entries)
 }
 
-/// Minimises mu F(c) + x'P x / 2 + q'x, where `rest` gives P, q and the rows over the half-breadths `free` of the net, rising indices of its
-/// points, and `factor` is mu \[m^2\]. `kept` says that the surface keeps the rows itself. None where the chart folds, where the first program
-/// has no answer, or where its answer is no step.
+/// Minimises mu F(c) + x'P x / 2 + q'x, where `rest` gives P, q and the rows over the half-breadths `free` of the net,
+/// rising indices of its points, and `factor` is mu \[m^2\]. `kept` says that the surface keeps the rows itself. None
+/// where the chart folds, where the first program has no answer, or where its answer is no step.
 ///
 /// # Errors
 /// [`RefreshError`] when numbers make no program or no surface.

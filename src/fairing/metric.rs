@@ -14,14 +14,15 @@
 //!     + sum_(0 < k < n) C(n, k) w^(n - 2 k) int int ((H d/ds)^k d^(n-k)y/du^(n-k))^2 du dv,    s along stations,
 //! ```
 //!
-//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small (of order 4 the mixed terms are
-//! those of the parameters everywhere). ds dz = Q^(1/2) |z_v| du dv
-//! on a waterline; Gauss sums over the spans, with as many nodes as the degree plus one. Freezing again at the answer until it stands still
-//! minimises the true functional. Exact bending energy of a graph can fall to nothing by running the slope to infinity: a step
-//! counts only while the exact functional falls, and the tolerances bound it.
+//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small (of order 4 the
+//! mixed terms are those of the parameters everywhere). ds dz = Q^(1/2) |z_v| du dv on a waterline; Gauss sums over the
+//! spans, with as many nodes as the degree plus one. Freezing again at the answer until it stands still minimises the
+//! true functional. Exact bending energy of a graph can fall to nothing by running the slope to infinity: a step counts
+//! only while the exact functional falls, and the tolerances bound it.
 //!
-//! A chart that follows the profiles of a ship has waves of its own: derivatives by its parameters are no derivatives along a station, and
-//! what is smooth in them is a saw on the body plan where lines of the chart swing round a bulb or spread and crowd with the waterlines.
+//! A chart that follows the profiles of a ship has waves of its own: derivatives by its parameters are no derivatives
+//! along a station, and what is smooth in them is a saw on the body plan where lines of the chart swing round a bulb or
+//! spread and crowd with the waterlines.
 
 use super::cells::{Cells, Combination, Crossing, ORDERS, Place, Row, add_square};
 use crate::numeric::SymmetricBand;
@@ -36,7 +37,8 @@ const SKEW: f64 = 1e-9;
 /// Part of the derivatives of the held coordinate below which a line does not cross those of the net.
 const STEEP: f64 = 1e-9;
 
-/// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; the fourth only along lines of the net.
+/// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; the fourth only along
+/// lines of the net.
 fn terms(order: usize, [a, b, c]: [f64; 3]) -> [(f64, usize, usize); 7] {
     let none = (0.0, 0, 0);
     match order {
@@ -235,8 +237,9 @@ impl Metric {
         energy
     }
 
-    /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight of its square, and
-    /// its factors. It counts as dkappa/ds = jump/h over the mean length h of the spans beside the line.
+    /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight
+    /// of its square, and its factors. It counts as dkappa/ds = jump/h over the mean length h of the spans beside the
+    /// line.
     pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
         let (held, run) = if way == 1 { (0, 2) } else { (2, 0) };
         let (steep, level) = (at.by_s[held], at.by_t[held]);

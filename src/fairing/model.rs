@@ -1,8 +1,9 @@
 //! The quadratic model that fairing a curve and fairing a surface have in common.
 //!
-//! Unknown control values c; an energy c'E c; readings a_k c = d_k with weights w_k (one over the square of the noise level relative
-//! to that of the others) and tolerances; control values that are known; and linear limits l <= r c <= u with names. What smooths
-//! ([`super::smoothing`]) and what is certified ([`super::program`]) sees nothing else of a ship.
+//! Unknown control values c; an energy c'E c; readings a_k c = d_k with weights w_k (one over the square of the noise
+//! level relative to that of the others) and tolerances; control values that are known; and linear limits l <= r c <= u
+//! with names. What smooths ([`super::smoothing`]) and what is certified ([`super::program`]) sees nothing else of a
+//! ship.
 
 use crate::numeric::SymmetricBand;
 use crate::qp::SparseRows;

@@ -1,15 +1,16 @@
 //! Curvature of buttocks and diagonals as linear forms of the half-breadths, near a hull.
 //!
-//! The curve in which the plane n . S = d, n = (0, n_y, n_z), meets the surface goes, as in [`super::inspect`], along u' = a = -g_v,
-//! v' = b = g_u with g = n . S, and
+//! The curve in which the plane n . S = d, n = (0, n_y, n_z), meets the surface goes, as in [`super::inspect`], along
+//! u' = a = -g_v, v' = b = g_u with g = n . S, and
 //!
 //! ```text
 //! P' = a S_u + b S_v,   P'' = a^2 S_uu + 2 a b S_uv + b^2 S_vv + a' S_u + b' S_v,   a' = -(a g_uv + b g_vv),   b' = a g_uu + b g_uv,
 //! F = n . (P' x P''),   kappa = F / |P'|^3.
 //! ```
 //!
-//! F is cubic in each derivative of y, so that the curve moves with the net: its tangent at the start stands for it. At a fixed (u, v) it
-//! tells of the plane's neighbour through that point, whose signs are those of the curve but where it turns.
+//! F is cubic in each derivative of y, so that the curve moves with the net: its tangent at the start stands for it. At
+//! a fixed (u, v) it tells of the plane's neighbour through that point, whose signs are those of the curve but where it
+//! turns.
 
 use super::bends::{Bend, kept, sites};
 use super::inspect::{motion_rates, swept};
@@ -49,7 +50,8 @@ fn gradient(jet: &Jet, n: Point) -> [f64; 5] {
     })
 }
 
-/// The bends of a buttock or a diagonal of a surface whose half-breadths are those of `net`, from aft forward; none of other planes.
+/// The bends of a buttock or a diagonal of a surface whose half-breadths are those of `net`, from aft forward; none of
+/// other planes.
 #[must_use]
 pub fn oblique_bends(surface: &BsplineSurface<3>, net: &[f64], cut: Cut) -> Vec<Bend> {
     let Some((n, offset)) = cut.plane().filter(|(n, _)| n[0] == 0.0 && n[1] > 0.0) else { return Vec::new() };
@@ -108,7 +110,8 @@ mod tests {
     use super::*;
     use crate::spline::KnotVector;
 
-    /// y = 5 + 3 v - (2 u - 1)^2 over x = 100 u, z = 10 v: the buttock is z = 10 (Y - 5 + (2 u - 1)^2) / 3, convex outward everywhere.
+    /// y = 5 + 3 v - (2 u - 1)^2 over x = 100 u, z = 10 v: the buttock is z = 10 (Y - 5 + (2 u - 1)^2) / 3, convex
+    /// outward everywhere.
     #[test]
     fn a_buttock_that_is_a_parabola() {
         let knots = || KnotVector::uniform(2, 1).unwrap();

@@ -1,17 +1,19 @@
 //! Which way the lines of a hull bend: signs of curvature over the surface, and which of their changes are noise.
 //!
-//! The curvature of a waterline has the sign of x_u y_uu - x_uu y_u, that of a line across of z_v y_vv - z_vv y_v: linear forms of the
-//! half-breadths, without approximation. On a rectangular chart they are the second differences of the control net, whose signs
-//! bound the sign changes of every waterline and station (variation diminishing, de Boor 2001, chapter XI); on other charts
-//! they are taken at the Greville points of the second derivatives.
+//! The curvature of a waterline has the sign of x_u y_uu - x_uu y_u, that of a line across of z_v y_vv - z_vv y_v:
+//! linear forms of the half-breadths, without approximation. On a rectangular chart they are the second differences of
+//! the control net, whose signs bound the sign changes of every waterline and station (variation diminishing, de Boor
+//! 2001, chapter XI); on other charts they are taken at the Greville points of the second derivatives.
 //!
-//! The raw signs of a smoothed net fall into lobes (neighbours of one sign). With s = D c over a lobe and C the posterior covariance
-//! sigma^2 N^-1, a lobe whose statistic s'(D C D')^-1 s (Wald 1943) is below the 99.9 % point of chi-square with as many degrees of
-//! freedom as it has forms is noise: it takes the sign around it. At each change that remains one form is left free.
+//! The raw signs of a smoothed net fall into lobes (neighbours of one sign). With s = D c over a lobe and C the
+//! posterior covariance sigma^2 N^-1, a lobe whose statistic s'(D C D')^-1 s (Wald 1943) is below the 99.9 % point of
+//! chi-square with as many degrees of freedom as it has forms is noise: it takes the sign around it. At each change
+//! that remains one form is left free.
 //!
-//! A flat has signs of noise only: straight parts are found beforehand and kept straight ([`super::breaks`]). Tried without success on
-//! a parallel middle body that was not: a price eight times as high (24 to 36 changes of sign instead of 42, but 1.6 times the
-//! RMS on S-shaped hulls), a net as dense as the offsets (36), lobes below a hundredth of their line's largest value taken for flat.
+//! A flat has signs of noise only: straight parts are found beforehand and kept straight ([`super::breaks`]). Tried
+//! without success on a parallel middle body that was not: a price eight times as high (24 to 36 changes of sign
+//! instead of 42, but 1.6 times the RMS on S-shaped hulls), a net as dense as the offsets (36), lobes below a hundredth
+//! of their line's largest value taken for flat.
 
 use super::model::Row;
 use super::smoothing::{Smoothed, Smoother};

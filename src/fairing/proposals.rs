@@ -1,9 +1,10 @@
 //! Knuckles and tangent lines that a table has and does not declare, with what they would bring, and nets that have them.
 //!
-//! A line at one height is v = constant on a level chart, a line at one station u = constant on an upright chart or where the ends do
-//! not lean. A p-fold knot there lets the slope break (knuckle), a (p-1)-fold one the curvature (tangent line); the energy charges
-//! nothing across either. What a line brings is told by smoothing with the same weight with and without it: the root of the mean
-//! square of what the offsets depart, and by how much sum w r^2 + lambda E falls, in units of the square of the noise.
+//! A line at one height is v = constant on a level chart, a line at one station u = constant on an upright chart or
+//! where the ends do not lean. A p-fold knot there lets the slope break (knuckle), a (p-1)-fold one the curvature
+//! (tangent line); the energy charges nothing across either. What a line brings is told by smoothing with the same
+//! weight with and without it: the root of the mean square of what the offsets depart, and by how much sum w r^2 +
+//! lambda E falls, in units of the square of the noise.
 
 use super::fair::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
@@ -93,8 +94,8 @@ pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullE
     broken(hull, line.course, t, line.kind).map(Some)
 }
 
-/// The knuckles along waterlines that were taken, as lines of the table: the fit itself then breaks there, where a fit without them runs
-/// through as a curve.
+/// The knuckles along waterlines that were taken, as lines of the table: the fit itself then breaks there, where a fit
+/// without them runs through as a curve.
 pub(super) fn declared(proposals: &[Proposal], hull: &Hull, table: &OffsetTable) -> Vec<FeatureLine> {
     let taken = proposals.iter().filter(|proposal| {
         proposal.accepted && proposal.line.kind == LineKind::Knuckle && proposal.line.course == LineCourse::Waterline
@@ -132,8 +133,8 @@ pub(super) fn broken(hull: &Hull, course: LineCourse, mut t: f64, kind: LineKind
     Hull::new(hull.name(), *hull.particulars(), finer, hull.deck().clone())
 }
 
-/// Every proposal with what it would bring to the surface of the fit, smoothed with the greatest weight at which the typical offset departs
-/// by no more than `noise` \[m\].
+/// Every proposal with what it would bring to the surface of the fit, smoothed with the greatest weight at which the
+/// typical offset departs by no more than `noise` \[m\].
 ///
 /// # Errors
 /// [`FairError`] when a net with a line makes no problem.

@@ -1,13 +1,14 @@
-//! Quantities that are not linear in the net, metacentre and wetted surface: linearised, solved, linearised at the answer, until the
-//! quantity itself is on its target.
+//! Quantities that are not linear in the net, metacentre and wetted surface: linearised, solved, linearised at the
+//! answer, until the quantity itself is on its target.
 //!
-//! Each step is a convex program over all other rows of the last one; the segment from net to answer is the region of trust, since
-//! every point of it keeps whatever the two ends keep. Where the whole step does not lower the largest relative error, Brent's method
-//! (argmin) finds the point of the segment with the least one, and the next tangents are taken there. After some steps the tangents
-//! stay and only their bounds are moved, by Broyden's method on the errors (1965): about the keel of a hull whose sections leave it
-//! horizontally the wetted surface is hardly smooth, so that tangents there never come to rest. What stands at the end is the answer
-//! of a whole step, optimal for the rows of that step, whose certificate it has; where the tangents have come to rest it is a
-//! stationary point of the true problem.
+//! Each step is a convex program over all other rows of the last one; the segment from net to answer is the region of
+//! trust, since every point of it keeps whatever the two ends keep. Where the whole step does not lower the largest
+//! relative error, Brent's method (argmin) finds the point of the segment with the least one, and the next tangents are
+//! taken there. After some steps the tangents stay and only their bounds are moved, by Broyden's method on the errors
+//! (1965): about the keel of a hull whose sections leave it horizontally the wetted surface is hardly smooth, so that
+//! tangents there never come to rest. What stands at the end is the answer of a whole step, optimal for the rows of
+//! that step, whose certificate it has; where the tangents have come to rest it is a stationary point of the true
+//! problem.
 
 use super::constraint::Constraint;
 use super::model::{Limit, Model};

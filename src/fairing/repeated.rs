@@ -44,8 +44,8 @@ pub(super) struct Repeated<'a> {
 }
 
 impl Repeated<'_> {
-    /// The attempt with the least inflections more than before; `seen` is the least departure that is seen \[m\], `guarded` says whether a
-    /// line is not counted by a rule.
+    /// The attempt with the least inflections more than before; `seen` is the least departure that is seen \[m\],
+    /// `guarded` says whether a line is not counted by a rule.
     ///
     /// # Errors
     /// [`JobError`] as of the fairing itself.

@@ -1,17 +1,19 @@
-//! Readings that contradict the net which smooths all others: gross errors that the neighbours of a cell are too few to tell from noise.
+//! Readings that contradict the net which smooths all others: gross errors that the neighbours of a cell are too few to
+//! tell from noise.
 //!
-//! 1. No cross-validation of contaminated readings: the weight has the least median of |e_k|, e_k = r_k / (1 - h_k) the residuals with
-//!    reading k left out, among those with edf <= 0.35 m.
-//! 2. Five rounds of Huber's weights min(1, k s / |e|), k = 1.345, then Tukey's (1 - (e / c s)^2)^2, c = 4.685, until they stand; s is
-//!    1.4826 times the median of |e| (Huber 1981, chapter 7; Beaton & Tukey 1974).
-//! 3. What Tukey's weights all but leave out is rejected; the others are taken as they are. With sigma^2 = RSS / (m - edf) of these a reading
-//!    is tested by t = r / (sigma sqrt(1 - h)) where it takes part and t = r / (sigma sqrt(1 + q)), q = a N^-1 a', where it does not.
-//!    Beyond the point that one table in 50 exceeds by chance anywhere (Bonferroni) it stays out, below it comes in again, until
-//!    nothing changes.
+//! 1. No cross-validation of contaminated readings: the weight has the least median of |e_k|, e_k = r_k / (1 - h_k) the
+//!    residuals with reading k left out, among those with edf <= 0.35 m.
+//! 2. Five rounds of Huber's weights min(1, k s / |e|), k = 1.345, then Tukey's (1 - (e / c s)^2)^2, c = 4.685, until
+//!    they stand; s is 1.4826 times the median of |e| (Huber 1981, chapter 7; Beaton & Tukey 1974).
+//! 3. What Tukey's weights all but leave out is rejected; the others are taken as they are. With sigma^2 = RSS / (m -
+//!    edf) of these a reading is tested by t = r / (sigma sqrt(1 - h)) where it takes part and t = r / (sigma sqrt(1 +
+//!    q)), q = a N^-1 a', where it does not. Beyond the point that one table in 50 exceeds by chance anywhere
+//!    (Bonferroni) it stays out, below it comes in again, until nothing changes.
 //!
-//! Medians of the error to Wigley's hull without and with this stage, 8 tables each (`cargo bench --bench truth -- 8 once neighbours`):
-//! 2 mm of noise with 20, 20 and 30 mm in single cells 1.20 and 0.55 mm; with 12 mm in one 1.07 and 0.67 mm; with 30 mm in three cells
-//! side by side 3.54 and 0.56 mm; 25 mm of noise with 250, 300 and 500 mm 6.71 and 5.08 mm.
+//! Medians of the error to Wigley's hull without and with this stage, 8 tables each (`cargo bench --bench truth -- 8
+//! once neighbours`): 2 mm of noise with 20, 20 and 30 mm in single cells 1.20 and 0.55 mm; with 12 mm in one 1.07 and
+//! 0.67 mm; with 30 mm in three cells side by side 3.54 and 0.56 mm; 25 mm of noise with 250, 300 and 500 mm 6.71 and
+//! 5.08 mm.
 
 use super::smoothing::{Smoothed, Smoother};
 use crate::numeric::{SingularMatrix, median};
@@ -41,8 +43,8 @@ fn typical(values: impl Iterator<Item = f64>) -> f64 {
     1.4826 * median(&mut values.map(f64::abs).collect::<Vec<_>>()).unwrap_or(0.0)
 }
 
-/// The t that a normal value exceeds with probability `p`, for `freedom` degrees of freedom (Abramowitz & Stegun 1964, 26.2.23 and 26.7.5,
-/// the first term): within 1 % for p from 1e-6 to 1e-2 and 30 degrees of freedom or more.
+/// The t that a normal value exceeds with probability `p`, for `freedom` degrees of freedom (Abramowitz & Stegun 1964,
+/// 26.2.23 and 26.7.5, the first term): within 1 % for p from 1e-6 to 1e-2 and 30 degrees of freedom or more.
 fn point_of_t(p: f64, freedom: f64) -> f64 {
     let t = (-2.0 * p.ln()).sqrt();
     let z =
@@ -69,8 +71,8 @@ fn tested(smoother: &Smoother, lambda: f64, out: &[bool]) -> Result<(Smoothed, V
     Ok((smoothed, values, freedom))
 }
 
-/// Indices of the readings that contradict all others, with what the net of these has more there \[m\]; `smoothed` is the net of all.
-/// None where no reading stands out, or too many do.
+/// Indices of the readings that contradict all others, with what the net of these has more there \[m\]; `smoothed` is
+/// the net of all. None where no reading stands out, or too many do.
 ///
 /// # Errors
 /// [`SingularMatrix`] when no weight gives a net.

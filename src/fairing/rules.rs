@@ -27,8 +27,8 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
     if problems.is_empty() { Ok(limits) } else { Err(problems) }
 }
 
-/// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only what lies outside
-/// the ranges in which a rule decides the sign of curvature.
+/// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only
+/// what lies outside the ranges in which a rule decides the sign of curvature.
 pub(super) fn guarded_lines<'a>(lines: &'a [TableLine], rules: &[Rule]) -> Cow<'a, [TableLine]> {
     let bending = |rule: &Rule| matches!(rule, Rule::Inflections { .. } | Rule::Curvature { .. });
     if !rules.iter().any(bending) {

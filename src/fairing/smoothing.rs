@@ -1,7 +1,7 @@
 //! How much to smooth: generalised cross-validation, the noise of the readings, leverages.
 //!
-//! For a weight lambda, c(lambda) minimises sum w_k (a_k c - d_k)^2 + lambda c'E c (Wahba 1990; E scaled to the mean size of A'WA). With
-//! N = A'WA + lambda E, the leverage of a reading is h_k = w_k a_k N^-1 a_k', edf = sum h_k, and
+//! For a weight lambda, c(lambda) minimises sum w_k (a_k c - d_k)^2 + lambda c'E c (Wahba 1990; E scaled to the mean
+//! size of A'WA). With N = A'WA + lambda E, the leverage of a reading is h_k = w_k a_k N^-1 a_k', edf = sum h_k, and
 //!
 //! ```text
 //! GCV(lambda) = m RSS / (m - gamma edf)^2,   gamma = 1.2 (Craven & Wahba 1979; Gu 2013, section 3.2, for gamma)
@@ -260,10 +260,11 @@ impl Smoother {
         Some(Trial::new(self.count, lambda, [rss, edf], self.energy_of(&free)))
     }
 
-    /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half a power of ten,
-    /// and every weight that was tried, in rising order. Where features of the hull are cut, RSS pays for it: unlike the weight
-    /// that leaves residuals of size sigma, this one does not smooth until they are. Tried without success: never less than the weight of least
-    /// GCV, which takes the roughness of published tables for noise (Series 60 with 2 mm of noise, five tables: 4.2 mm for 3.1 mm, an S-175 6.0 mm for 4.1 mm).
+    /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half
+    /// a power of ten, and every weight that was tried, in rising order. Where features of the hull are cut, RSS pays
+    /// for it: unlike the weight that leaves residuals of size sigma, this one does not smooth until they are. Tried
+    /// without success: never less than the weight of least GCV, which takes the roughness of published tables for
+    /// noise (Series 60 with 2 mm of noise, five tables: 4.2 mm for 3.1 mm, an S-175 6.0 mm for 4.1 mm).
     ///
     /// # Errors
     /// [`SingularMatrix`] when no weight of the scan gives a net.
@@ -291,8 +292,8 @@ impl Smoother {
         }
     }
 
-    /// The greatest weight of the scan at which the noise of a typical reading, 1.4826 times the median of |r_k| sqrt(w_k) / sqrt(1 -
-    /// h_k), is no more than `noise` \[m\] (Morozov 1966); the least one where none is.
+    /// The greatest weight of the scan at which the noise of a typical reading, 1.4826 times the median of |r_k|
+    /// sqrt(w_k) / sqrt(1 - h_k), is no more than `noise` \[m\] (Morozov 1966); the least one where none is.
     ///
     /// # Errors
     /// [`SingularMatrix`] when no weight of the scan gives a net.

@@ -73,8 +73,8 @@ struct Modelled {
 }
 
 impl Started {
-    /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors ([`super::robust`]), where the
-    /// net follows what is left.
+    /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
+    /// ([`super::robust`]), where the net follows what is left.
     pub(super) fn new(job: &Job, table: &OffsetTable) -> Result<Self, JobError> {
         let mut found = suspects(table);
         let mut cleaned = Cleaned { clean: table.clone(), charted: table.clone(), excluded: Vec::new() };
@@ -177,8 +177,9 @@ impl Modelled {
         Ok((proposals, start, surface, search))
     }
 
-    /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through the table by more
-    /// than [`SWING`] of the breadth. An error that is not left out does that where its neighbours are.
+    /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through
+    /// the table by more than [`SWING`] of the breadth. An error that is not left out does that where its neighbours
+    /// are.
     fn swings(&self, table: &OffsetTable) -> bool {
         let Some(search) = &self.search else { return false };
         let Ok(own) = search.hull(&self.surface) else { return true };
@@ -193,15 +194,16 @@ impl Modelled {
         })
     }
 
-    /// Whether a net of its own follows the table: the surface through the table breaks along no lines but those declared (an error bends
-    /// it as a feature of the hull does), and what remains is the noise of the table.
+    /// Whether a net of its own follows the table: the surface through the table breaks along no lines but those
+    /// declared (an error bends it as a feature of the hull does), and what remains is the noise of the table.
     fn follows(&self, noise: f64) -> bool {
         let least = LEAST_TOLERANCE * self.before.particulars().breadth;
         let remains = self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()));
         self.surface.simple && remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
     }
 
-    /// Half the mean distance \[m\] of a smoothed net of its own from the surface through the table, of what their displaced volumes differ by.
+    /// Half the mean distance \[m\] of a smoothed net of its own from the surface through the table, of what their
+    /// displaced volumes differ by.
     fn gap(&self) -> Result<f64, JobError> {
         let Some(search) = &self.search else { return Ok(0.0) };
         let own = search.hull(&self.surface)?;

@@ -1,9 +1,10 @@
 //! The hull as a model to be faired: which net, which readings, which energy.
 //!
-//! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with plumb ends
-//! over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship, with lines of the net where
-//! straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in which profiles, knuckles and flats are
-//! lines of the net already, and an energy that spares what bends sharply (`adapt`).
+//! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with
+//! plumb ends over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship,
+//! with lines of the net where straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in
+//! which profiles, knuckles and flats are lines of the net already, and an energy that spares what bends sharply
+//! (`adapt`).
 //!
 //! On a net of its own the energy of order n is that over the unit square of the parameters,
 //!
@@ -11,8 +12,8 @@
 //! E = sum_a C(n, a) w_u^(n-a) w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv,   w_v = 1/w_u,
 //! ```
 //!
-//! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across them. On the net of a
-//! fit it is that of true curvature with the metric of the fit ([`super::metric`], `adapt`).
+//! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across
+//! them. On the net of a fit it is that of true curvature with the metric of the fit ([`super::metric`], `adapt`).
 
 use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};

@@ -43,7 +43,8 @@ impl SectionalAreaCurve {
         Self { draught, stations: stations.to_vec(), areas }
     }
 
-    /// Areas at `stations` below each of `draughts` [m^2], a row a station; each part of a station is integrated once for all draughts.
+    /// Areas at `stations` below each of `draughts` [m^2], a row a station; each part of a station is integrated once
+    /// for all draughts.
     #[must_use]
     pub fn areas(hull: &Hull, draughts: &[f64], stations: &[f64]) -> Vec<Vec<f64>> {
         let (surface, lines) = (hull.surface(), KnotLines::new(hull));
@@ -86,7 +87,8 @@ impl Cut {
     }
 }
 
-/// Weights of one piece: rows span_u - p ..= span_u, columns span_v - q ..= span_v; or coefficients of basis functions, power by power.
+/// Weights of one piece: rows span_u - p ..= span_u, columns span_v - q ..= span_v; or coefficients of basis functions,
+/// power by power.
 type Block = [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1];
 
 /// One station within one cell of the knots.
@@ -263,7 +265,8 @@ fn pieces(
     }
 }
 
-/// The middle of a span, and the coefficients of the powers of t less it, from the lowest, of the basis functions that do not vanish there.
+/// The middle of a span, and the coefficients of the powers of t less it, from the lowest, of the basis functions that
+/// do not vanish there.
 fn power_basis(knots: &KnotVector, span: usize) -> (f64, Block) {
     let middle = 0.5 * (knots.knots()[span] + knots.knots()[span + 1]);
     let mut powers = knots.basis_derivatives::<{ MAX_DEGREE + 1 }>(span, middle);

@@ -7,8 +7,9 @@ const STEPS: usize = 96;
 /// Halvings of the bracket of a crossing.
 const HALVINGS: usize = 60;
 
-/// Distance \[m\] along the diagonal that starts at `height` on the centreplane and falls by `angle` \[rad\], from there to the side at
-/// the station `x`; the crossing nearest to the centreplane, to rounding. None where the diagonal does not meet the side below the deck.
+/// Distance \[m\] along the diagonal that starts at `height` on the centreplane and falls by `angle` \[rad\], from
+/// there to the side at the station `x`; the crossing nearest to the centreplane, to rounding. None where the diagonal
+/// does not meet the side below the deck.
 #[must_use]
 pub fn diagonal_offset(hull: &Hull, x: f64, height: f64, angle: f64) -> Option<f64> {
     let (sine, cosine) = angle.sin_cos();

@@ -19,8 +19,8 @@ use super::chart;
 use super::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
 
-/// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by less does not
-/// fall, and stations on which x differs by less are upright.
+/// Coordinates of the net that differ by less than this part of the largest one differ by rounding: a net that falls by
+/// less does not fall, and stations on which x differs by less are upright.
 const ROUNDING: f64 = 1e-12;
 
 /// Why data do not make a hull.

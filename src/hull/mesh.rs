@@ -1,21 +1,22 @@
 //! A closed mesh of triangles over the body of a hull, up to its deck.
 //!
-//! Vertices lie on the surface. The mesh begins as a grid of its parameters (`start`), each span of the knots cut into as many parts as the
-//! second derivatives ask for: a triangle over a cell of h by k parameters is off the surface by at most
+//! Vertices lie on the surface. The mesh begins as a grid of its parameters (`start`), each span of the knots cut into
+//! as many parts as the second derivatives ask for: a triangle over a cell of h by k parameters is off the surface by
+//! at most
 //!
 //! ```text
 //! (h^2 |S_uu| + 2 h k |S_uv| + k^2 |S_vv|) / 8,
 //! ```
 //!
-//! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span. The triangles are
-//! then brought into shape (`shape`), so that their angles are [`LEAST_ANGLE`] or more and they are off the surface by at most half of the
-//! tolerance, as seen at their middles and those of their sides (the whole of it for the last few that have no such angles otherwise).
-//! Halving the tolerance therefore halves the error of the volume: second order in the length of edges. Where the surface has a crease, it
-//! is an edge of the mesh; above the last knuckle, or three quarters of the height, below a deck that cuts the surface, rows are drawn
-//! down to the deck.
+//! of which each of the three terms gets a third of the tolerance, with the largest derivatives at points of each span.
+//! The triangles are then brought into shape (`shape`), so that their angles are [`LEAST_ANGLE`] or more and they are
+//! off the surface by at most half of the tolerance, as seen at their middles and those of their sides (the whole of it
+//! for the last few that have no such angles otherwise). Halving the tolerance therefore halves the error of the
+//! volume: second order in the length of edges. Where the surface has a crease, it is an edge of the mesh; above the
+//! last knuckle, or three quarters of the height, below a deck that cuts the surface, rows are drawn down to the deck.
 //!
-//! The faces that close the body (bottom, transom, flat bow, deck) are ruled between the two sides and share their vertices. What is
-//! narrower than half of the tolerance has no face.
+//! The faces that close the body (bottom, transom, flat bow, deck) are ruled between the two sides and share their
+//! vertices. What is narrower than half of the tolerance has no face.
 
 mod body;
 mod change;
@@ -195,8 +196,8 @@ pub(super) fn deck_parameter(hull: &Hull, u: f64) -> f64 {
 }
 
 impl HullMesh {
-    /// A mesh that leaves the surface by at most `deviation` \[m\], about (see the head); edges on the faces that close it are at most about
-    /// their breadth over `across`, or as the angles want it.
+    /// A mesh that leaves the surface by at most `deviation` \[m\], about (see the head); edges on the faces that close
+    /// it are at most about their breadth over `across`, or as the angles want it.
     ///
     /// Mirrored exactly: for each vertex (x, y, z) there is (x, -y, z).
     ///
@@ -216,8 +217,8 @@ impl HullMesh {
         Ok(mirror::whole(&half))
     }
 
-    /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but where the surface itself is
-    /// folded, as one laid through a table may be.
+    /// Triangles with an angle of less than [`LEAST_ANGLE`] that stand at none of the sharp corners: 0 but where the
+    /// surface itself is folded, as one laid through a table may be.
     #[must_use]
     pub fn slivers(&self) -> usize {
         let known: HashSet<(usize, Region)> = self.sharp_corners.iter().map(|c| (c.vertex, c.region)).collect();

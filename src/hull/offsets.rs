@@ -26,8 +26,8 @@ impl OffsetStation {
         self.name.parse::<f64>().is_ok_and(|x| (x - self.x).abs() < 5e-3)
     }
 
-    /// The station in a sentence: `station 5` of a table whose stations have names; `station at x = 35 m` where the name is the place, which
-    /// would be taken for the number of another station of a drawing. 0 is AP either way.
+    /// The station in a sentence: `station 5` of a table whose stations have names; `station at x = 35 m` where the
+    /// name is the place, which would be taken for the number of another station of a drawing. 0 is AP either way.
     #[must_use]
     pub fn words(&self) -> String {
         let name = &self.name;
@@ -128,7 +128,8 @@ impl OffsetTable {
         }
     }
 
-    /// The offsets at [`default_stations`], [`default_waterlines`] and [`default_buttocks`], without stations that no waterline meets.
+    /// The offsets at [`default_stations`], [`default_waterlines`] and [`default_buttocks`], without stations that no
+    /// waterline meets.
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
         let mut table =
@@ -139,9 +140,9 @@ impl OffsetTable {
 }
 
 impl OffsetTable {
-    /// Half-breadths of the hull below a draught at `count` stations, at equal distances from its aftmost to its foremost immersed point,
-    /// and at `count` waterlines, at equal distances from its lowest point to the draught; 0 where there is no hull. None when nothing
-    /// is below the draught.
+    /// Half-breadths of the hull below a draught at `count` stations, at equal distances from its aftmost to its
+    /// foremost immersed point, and at `count` waterlines, at equal distances from its lowest point to the draught; 0
+    /// where there is no hull. None when nothing is below the draught.
     #[must_use]
     pub fn of_immersed(hull: &Hull, draught: f64, count: usize) -> Option<Self> {
         let count = count.max(2);
@@ -229,7 +230,9 @@ pub fn keel_height(hull: &Hull, x: f64) -> Option<f64> {
     let mut heights: Vec<f64> = Vec::new();
     for u in [a, b] {
         let edge = hull.surface().curve_at_u(u);
-        let gaps = edge.points().iter().map(|p| [if u > a { p[0] - x } else { x - p[0] }]).collect();
+        // An upright end is at its x to rounding.
+        let reach = 1e-13 * hull.particulars().length_between_perpendiculars;
+        let gaps = edge.points().iter().map(|p| [reach + if u > a { p[0] - x } else { x - p[0] }]).collect();
         let Ok(gap) = BsplineCurve::new(edge.knots().clone(), gaps) else { continue };
         heights.extend(curve_sign_changes(&gap).into_iter().map(|v| edge.eval(v)[2]));
     }

@@ -17,8 +17,8 @@ const PROFILE: usize = 5;
 /// Sections nearer to each other than this part of the length are one.
 const APART: f64 = 2e-3;
 
-/// Stations of the sections of a hull: the default ones, and between and beyond them places along the stem and the stern profile, so
-/// that raked ends are not cut short.
+/// Stations of the sections of a hull: the default ones, and between and beyond them places along the stem and the
+/// stern profile, so that raked ends are not cut short.
 #[must_use]
 pub fn section_stations(hull: &Hull) -> Vec<OffsetStation> {
     let mut stations = default_stations(hull);
@@ -88,8 +88,8 @@ fn outlines(hull: &Hull, x: f64, deviation: f64) -> Vec<Vec<OutlinePoint>> {
     lines.into_iter().map(|line| line.into_iter().map(point).collect()).collect()
 }
 
-/// Takes off the points along the centreplane from which a line first falls: beside the keel the surface may be beyond the centreplane by
-/// as much as its fit leaves.
+/// Takes off the points along the centreplane from which a line first falls: beside the keel the surface may be beyond
+/// the centreplane by as much as its fit leaves.
 fn begin_at_lowest(line: &mut Vec<[f64; 2]>, near: f64) {
     let falls = |pair: &[[f64; 2]]| pair[0][0] <= near && pair[1][0] <= near && pair[1][1] <= pair[0][1];
     let count = line.windows(2).take_while(|pair| falls(pair)).count();

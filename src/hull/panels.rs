@@ -1,12 +1,14 @@
 //! Panels of the wetted surface of one side of a hull below a draught, for programs that compute the flow about it.
 //!
-//! Vertices lie on the surface. Lines u = constant divide the hull along into equal parts of arc, measured as the mean over lines of
-//! equal share of the immersed part; each is divided by equal parts of its own girth up to the waterline. Corners of the surface
-//! (knots of multiplicity p) are lines of the panels, and so are the places where the waterline crosses one or leaves through the
-//! keel. The flat of bottom, the transom and a flat bow are strips from the centreplane to the side. There is no lid.
+//! Vertices lie on the surface. Lines u = constant divide the hull along into equal parts of arc, measured as the mean
+//! over lines of equal share of the immersed part; each is divided by equal parts of its own girth up to the waterline.
+//! Corners of the surface (knots of multiplicity p) are lines of the panels, and so are the places where the waterline
+//! crosses one or leaves through the keel. The flat of bottom, the transom and a flat bow are strips from the
+//! centreplane to the side. There is no lid.
 //!
-//! A quadrilateral is kept while its corners leave their mean plane by at most a stated part of its longer diagonal, or by what rounding
-//! makes of it; others become two triangles, cut along the shorter diagonal. With a part of 0 every panel is planar. The volume is
+//! A quadrilateral is kept while its corners leave their mean plane by at most a stated part of its longer diagonal, or
+//! by what rounding makes of it; others become two triangles, cut along the shorter diagonal. With a part of 0 every
+//! panel is planar. The volume is
 //!
 //! ```text
 //! V = 2 sum of the integrals of y n_y over the panels,

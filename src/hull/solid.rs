@@ -1,12 +1,14 @@
 //! The body of a hull as a closed solid of untrimmed B-spline faces that share their edges, for CAD.
 //!
-//! The two sides are the surface itself and its mirror image. Their edges are cut where they leave the centreplane: a piece on it is
-//! shared by both sides, any other piece has its mirror image and a ruled face between the two (bottom, transom, flat bow, deck).
-//! Every face is run so that its normal S_u x S_v points out of the body, and its loop counter-clockwise seen from outside.
+//! The two sides are the surface itself and its mirror image. Their edges are cut where they leave the centreplane: a
+//! piece on it is shared by both sides, any other piece has its mirror image and a ruled face between the two (bottom,
+//! transom, flat bow, deck). Every face is run so that its normal S_u x S_v points out of the body, and its loop
+//! counter-clockwise seen from outside.
 //!
-//! Where the deck at side cuts the surface, each side is two faces that meet along a line of the net: the surface as it is below, and above
-//! it one that is interpolated up to the deck (`topsides`); what that leaves the surface by is told. Where the surface goes through the
-//! centreplane its net ends there, so that the sides do not go through each other; that is told as well.
+//! Where the deck at side cuts the surface, each side is two faces that meet along a line of the net: the surface as it
+//! is below, and above it one that is interpolated up to the deck (`topsides`); what that leaves the surface by is
+//! told. Where the surface goes through the centreplane its net ends there, so that the sides do not go through each
+//! other; that is told as well.
 
 mod topsides;
 
@@ -140,8 +142,8 @@ impl Builder {
 type Loop = Vec<(usize, bool)>;
 
 impl Builder {
-    /// The loops around a part of the starboard and of the port side, and the faces between the two along its edges. An edge without a
-    /// region is shared with another part of the same side.
+    /// The loops around a part of the starboard and of the port side, and the faces between the two along its edges. An
+    /// edge without a region is shared with another part of the same side.
     fn around(
         &mut self,
         sides: [(Option<Region>, BsplineCurve<3>, bool); 4],
@@ -210,8 +212,8 @@ const AGREEING: f64 = 1e-11;
 /// How often a part is halved both ways at most.
 const HALVINGS: usize = 8;
 
-/// The area of a surface over a rectangle of its parameters, int |S_u x S_v| du dv, halved both ways until two orders of Gauss's rule
-/// agree to `slack` \[m^2\].
+/// The area of a surface over a rectangle of its parameters, int |S_u x S_v| du dv, halved both ways until two orders
+/// of Gauss's rule agree to `slack` \[m^2\].
 fn area_over(
     surface: &BsplineSurface<3>,
     rules: &[&GaussRule; 2],

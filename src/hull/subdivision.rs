@@ -1,7 +1,9 @@
-//! Subdivision surfaces as FREE!ship and DELFTship have them: a control net of triangles, quadrilaterals and larger faces with creases.
+//! Subdivision surfaces as FREE!ship and DELFTship have them: a control net of triangles, quadrilaterals and larger
+//! faces with creases.
 //!
-//! One step puts a point into the middle of every edge and of every face but triangles, cuts triangles into four and other faces into
-//! quadrilaterals, and then moves each point p (J. Stam and C. Loop, Quad/Triangle Subdivision, Computer Graphics Forum 22, 2003):
+//! One step puts a point into the middle of every edge and of every face but triangles, cuts triangles into four and
+//! other faces into quadrilaterals, and then moves each point p (J. Stam and C. Loop, Quad/Triangle Subdivision,
+//! Computer Graphics Forum 22, 2003):
 //!
 //! ```text
 //! corner       stays,
@@ -9,10 +11,11 @@
 //! elsewhere    p + s (c - p)                           c: mean of the centres of its faces, weighted by pi/2 and pi/3,
 //! ```
 //!
-//! the centre of a triangle being p / 4 + 3/8 of each other corner, and s = 4/n among n quadrilaterals, 12 / (3 q + 2 t) among q
-//! quadrilaterals and t triangles, 5/3 - 8/3 (3/8 + cos(2 pi/n)/4)^2 among n triangles. Edges of one face, or of more than two, are
-//! creases; a point with three creases or more is a corner, and one with less than two is on none. On a regular grid the limit is the
-//! uniform bicubic spline, natural across creases. A mesh after k steps leaves it by O(4^-k).
+//! the centre of a triangle being p / 4 + 3/8 of each other corner, and s = 4/n among n quadrilaterals, 12 / (3 q + 2
+//! t) among q quadrilaterals and t triangles, 5/3 - 8/3 (3/8 + cos(2 pi/n)/4)^2 among n triangles. Edges of one face,
+//! or of more than two, are creases; a point with three creases or more is a corner, and one with less than two is on
+//! none. On a regular grid the limit is the uniform bicubic spline, natural across creases. A mesh after k steps leaves
+//! it by O(4^-k).
 
 mod of_hull;
 

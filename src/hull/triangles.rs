@@ -1,8 +1,9 @@
 //! A body given by nothing but triangles.
 //!
-//! Its section by a plane x = X takes every vertex on the plane for one just forward of it (simulation of simplicity: the section is
-//! that at X - 0), so that a plane that meets vertices, edges or whole triangles cuts each triangle in one line or none, and lines
-//! end on edges that two triangles share. Sections of closed meshes are therefore closed loops at every X, without tolerances.
+//! Its section by a plane x = X takes every vertex on the plane for one just forward of it (simulation of simplicity:
+//! the section is that at X - 0), so that a plane that meets vertices, edges or whole triangles cuts each triangle in
+//! one line or none, and lines end on edges that two triangles share. Sections of closed meshes are therefore closed
+//! loops at every X, without tolerances.
 
 mod surfaces;
 

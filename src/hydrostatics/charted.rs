@@ -1,15 +1,16 @@
 //! Volume, wetted surface, profile and waterplane below one draught on a hull that is not level.
 //!
-//! The parameter plane below the draught is integrated u-line by u-line over the pieces of [`Immersion`], with J = x_u z_v -
-//! x_v z_u: volume 2 int int y J dv du, profile int int J dv du, side 2 int int |S_u x S_v| dv du, bottom 2 int y (x_u^2 + z_u^2)^(1/2) du
-//! on the keel line v = v_min, and on the waterline dx = (J / z_v) du. Volume and moments are exact to rounding where all of the
-//! lines u = constant is immersed; else the relative error of volume and waterplane is about 1e-10 and that of areas of surfaces about 1e-8.
+//! The parameter plane below the draught is integrated u-line by u-line over the pieces of [`Immersion`], with J = x_u
+//! z_v - x_v z_u: volume 2 int int y J dv du, profile int int J dv du, side 2 int int |S_u x S_v| dv du, bottom 2 int y
+//! (x_u^2 + z_u^2)^(1/2) du on the keel line v = v_min, and on the waterline dx = (J / z_v) du. Volume and moments are
+//! exact to rounding where all of the lines u = constant is immersed; else the relative error of volume and waterplane
+//! is about 1e-10 and that of areas of surfaces about 1e-8.
 //!
 //! The volume aft of midship is that aft of a line u_0 near midship and, where x depends on v, 2 int int y J (u_m(v) - u_0)
 //! ds dv on the lines u = u_0 + s (u_m(v) - u_0), x(u_m(v), v) being L_PP / 2; its relative error is about 1e-8 there.
 //!
-//! Cells of the knots that lie below the waterline as a whole are integrated once for all draughts; a draught costs the cells that its
-//! waterline passes through: O(cells) in all and O(spans_u + spans_v) a draught.
+//! Cells of the knots that lie below the waterline as a whole are integrated once for all draughts; a draught costs the
+//! cells that its waterline passes through: O(cells) in all and O(spans_u + spans_v) a draught.
 
 use super::volume::{Body, Node, count_along, count_up, node_at, nodes};
 use super::waterplane::{Waterplane, largest};
@@ -392,8 +393,8 @@ fn largest_on(hull: &Hull, immersion: &Immersion, piece: &Piece, known: f64) -> 
     largest(y, |u| velocity(hull, immersion, u)[1], piece.from, piece.to, known)
 }
 
-/// Angle between the waterline and the centreplane at its end `u` \[deg\]; where the waterline stands still there in the parameters,
-/// extrapolated from points towards `inward`, to about 1e-5 deg.
+/// Angle between the waterline and the centreplane at its end `u` \[deg\]; where the waterline stands still there in
+/// the parameters, extrapolated from points towards `inward`, to about 1e-5 deg.
 fn half_angle(hull: &Hull, immersion: &Immersion, u: f64, inward: f64) -> Option<f64> {
     let surface = hull.surface();
     let ((a, b), (c, d)) = (surface.u().domain(), surface.v().domain());

@@ -28,8 +28,8 @@ impl Quantity {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// Decimals of a value in print: [`Self::decimals`], and up to two more for volumes, areas, masses and moments of boats, so that four figures
-    /// are seen.
+    /// Decimals of a value in print: [`Self::decimals`], and up to two more for volumes, areas, masses and moments of
+    /// boats, so that four figures are seen.
     #[must_use]
     pub fn decimals_of(&self, value: f64) -> usize {
         let grows = ["m2", "m3", "m4", "t", "t/cm", "t m/cm", "t m/m"].contains(&self.unit);

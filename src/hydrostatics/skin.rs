@@ -15,7 +15,8 @@ use super::volume::{count_along, count_up};
 use crate::hull::{Hull, Immersion};
 use crate::numeric::gauss_legendre;
 
-/// Wetted surface S \[m^2\] below `draught` \[m\]: side, flat of bottom, immersed transom and flat bow; 0 where nothing is immersed.
+/// Wetted surface S \[m^2\] below `draught` \[m\]: side, flat of bottom, immersed transom and flat bow; 0 where nothing
+/// is immersed.
 #[must_use]
 pub fn wetted_surface(hull: &Hull, draught: f64) -> f64 {
     let curves = CurvesOfForm::new(hull, &[draught], &Conventions::default());

@@ -9,10 +9,11 @@
 //! A(x) = int y dz   along the section.
 //! ```
 //!
-//! All are exact for the polyhedron, and continuous where a draught meets vertices. A triangle is added once to the draughts above
-//! it, cut by those that cross it, and not seen by those below: O(triangles log draughts + cuts). Level triangles at a draught are
-//! immersed if they face down. Meshes of surfaces come in pairs, the finer with every edge halved, and their sums are extrapolated. The
-//! largest section is the largest of [`STATIONS`] sections, with a parabola through its neighbours.
+//! All are exact for the polyhedron, and continuous where a draught meets vertices. A triangle is added once to the
+//! draughts above it, cut by those that cross it, and not seen by those below: O(triangles log draughts + cuts). Level
+//! triangles at a draught are immersed if they face down. Meshes of surfaces come in pairs, the finer with every edge
+//! halved, and their sums are extrapolated. The largest section is the largest of [`STATIONS`] sections, with a
+//! parabola through its neighbours.
 
 use super::conventions::Conventions;
 use super::row::Hydrostatics;

@@ -1,8 +1,8 @@
 //! Least squares with a banded matrix by Givens rotations.
 //!
 //! Each row of the data has its nonzero entries in `band` successive columns. It is rotated into the triangle R as it
-//! comes, which costs O(band (band + width)) a column it passes and never squares the condition number (Golub & Van Loan 2013, 5.2.5;
-//! Bjorck 1996, section 6.2).
+//! comes, which costs O(band (band + width)) a column it passes and never squares the condition number (Golub & Van
+//! Loan 2013, 5.2.5; Bjorck 1996, section 6.2).
 
 use super::banded::SingularMatrix;
 

@@ -2,7 +2,7 @@
 
 use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::label::{LabelPlacer, Preference, length};
+use super::label::{LabelPlacer, Preference, length, places_over};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::name_assumed;
 use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
@@ -31,6 +31,11 @@ impl Half {
             Self::Aft => -1.0,
             Self::Fore => 1.0,
         }
+    }
+
+    /// Its place in pairs of ends.
+    fn index(self) -> usize {
+        usize::from(self == Self::Fore)
     }
 
     fn has(self, x: f64, midship: f64) -> bool {
@@ -93,7 +98,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
 
 /// Whether the hull ends in a plane there that can be seen on paper.
 fn has_flat_end(grid: &LinesGrid, view: &View, half: Half) -> bool {
-    grid.ends[usize::from(half == Half::Fore)].iter().any(|p| p[1] * view.scale > 0.1)
+    grid.ends[half.index()].iter().any(|p| p[1] * view.scale > 0.1)
 }
 
 /// The name of the transom, or of a flat bow, over its corner at the deck, where no station stands at it.
@@ -105,9 +110,8 @@ fn name_flat_end(
     half: Half,
     text_size: f64,
 ) {
-    let fore = usize::from(half == Half::Fore);
-    let at_end = |plane: &GridPlane| (plane.at - grid.length[fore]).abs() <= 1e-3 * grid.station_spacing;
-    let corner = grid.ends[fore].iter().max_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
+    let at_end = |plane: &GridPlane| (plane.at - grid.length[half.index()]).abs() <= 1e-3 * grid.station_spacing;
+    let corner = grid.ends[half.index()].iter().max_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
     let Some(corner) = corner.filter(|_| has_flat_end(grid, view, half) && !grid.stations.iter().any(at_end)) else {
         return;
     };
@@ -118,7 +122,7 @@ fn name_flat_end(
 
 /// The transom (aft) or a flat bow (forward): its edge and its upper edge.
 fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half) -> Option<Vec<[f64; 2]>> {
-    let end = &grid.ends[usize::from(half == Half::Fore)];
+    let end = &grid.ends[half.index()];
     let sign = half.sign();
     if !has_flat_end(grid, view, half) {
         return None;
@@ -306,10 +310,6 @@ fn name_at_deck(
     text_size: f64,
 ) {
     let style = TextStyle::new(text_size, Anchor::Middle).halo();
-    let mut shifts: Vec<[f64; 2]> =
-        (0..15).flat_map(|row| (-4..=4).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)])).collect();
-    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
-    let place = |[dx, dy]: [f64; 2]| [at[0] + dx * text_size, at[1] - (0.9 + dy) * text_size];
-    let places: Vec<_> = shifts.into_iter().map(place).collect();
+    let places = places_over(at, text_size, [4, 15]);
     placer.name_off_curves(canvas, name, &style, &places, room, (at, &THREAD));
 }

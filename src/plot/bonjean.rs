@@ -1,8 +1,8 @@
 //! Bonjean curves on the contracted profile, with their table.
 //!
-//! At each station the area of the section below a waterline is drawn forward of the station's line at the height of the waterline, all at
-//! one scale. A waterline at any trim drawn across the profile cuts each curve at the area of its station. Heights have a larger
-//! scale than lengths: the profile is contracted.
+//! At each station the area of the section below a waterline is drawn forward of the station's line at the height of
+//! the waterline, all at one scale. A waterline at any trim drawn across the profile cuts each curve at the area of its
+//! station. Heights have a larger scale than lengths: the profile is contracted.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::label::{LabelPlacer, Preference};
@@ -143,10 +143,6 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let (mut placer, mut numbers) = (LabelPlacer::default(), Vec::new());
     for (k, &x) in table.stations.iter().enumerate() {
         let Some(keel) = keel_height(hull, x) else { continue };
-        // A bulb before a raked stem has area below its profile at the station.
-        let is_empty = |row: &[Option<f64>]| row[k].is_none_or(|area| area <= 1e-9 * largest);
-        let empty = levels.iter().zip(&dense.areas).take_while(|(_, row)| is_empty(row)).last();
-        let keel = keel.min(empty.map_or(bottom, |(z, _)| *z).max(bottom) + (top - bottom) / LEVELS as f64);
         canvas.line(at(x, keel), at(x, hull.deck_height(x)), &Pen::new(0.2, "#000000"));
         let mut points: Vec<[f64; 2]> = vec![at(x, keel)];
         let mut add = |z: f64, area: f64| {

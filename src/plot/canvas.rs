@@ -164,7 +164,8 @@ fn pieces(text: &str) -> Vec<(bool, &str)> {
     result
 }
 
-/// Text as markup. Spaces in a run and at the ends become spaces that do not break: browsers make one of others, whatever `xml:space` says.
+/// Text as markup. Spaces in a run and at the ends become spaces that do not break: browsers make one of others,
+/// whatever `xml:space` says.
 fn escape(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     let mut characters = text.chars().peekable();
@@ -240,7 +241,6 @@ fn write_element(out: &mut String, at: [f64; 2], pieces: &[(bool, &str)], style:
 }
 
 impl Canvas {
-    /// An empty white sheet [mm].
     /// How far it is from a place in a direction of length 1 to [`EDGE`] millimetres before the edge of the sheet \[mm\].
     pub(super) fn room(&self, from: [f64; 2], direction: [f64; 2]) -> f64 {
         let to_edge = |d: usize, size: f64| {
@@ -250,6 +250,7 @@ impl Canvas {
         to_edge(0, self.width).min(to_edge(1, self.height)).max(0.0)
     }
 
+    /// An empty white sheet \[mm\].
     pub(super) fn new(width: f64, height: f64) -> Self {
         Self {
             width,
@@ -307,8 +308,9 @@ impl Canvas {
         let _ = writeln!(self.body, " fill=\"{colour}\"/>");
     }
 
-    /// Filled areas, with a hair of their own colour around them if `edged`, so that no seam shows between neighbours: twice [`HAIR`] wide.
-    /// Corners are rounded to a hundredth of a millimetre, and those that lie beside a side left out: both are less than the hair.
+    /// Filled areas, with a hair of their own colour around them if `edged`, so that no seam shows between neighbours:
+    /// twice [`HAIR`] wide. Corners are rounded to a hundredth of a millimetre, and those that lie beside a side left
+    /// out: both are less than the hair.
     pub(super) fn areas(&mut self, areas: &[Vec<[f64; 2]>], colour: &str, edged: bool) {
         if areas.is_empty() {
             return;

@@ -1,6 +1,6 @@
-//! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all combs of one
-//! kind of line have one scale, which is printed. Teeth that are longer than there is room for are left out, the line of the tips is
-//! interrupted there, and an arrow in the direction of the longest of them says so.
+//! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all
+//! combs of one kind of line have one scale, which is printed. Teeth that are longer than there is room for are left
+//! out, the line of the tips is interrupted there, and an arrow in the direction of the longest of them says so.
 
 use super::canvas::{Canvas, Pen};
 use super::scale::sheet_scale;

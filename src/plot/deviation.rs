@@ -1,5 +1,5 @@
-//! Histogram of the moves of the offsets against the noise that was assumed: if the moves are the noise of the table, the steps follow
-//! the curve; long tails are wrong readings, a shifted middle is a change of shape.
+//! Histogram of the moves of the offsets against the noise that was assumed: if the moves are the noise of the table,
+//! the steps follow the curve; long tails are wrong readings, a shifted middle is a change of shape.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};

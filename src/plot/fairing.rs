@@ -71,8 +71,9 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     side.map(|branch| branch.polyline(deviation)).collect()
 }
 
-/// The curves of a plane on the hull, in one piece where the hull is one: stations and diagonals run on over the flats, to the centre line; a
-/// station at an end of the hull that goes in and out of its side, or leaves it before the keel, is the edge there.
+/// The curves of a plane on the hull, in one piece where the hull is one: stations and diagonals run on over the flats,
+/// to the centre line; a station at an end of the hull that goes in and out of its side, or leaves it before the keel,
+/// is the edge there.
 pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
     let section = hull.section(cut, 1e-6);
     let on = |faces: &[Face]| {
@@ -87,15 +88,18 @@ pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f6
             let foot = lines.iter().flatten().min_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
             let is_open = foot.is_some_and(|foot| foot[1] > OPEN * hull.particulars().breadth);
             // A bulb under a flare is in two pieces too, far wider than the stem beside it.
-            let widest = |points: &mut dyn Iterator<Item = &[f64; 3]>| points.map(|p| p[1]).fold(0.0, f64::max);
-            let breadth = widest(&mut lines.iter().flatten());
             let edge = if in_pieces || is_open { end_curve(hull, x) } else { None };
-            let edge = edge.filter(|edge| widest(&mut edge.iter()) >= 0.5 * breadth);
+            let edge = edge.filter(|edge| widest(edge) >= 0.5 * widest(lines.iter().flatten()));
             edge.map_or(lines, |edge| vec![edge])
         }
         Cut::Diagonal { .. } => on(&[Face::Side, Face::Bottom, Face::Transom, Face::Bow]),
         _ => on(&[Face::Side]),
     }
+}
+
+/// The greatest half-breadth of points \[m\].
+fn widest<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> f64 {
+    points.into_iter().map(|p| p[1]).fold(0.0, f64::max)
 }
 
 /// Half-breadth of the foot of a section that ends away from the centre line, in breadths of the hull.
@@ -125,8 +129,8 @@ fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
     Some(points)
 }
 
-/// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn there: an upright
-/// end that is a plane at the waterlines alone leaves that plane by less.
+/// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn
+/// there: an upright end that is a plane at the waterlines alone leaves that plane by less.
 const END: f64 = 0.01;
 const INSIDE: f64 = 1e-4;
 

@@ -1,5 +1,5 @@
-//! Body plan before (broad and grey) and after (thin and black) with an arrow for every offset that moved, so many times longer than the move as the
-//! sheet says.
+//! Body plan before (broad and grey) and after (thin and black) with an arrow for every offset that moved, so many
+//! times longer than the move as the sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::{base, extent, midship, station_cut, whole_curves};
@@ -114,8 +114,8 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     Ok(canvas)
 }
 
-/// An arrow along `by` \[mm\], orange where `sign` is positive and blue elsewhere; its head is at most a third of it. None where it would
-/// be too short to be seen.
+/// An arrow along `by` \[mm\], orange where `sign` is positive and blue elsewhere; its head is at most a third of it.
+/// None where it would be too short to be seen.
 pub(super) fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64) {
     let length = by[0].hypot(by[1]);
     if length < LEAST {

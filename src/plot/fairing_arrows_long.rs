@@ -1,9 +1,9 @@
-//! The moves in the two long views: in the half-breadth plan an arrow for every offset, in the profile an arrow for every crossing of a
-//! buttock with a station.
+//! The moves in the two long views: in the half-breadth plan an arrow for every offset, in the profile an arrow for
+//! every crossing of a buttock with a station.
 //!
-//! Half-breadths move, heights do not: z belongs to the chart of the hull. The arrows of the profile say how far the buttocks rise or
-//! fall with the half-breadths. Across the ship both views are stretched by a whole number, which is printed; arrows have a scale of their
-//! own, millimetres of move a millimetre of arrow.
+//! Half-breadths move, heights do not: z belongs to the chart of the hull. The arrows of the profile say how far the
+//! buttocks rise or fall with the half-breadths. Across the ship both views are stretched by a whole number, which is
+//! printed; arrows have a scale of their own, millimetres of move a millimetre of arrow.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::{LONG_SIDES, base, curves, extent, long_left, long_scale, short, station_words};
@@ -70,8 +70,8 @@ fn heights(lines: &[Vec<[f64; 3]>], x: f64) -> Vec<f64> {
     lines.iter().flat_map(|line| line.windows(2).filter_map(crossing)).collect()
 }
 
-/// Where the buttocks cross the stations before, and how much higher they do after; crossings that only one of the hulls has are left
-/// out, and such as move by more than a fiftieth of `height`.
+/// Where the buttocks cross the stations before, and how much higher they do after; crossings that only one of the
+/// hulls has are left out, and such as move by more than a fiftieth of `height`.
 fn risen(before: &[Vec<[f64; 3]>], after: &[Vec<[f64; 3]>], x: f64, height: f64) -> Vec<[f64; 2]> {
     let (old, new) = (heights(before, x), heights(after, x));
     if old.len() != new.len() {

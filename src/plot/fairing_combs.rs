@@ -1,5 +1,5 @@
-//! The combs of a faired table: which lines bear them, and their scales. Stations, waterlines, buttocks and diagonals have a scale each,
-//! which is the same on every sheet of a report, before and after.
+//! The combs of a faired table: which lines bear them, and their scales. Stations, waterlines, buttocks and diagonals
+//! have a scale each, which is the same on every sheet of a report, before and after.
 
 use super::comb::{CombScale, LONGEST};
 use super::fairing_curves::{self, Along, moved_most};

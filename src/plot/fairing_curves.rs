@@ -1,8 +1,8 @@
-//! The lines that moved most, a panel each: the line with its offsets and combs, and under it how far the offsets lie from the fair line,
-//! each with the bar of its tolerance.
+//! The lines that moved most, a panel each: the line with its offsets and combs, and under it how far the offsets lie
+//! from the fair line, each with the bar of its tolerance.
 //!
-//! The strip below is a draughtsman's batten laid straight: 0 is the fair line, dots are offsets of the table, bars run as far as the
-//! offset may be moved, the grey line is the surface through the table. The fair line leaves no bar.
+//! The strip below is a draughtsman's batten laid straight: 0 is the fair line, dots are offsets of the table, bars run
+//! as far as the offset may be moved, the grey line is the surface through the table. The fair line leaves no bar.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;

@@ -1,7 +1,7 @@
-//! Buttocks and diagonals before and after fairing, a strip each, with combs at one scale. Neither was used in the fit: they are the
-//! independent check. Diagonals are in their true shape. Where there are more than a sheet has strips for, every second or third of them is
-//! shown, which the sheet says; heights and distances may be stretched by a whole number, which is printed; curvatures are those of the
-//! ship.
+//! Buttocks and diagonals before and after fairing, a strip each, with combs at one scale. Neither was used in the fit:
+//! they are the independent check. Diagonals are in their true shape. Where there are more than a sheet has strips for,
+//! every second or third of them is shown, which the sheet says; heights and distances may be stretched by a whole
+//! number, which is printed; curvatures are those of the ship.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, long_scale, title};

@@ -1,11 +1,11 @@
-//! The map of moves: station by waterline, what each offset moved, outward positive, in millimetres; in eighths of an inch where the
-//! table is written in feet, inches and eighths.
+//! The map of moves: station by waterline, what each offset moved, outward positive, in millimetres; in eighths of an
+//! inch where the table is written in feet, inches and eighths.
 //!
-//! The colour runs from blue (inward) over white to orange (outward), full at the largest move; numbers say the same, in whole units where
-//! cells have room for no more, and not at all where they have no room for those. Locked cells
-//! have a black frame, cells that stop at their tolerance a bar below the number, suspects that were left out a ring; the
-//! largest move is framed and called out. Diamonds at the left edge stand at the height at which a station crosses a knuckle (full) or a
-//! tangent line (hollow).
+//! The colour runs from blue (inward) over white to orange (outward), full at the largest move; numbers say the same,
+//! in whole units where cells have room for no more, and not at all where they have no room for those. Locked cells
+//! have a black frame, cells that stop at their tolerance a bar below the number, suspects that were left out a ring;
+//! the largest move is framed and called out. Diamonds at the left edge stand at the height at which a station crosses
+//! a knuckle (full) or a tangent line (hollow).
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::station_words;

@@ -1,7 +1,7 @@
 //! The offsets that are doubted, on the body plan of the fair hull, with what the table has and what is proposed for it.
 //!
-//! A hollow ring is the half-breadth of the table, the bar runs to the half-breadth that is proposed. Beside the plan stand the list of
-//! them and, of the worst, the section and the waterline through the offset.
+//! A hollow ring is the half-breadth of the table, the bar runs to the half-breadth that is proposed. Beside the plan
+//! stand the list of them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::{base, extent, midship, station_cut, whole_curves};

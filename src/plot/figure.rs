@@ -68,15 +68,15 @@ impl FigureInputs<'_> {
         draughts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], d| [a.min(d), b.max(d)])
     }
 
-    /// The draught at which `rows` of [`FigureInputs::dense_rows`] end, where it is that at which the deck edge goes under \[m\]; none
-    /// where they go as far as the table.
+    /// The draught at which `rows` of [`FigureInputs::dense_rows`] end, where it is that at which the deck edge goes
+    /// under \[m\]; none where they go as far as the table.
     pub(super) fn immersed_edge(&self, rows: &[Hydrostatics]) -> Option<f64> {
         let [low, high] = self.range();
         rows.last().map(|row| row.draught).filter(|edge| *edge < high - EDGE * (high - low))
     }
 
-    /// Hydrostatics over the range of draughts of the table, so dense that curves through them look smooth; up to the lowest point of the
-    /// deck edge, where the table goes beyond it: form without a superstructure says nothing there.
+    /// Hydrostatics over the range of draughts of the table, so dense that curves through them look smooth; up to the
+    /// lowest point of the deck edge, where the table goes beyond it: form without a superstructure says nothing there.
     pub(super) fn dense_rows(&self) -> Result<Vec<Hydrostatics>, PlotError> {
         const ROWS: usize = 120;
         let [low, high] = self.range();
@@ -211,7 +211,8 @@ impl Figure {
         Ok(Svg::new(self.compose(inputs)?.finish(self.key())))
     }
 
-    /// Draws the figure as large as `sheet` lets it be; only lines plan and body plan, which have a scale, become larger than on A3.
+    /// Draws the figure as large as `sheet` lets it be; only lines plan and body plan, which have a scale, become
+    /// larger than on A3.
     ///
     /// # Errors
     /// [`PlotError`] when there is nothing to draw.

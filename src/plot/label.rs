@@ -34,6 +34,15 @@ fn bounds(points: &[[f64; 2]]) -> Rectangle {
         .fold(empty, |r, p| Rectangle::new(r.left.min(p[0]), r.top.min(p[1]), r.right.max(p[0]), r.bottom.max(p[1])))
 }
 
+/// Places for a name over the end `at` of a line, the nearest first: up to `columns` steps aside and `rows` steps up, of
+/// 0.9 and 0.5 of `unit` \[mm\].
+pub(super) fn places_over(at: [f64; 2], unit: f64, [columns, rows]: [i32; 2]) -> Vec<[f64; 2]> {
+    let aside = move |row: i32| (-columns..=columns).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)]);
+    let mut steps: Vec<[f64; 2]> = (0..rows).flat_map(aside).collect();
+    steps.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
+    steps.into_iter().map(|[dx, dy]| [at[0] + dx * unit, at[1] - (0.9 + dy) * unit]).collect()
+}
+
 /// Where a name is wanted on its curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Preference {
@@ -205,9 +214,9 @@ impl LabelPlacer {
         true
     }
 
-    /// Writes `name` at the first of `places` inside `window` that is off every text, leader and curve, or else at that of them
-    /// off text which meets fewest curves, a thread over other text counting as three; with a thread of `pen` from `from` unless it is the first place. False when there is
-    /// none.
+    /// Writes `name` at the first of `places` inside `window` that is off every text, leader and curve, or else at that
+    /// of them off text which meets fewest curves, a thread over other text counting as three; with a thread of `pen`
+    /// from `from` unless it is the first place. False when there is none.
     #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
     pub(super) fn name_off_curves(
         &mut self,

@@ -1,6 +1,6 @@
-//! The lines plan on A3 or A1: profile, half-breadth plan and body plan in true proportion at scales of the list, with a title block
-//! and a table of half-breadths. Where a larger scale is had for it, names stand at one end of the long views alone, or diagonals stay
-//! away from under the half-breadth plan.
+//! The lines plan on A3 or A1: profile, half-breadth plan and body plan in true proportion at scales of the list, with
+//! a title block and a table of half-breadths. Where a larger scale is had for it, names stand at one end of the long
+//! views alone, or diagonals stay away from under the half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};

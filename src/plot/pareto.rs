@@ -1,7 +1,7 @@
 //! Deviation against fairness: what smoothing alone makes of the table, weight by weight, and where the fair hull stands.
 //!
-//! A point of the curve cannot be bettered in both; the hull with all its wishes lies above the curve, and how far is what the wishes
-//! cost. The surface through the table has no deviation and the energy of all its bumps.
+//! A point of the curve cannot be bettered in both; the hull with all its wishes lies above the curve, and how far is
+//! what the wishes cost. The surface through the table has no deviation and the energy of all its bumps.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};

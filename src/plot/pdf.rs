@@ -1,7 +1,8 @@
-//! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give the same bytes.
+//! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give
+//! the same bytes.
 
 use super::figure::Svg;
-use super::sheet::{ROOM, Sheet, Titles, framed, numbered_over};
+use super::sheet::{ROOM, Sheet, Titles, framed, has_room_for_caption, numbered_over};
 use super::{PlotError, caption};
 use krilla::geom::{Size, Transform};
 use krilla::metadata::Metadata;
@@ -70,9 +71,11 @@ impl Read<'_> {
         self.size[0] <= room[0] + 0.1 && self.size[1] <= room[1] + 0.1
     }
 
-    /// Whether `below` has room under it.
-    fn leaves_room_for(&self, below: &Self, room: [f64; 2]) -> bool {
-        self.fits(room) && below.fits([room[0], room[1] - self.size[1]])
+    /// Whether `below` has room under it on a sheet, and both captions in one title block.
+    fn leaves_room_for(&self, below: &Self, sheet: Sheet) -> bool {
+        let [width, height] = sheet.room();
+        let both_fit = self.fits([width, height]) && below.fits([width, height - self.size[1]]);
+        both_fit && has_room_for_caption(sheet, &joint_caption([self, below]))
     }
 
     /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of it.
@@ -108,11 +111,16 @@ fn page(
     Ok(())
 }
 
+/// The caption of two figures on one sheet.
+fn joint_caption(pair: [&Read<'_>; 2]) -> String {
+    pair.map(|figure| figure.titles.caption).join(" ")
+}
+
 /// Two figures that stand over each other in the frame of `sheet`, under one title.
 fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet) -> Result<(), PlotError> {
     let [upper, lower] = pair.map(|figure| &figure.titles);
     let title = format!("{}. {}", upper.title, lower.title);
-    let caption = format!("{} {}", upper.caption, lower.caption);
+    let caption = joint_caption(pair);
     let titles = Titles { title: &title, caption: &caption, last: lower.number[0], ..*upper };
     page(document, sheet.size(), |surface| {
         place(surface, framed(sheet, sheet, &titles).tree()?.as_ref(), [0.0, 0.0])?;
@@ -138,10 +146,12 @@ fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet) -> Resul
     })
 }
 
-/// The figures at true size, each with frame, title block and check bar, or as the whole sheet where it is larger than the frame leaves.
+/// The figures at true size, each with frame, title block and check bar, or as the whole sheet where it is larger than
+/// the frame leaves.
 ///
-/// Pages are in the order of the figures. On A3 a figure has a sheet of its own, or shares it with the next where both are low enough. On A1 one that was drawn larger has a sheet of its own, and
-/// those that fit into the frame of A3 stand up to four to a sheet, as they follow each other.
+/// Pages are in the order of the figures. On A3 a figure has a sheet of its own, or shares it with the next where both
+/// are low enough. On A1 one that was drawn larger has a sheet of its own, and those that fit into the frame of A3
+/// stand up to four to a sheet, as they follow each other.
 ///
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
@@ -163,7 +173,7 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
             let mut rest = run;
             while let Some((first, others)) = rest.split_first() {
                 rest = match others.split_first() {
-                    Some((below, after)) if first.leaves_room_for(below, sheet.room()) => {
+                    Some((below, after)) if first.leaves_room_for(below, sheet) => {
                         draw_pair(&mut document, [first, below], sheet)?;
                         after
                     }

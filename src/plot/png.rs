@@ -48,7 +48,8 @@ pub(super) fn render(tree: &Tree, dots_per_inch: f64) -> Result<Vec<u8>, PlotErr
     packed(&pixmap, dots_per_inch).map_err(|error| PlotError::Png(error.to_string()))
 }
 
-/// The picture on white with its resolution, three bytes a pixel, unfiltered: of line drawings that packs closer and twice as fast as filtered rows do.
+/// The picture on white with its resolution, three bytes a pixel, unfiltered: of line drawings that packs closer and
+/// twice as fast as filtered rows do.
 fn packed(pixmap: &Pixmap, dots_per_inch: f64) -> Result<Vec<u8>, png::EncodingError> {
     // What is over nothing is premultiplied: white shows through.
     let mut colours = vec![0; 3 * pixmap.pixels().len()];

@@ -217,7 +217,8 @@ pub(super) fn draw_profile(
     canvas.end_group();
 }
 
-/// Names a curve near both of its ends, clear of other curves; once, with a leader or where it meets fewest, when there is no clear place.
+/// Names a curve near both of its ends, clear of other curves; once, with a leader or where it meets fewest, when there
+/// is no clear place.
 fn name_twice(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
@@ -235,8 +236,8 @@ fn name_twice(
     }
 }
 
-/// The half-breadth plan: waterlines above the centre line, diagonals, where they are wanted, in their true shape below it; the origin of `view` is AP
-/// on the centre line.
+/// The half-breadth plan: waterlines above the centre line, diagonals, where they are wanted, in their true shape below
+/// it; the origin of `view` is AP on the centre line.
 pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
     let text_size = style.text_size;
     let diagonals = if style.diagonals { grid.diagonals.as_slice() } else { &[] };

@@ -85,8 +85,8 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// A table of a Wigley hull with an error of some millimetres and two wrong offsets, written in feet, inches and eighths, with a knuckle,
-/// faired.
+/// A table of a Wigley hull with an error of some millimetres and two wrong offsets, written in feet, inches and
+/// eighths, with a knuckle, faired.
 fn record() -> FairRecord {
     let hull = wigley();
     let stations: Vec<OffsetStation> =

@@ -30,7 +30,8 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
         [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]].map(|side| side - 1e-6);
     let mut canvas = Canvas::new(size[0].ceil(), size[1].ceil());
     let centre = 0.5 * size[0].ceil();
-    // A picture of A3 is read on a screen, where letters grow with it; on larger sheets they have the size of those of a lines plan.
+    // A picture of A3 is read on a screen, where letters grow with it; on larger sheets they have the size of those of
+    // a lines plan.
     let letters = LETTERS * (size[0].ceil() / Sheet::A3.size()[0]).min(1.0);
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));

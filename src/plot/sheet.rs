@@ -53,6 +53,18 @@ impl Sheet {
         [width - 2.0 * MARGIN - 2.0, height - 2.0 * MARGIN - STRIP - 2.0]
     }
 
+    /// Where the columns of the title block end: check bar, title with caption, and what the drawing is \[mm\].
+    fn columns(self) -> [f64; 2] {
+        let frame = self.frame();
+        [frame.left + 112.0, frame.right - 96.0]
+    }
+
+    /// Width that a caption has in the title block \[mm\].
+    fn caption_room(self) -> f64 {
+        let [left, right] = self.columns();
+        right - left - 8.0
+    }
+
     /// The frame of a drawing that fills it \[mm\].
     pub(super) fn frame(self) -> Rectangle {
         let [width, height] = self.size();
@@ -80,7 +92,8 @@ pub(super) struct Titles<'a> {
     pub(super) date: Option<&'a str>,
 }
 
-/// The frame of a drawing as large as `sheet` on a paper of that size or larger: name of the ship, title and caption of the figure, check bar.
+/// The frame of a drawing as large as `sheet` on a paper of that size or larger: name of the ship, title and caption of
+/// the figure, check bar.
 pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
@@ -89,19 +102,17 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     let top = frame.bottom - STRIP;
     let rule = Pen::new(0.25, "#000000");
     canvas.line([frame.left, top], [frame.right, top], &rule);
-    let columns = [frame.left + 112.0, frame.right - 96.0];
+    let columns = sheet.columns();
     for x in columns {
         canvas.line([x, top], [x, frame.bottom], &rule);
     }
     title_block::draw_check_bar(&mut canvas, [frame.left + 6.0, top + 9.0]);
-    let room = columns[1] - columns[0] - 8.0;
-    let wide =
-        |text: &str, size: f64| Canvas::text_place([0.0, 0.0], text, &TextStyle::new(size, Anchor::Start)).width();
+    let room = sheet.caption_room();
     let heading = format!("{} – {}", caption::plain(titles.ship), titles.title);
     let size = 3.8 * (room / wide(&heading, 3.8).max(1.0)).min(1.0);
     canvas.text([columns[0] + 4.0, top + 3.7], &heading, &TextStyle::new(size, Anchor::Start));
     let small = TextStyle::new(LETTERS, Anchor::Start);
-    for (k, line) in wrapped(titles.caption, |line| wide(line, small.size) <= room).iter().take(LINES).enumerate() {
+    for (k, line) in caption_lines(sheet, titles.caption).iter().take(LINES).enumerate() {
         canvas.text([columns[0] + 4.0, top + 7.9 + 3.6 * k as f64], line, &small);
     }
     let lines = [numbered(titles, paper), titles.source.to_owned(), stamped(titles)];
@@ -114,6 +125,21 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
         );
     }
     Svg::new(canvas.finish(titles.title))
+}
+
+/// Width of a text on the sheet \[mm\].
+fn wide(text: &str, size: f64) -> f64 {
+    Canvas::text_place([0.0, 0.0], text, &TextStyle::new(size, Anchor::Start)).width()
+}
+
+/// The lines of a caption in the title block of a sheet.
+fn caption_lines(sheet: Sheet, caption: &str) -> Vec<String> {
+    wrapped(caption, |line| wide(line, LETTERS) <= sheet.caption_room())
+}
+
+/// Whether a caption has room in the title block of a sheet.
+pub(super) fn has_room_for_caption(sheet: Sheet, caption: &str) -> bool {
+    caption_lines(sheet, caption).len() <= LINES
 }
 
 /// `drawing 3 of 24   A3, true size`.

@@ -1,8 +1,8 @@
-//! The search for the smoothing weight: the L-curve, deviation from the offsets against energy, one point a weight, over the criterion that
-//! decided, both axes by powers of ten.
+//! The search for the smoothing weight: the L-curve, deviation from the offsets against energy, one point a weight,
+//! over the criterion that decided, both axes by powers of ten.
 //!
-//! The criterion is generalised cross-validation, or Mallows' C_p = RSS + 2 sigma^2 edf where the noise is that of the table; it is shown over its
-//! least value.
+//! The criterion is generalised cross-validation, or Mallows' C_p = RSS + 2 sigma^2 edf where the noise is that of the
+//! table; it is shown over its least value.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
@@ -24,8 +24,8 @@ fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
     point.iter().all(|value| value.is_finite()).then_some(point)
 }
 
-/// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that was taken is the best
-/// of neither.
+/// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that
+/// was taken is the best of neither.
 fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
     let count = record.changes.iter().filter(|change| !change.suspect).count() as f64;
     let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.sigma * record.sigma * trial.edf;

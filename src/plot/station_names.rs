@@ -3,7 +3,7 @@
 use super::body_plan::range;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::caption;
-use super::label::LabelPlacer;
+use super::label::{LabelPlacer, places_over};
 use super::sheet::LETTERS;
 use super::view::THREAD;
 use crate::fairing::record::FairRecord;
@@ -12,9 +12,12 @@ use crate::fairing::record::FairRecord;
 pub(super) const ROWS: [f64; 4] = [3.0, 6.6, 10.2, 13.8];
 /// Sections whose upper ends are nearer to each other than this bear one name \[mm\].
 const BESIDE: f64 = 2.4;
+/// The unit of the steps in which a place for a name is looked for \[mm\].
+const NEAR: f64 = 2.6;
 
-/// The names of the stations over the upper ends of their sections, with a thread where they stand aside; those aft of `midship` left of
-/// `centre`, the others right of it. The sections next to the centre line have the first choice of places.
+/// The names of the stations over the upper ends of their sections, with a thread where they stand aside; those aft of
+/// `midship` left of `centre`, the others right of it. The sections next to the centre line have the first choice of
+/// places.
 pub(super) fn name_stations(
     canvas: &mut Canvas,
     record: &FairRecord,
@@ -24,9 +27,6 @@ pub(super) fn name_stations(
     [centre, midship]: [f64; 2],
 ) {
     let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
-    let mut shifts: Vec<[f64; 2]> =
-        (0..22).flat_map(|row| (-8..=8).map(move |k| [0.9 * f64::from(k), 0.55 * f64::from(row)])).collect();
-    shifts.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
     let stations = &record.lines.stations;
     let is_aft = |k: usize| stations[k].x < midship;
     let (aft, fore): (Vec<usize>, Vec<usize>) = (0..stations.len()).partition(|k| is_aft(*k));
@@ -48,8 +48,7 @@ pub(super) fn name_stations(
         } else {
             Rectangle { left: centre + 0.4, ..*window }
         };
-        let places: Vec<[f64; 2]> =
-            shifts.iter().map(|[dx, dy]| [end[0] + dx * 2.6, end[1] - (0.9 + dy) * 2.6]).collect();
+        let places = places_over(end, NEAR, [8, 24]);
         let name = |k: usize| caption::plain(&stations[k].name).chars().take(9).collect::<String>();
         let [first, last] = [own.iter().min(), own.iter().max()].map(|k| k.map_or(String::new(), |k| name(*k)));
         let name = if first == last { first } else { range(&first, &last) };

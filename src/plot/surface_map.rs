@@ -1,12 +1,14 @@
 //! Curvature of the side of a hull, developed: position along the ship by girth from the keel.
 //!
-//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is developable, orange where
-//! it is convex both ways and blue where it is a saddle; the mean map orange where it is convex outward and blue where it is hollow; on both,
-//! black lines mark zero. Colours are steps of the square root of the curvature, full at a size that nineteen twentieths of the side do not
-//! pass. Zebra stripes are the reflections of lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous,
-//! have kinks where only the tangent plane is, and break at knuckles. Both sides of a knot line of the surface are looked at: where curvature
-//! jumps by a quarter of a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so that what the surface is made with
-//! is not taken for a bump. Between the points of the map the curvature, or the angle of the reflection, is linear.
+//! Signs stand on the fields of colour, for print without colours. The Gaussian map is white where the surface is
+//! developable, orange where it is convex both ways and blue where it is a saddle; the mean map orange where it is
+//! convex outward and blue where it is hollow; on both, black lines mark zero. Colours are steps of the square root of
+//! the curvature, full at a size that nineteen twentieths of the side do not pass. Zebra stripes are the reflections of
+//! lamps that run along the ship, seen from abeam: they are smooth where curvature is continuous, have kinks where only
+//! the tangent plane is, and break at knuckles. Both sides of a knot line of the surface are looked at: where curvature
+//! jumps by a quarter of a step of colour or more the line is dashed, where the tangent plane breaks it is heavy, so
+//! that what the surface is made with is not taken for a bump. Between the points of the map the curvature, or the
+//! angle of the reflection, is linear.
 
 use super::canvas::{Anchor, Canvas, HAIR, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart};
@@ -48,7 +50,8 @@ const JUMP_STEP: f64 = 0.25;
 /// Lines across which curvature jumps, and knuckles.
 pub(super) const JUMP: Pen = Pen::new(0.25, "#d0107a").dashed(&[1.6, 0.9]);
 pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
-/// Stations beyond which girths begin at the stern or stem profile, and how far inside the ends they are marked, in lengths of the hull.
+/// Stations beyond which girths begin at the stern or stem profile, and how far inside the ends they are marked, in
+/// lengths of the hull.
 pub(super) const KEEL_END: Pen = Pen::new(0.3, "#000000").dashed(&[0.5, 0.9]);
 const MARKED: f64 = 5e-3;
 /// Where there is no side.
@@ -94,8 +97,8 @@ impl SurfaceMapKind {
         }
     }
 
-    /// What is compared with the levels: a curvature, or the phase of the reflection, of which stripes from even to odd numbers are dark;
-    /// upright sides and flat bottoms are bright. None where there is no tangent plane.
+    /// What is compared with the levels: a curvature, or the phase of the reflection, of which stripes from even to odd
+    /// numbers are dark; upright sides and flat bottoms are bright. None where there is no tangent plane.
     fn value(self, point: &MapPoint) -> Option<f64> {
         match self {
             Self::Zebra => {
@@ -355,24 +358,23 @@ fn half(corners: &[Corner], sign: impl Fn(f64) -> f64) -> Vec<Corner> {
     part
 }
 
-/// The knot lines of the surface where curvature `which` jumps by [`JUMP_STEP`] or more, or the tangent plane breaks. Whether there are lines of
-/// either kind.
+/// The knot lines of the surface where curvature `which` jumps by [`JUMP_STEP`] or more, or the tangent plane breaks.
+/// Whether there are lines of either kind.
 fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, full: f64) -> [bool; 2] {
     let mut drawn = [false; 2];
     let step = |value: f64| (value.abs() / full).min(1.0).sqrt().copysign(value) * f64::from(STEPS);
     for found in &map.breaks {
         let mut runs: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
         for [a, b] in map.across(found) {
-            let jump = full > 0.0
-                && a.curvature
-                    .zip(b.curvature)
-                    .is_some_and(|(p, q)| (step(p[which]) - step(q[which])).abs() >= JUMP_STEP);
             let angle =
                 a.normal.zip(b.normal).map_or(0.0, |(n, m)| (0..3).map(|d| (n[d] - m[d]).powi(2)).sum::<f64>().sqrt());
             let knuckle = found.line == KnotLine::Knuckle && angle >= KNUCKLE;
+            let difference = a.curvature.zip(b.curvature).map_or(0.0, |(p, q)| (step(p[which]) - step(q[which])).abs());
+            let jump = !knuckle && full > 0.0 && difference >= JUMP_STEP;
             let place = chart.place([a.at[0], a.girth]);
-            drawn = [drawn[0] || jump && !knuckle, drawn[1] || knuckle];
-            for (run, (here, pen)) in runs.iter_mut().zip([(jump && !knuckle, &JUMP), (knuckle, &KNUCKLE_LINE)]) {
+            let kinds = [(jump, &JUMP), (knuckle, &KNUCKLE_LINE)];
+            for (k, (run, (here, pen))) in runs.iter_mut().zip(kinds).enumerate() {
+                drawn[k] |= here;
                 if here {
                     run.push(place);
                 } else {
@@ -387,7 +389,8 @@ fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usiz
     drawn
 }
 
-/// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature is positive and
+/// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature
+/// is positive and
 /// - where it is negative, about [`SIGNS`] apart.
 fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, least: f64) {
     let pen = Pen::new(0.14, "#303030");

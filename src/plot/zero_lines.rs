@@ -1,7 +1,8 @@
 //! Lines on which a curvature of a map changes its sign, as whole curves.
 //!
-//! The crossings of the sides of cells are joined to chains. A piece of a chain counts where the curvature reaches a least size with both signs nearby: what is flat but for rounding has signs without meaning. Short gaps in a chain are
-//! filled and short pieces left out, so that lines neither stutter nor leave crumbs.
+//! The crossings of the sides of cells are joined to chains. A piece of a chain counts where the curvature reaches a
+//! least size with both signs nearby: what is flat but for rounding has signs without meaning. Short gaps in a chain
+//! are filled and short pieces left out, so that lines neither stutter nor leave crumbs.
 
 use std::collections::BTreeMap;
 

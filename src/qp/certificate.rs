@@ -6,9 +6,9 @@
 //! g(z) = inf_x [1/2 x'Px + (q + A'z)'x] - sum_k (u_k z_k^+ - l_k z_k^-),   z^+ = max(z, 0), z^- = max(-z, 0)
 //! ```
 //!
-//! The infimum is bounded at the given x: with r = Px + q + A'z it is -1/2 x'Px + inf_d (1/2 d'Pd + r'd) >= -1/2 x'Px - |r|'rho for all
-//! minimisers within rho of x. The bound is therefore rigorous for every optimum inside the box |x* - x| <= rho; with r at
-//! rounding level the last term is rounding too.
+//! The infimum is bounded at the given x: with r = Px + q + A'z it is -1/2 x'Px + inf_d (1/2 d'Pd + r'd) >= -1/2 x'Px -
+//! |r|'rho for all minimisers within rho of x. The bound is therefore rigorous for every optimum inside the box |x* -
+//! x| <= rho; with r at rounding level the last term is rounding too.
 
 use super::problem::Problem;
 

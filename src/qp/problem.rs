@@ -68,7 +68,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most iterations.
     pub iterations: usize,
-    /// Whether an iteration that stalls is followed by the search for a proof that there is no solution, which costs more than it did.
+    /// Whether an iteration that stalls is followed by the search for a proof that there is no solution, which costs
+    /// more than it did.
     pub proof: bool,
 }
 

@@ -114,8 +114,8 @@ fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option
 
 /// Reads a table, a body, a hull or a design and writes it as `format` in one file; messages for the user beside it.
 ///
-/// Sections of a table or a body become sections of another program as they are, triangles stay triangles, a control net stays a control
-/// net; everything else goes over a hull, which is laid through tables and bodies.
+/// Sections of a table or a body become sections of another program as they are, triangles stay triangles, a control
+/// net stays a control net; everything else goes over a hull, which is laid through tables and bodies.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of what is read; those of [`export`].

@@ -183,8 +183,8 @@ pub struct ExportSettings {
     pub datum: f64,
     /// Draught of panels above the base line \[m\]; none: that of the hull.
     pub draught: Option<f64>,
-    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a quarter of that, until
-    /// the volume of the panels is within half a per cent of the hull's.
+    /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a
+    /// quarter of that, until the volume of the panels is within half a per cent of the hull's.
     pub panel: Option<f64>,
     /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal; 0: all panels are planar.
     pub flatness: f64,
@@ -371,8 +371,9 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the draught, a format is named
-/// twice, the deviation is less than a millionth of the breadth or asks for too many triangles, or the datum is a hundred depths away.
+/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the
+/// draught, a format is named twice, the deviation is less than a millionth of the breadth or asks for too many
+/// triangles, or the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,
     name: &str,

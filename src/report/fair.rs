@@ -229,8 +229,8 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
 /// Fairs the table and makes every file about it.
 ///
 /// # Errors
-/// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made. Wishes that cannot
-/// be had are [`FairOutputs::verdict`].
+/// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made.
+/// Wishes that cannot be had are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
     let refusal = |error: JobError| {
         if let JobError::Fair(FairError::Rules(list)) = &error {

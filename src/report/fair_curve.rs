@@ -68,8 +68,8 @@ fn diagnostic(code: &'static str, path: &Path, line: Option<usize>, message: Str
 /// Reads and fairs.
 ///
 /// # Errors
-/// [`Failure::FileSystem`]; [`Failure::Input`] for lines that cannot be understood and points that make no curve; [`Failure::Usage`] for
-/// locks where no point is.
+/// [`Failure::FileSystem`]; [`Failure::Input`] for lines that cannot be understood and points that make no curve;
+/// [`Failure::Usage`] for locks where no point is.
 pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
     let path = &job.path;
     let bytes = std::fs::read(path).map_err(|error| Failure::FileSystem { act: "read", path: path.clone(), error })?;

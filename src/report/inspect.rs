@@ -210,8 +210,8 @@ fn curve_json(curve: &CurveReport) -> Value {
 
 /// An inspection as JSON: `{"name", "tolerance", "curves": [{"kind", "at", "branch", "length", "inflections",
 /// "inflections_at", "extrema", "max_curvature", "max_step", "bending_energy", "variation_energy", "flats", "knuckles",
-/// ...}], "totals": {"stations": {...}}, "empty": [...], "no_breadth": [...], "net": [{"line", "index", "at", "signs", "changes", "enclosed"}],
-/// "surface": {...}}`; lengths \[m\], curvatures \[1/m\], points \[x, y, z\].
+/// ...}], "totals": {"stations": {...}}, "empty": [...], "no_breadth": [...], "net": [{"line", "index", "at", "signs",
+/// "changes", "enclosed"}], "surface": {...}}`; lengths \[m\], curvatures \[1/m\], points \[x, y, z\].
 #[must_use]
 pub fn inspection_json(name: &str, inspection: &Inspection) -> Value {
     let mut totals = serde_json::Map::new();

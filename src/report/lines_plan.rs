@@ -40,9 +40,9 @@ pub(super) fn lines_in_space(hull: &Hull, deviation: f64, datum: f64) -> Vec<Dxf
     lines
 }
 
-/// The three views in one plane at full size: the profile in its place (x, z); below it the half-breadth plan (x, y) with y upward;
-/// beside it, forward, the body plan with the sections of the after body to the left of its centreline. Each view has its curves, its
-/// outline and its grid on layers of their own.
+/// The three views in one plane at full size: the profile in its place (x, z); below it the half-breadth plan (x, y)
+/// with y upward; beside it, forward, the body plan with the sections of the after body to the left of its centreline.
+/// Each view has its curves, its outline and its grid on layers of their own.
 pub(super) fn drawn_plan(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
     let particulars = hull.particulars();
     let (length, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);

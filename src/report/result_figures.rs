@@ -386,8 +386,8 @@ pub(super) fn report_figures(
     let jobs = jobs(result, (inputs, before), combs, &maps);
     let next = AtomicUsize::new(0);
     let drawn: Mutex<Vec<Drawn>> = Mutex::new(Vec::new());
-    // Neighbours are drawn from the same and would wait for each other: one from the second half of the list, then one from the first. The
-    // maps, which take longest, come first.
+    // Neighbours are drawn from the same and would wait for each other: one from the second half of the list, then one
+    // from the first. The maps, which take longest, come first.
     let half = jobs.len().div_ceil(2);
     let order: Vec<usize> = (0..half).rev().flat_map(|k| [half + k, k]).filter(|k| *k < jobs.len()).collect();
     let work = || {

@@ -9,10 +9,10 @@
 //!
 //! > H c + B'p = 0,    B c - s p = y,
 //!
-//! with H the Gram matrix of the m-th derivatives, form one symmetric banded system once each multiplier stands among the
-//! coefficients it meets (quasi-definite; Vanderbei 1995, and Reinsch 1967 for m = 2 on the knots themselves). It is
-//! scaled, factored once with pivoting and refined: conditions are met to a few 1e-15 of the size of the data. Cost: O((n + k) (degree + k/n)^2)
-//! for n coefficients and k conditions, once, and O((n + k) (degree + k/n)) a set of data.
+//! with H the Gram matrix of the m-th derivatives, form one symmetric banded system once each multiplier stands among
+//! the coefficients it meets (quasi-definite; Vanderbei 1995, and Reinsch 1967 for m = 2 on the knots themselves). It
+//! is scaled, factored once with pivoting and refined: conditions are met to a few 1e-15 of the size of the data. Cost:
+//! O((n + k) (degree + k/n)^2) for n coefficients and k conditions, once, and O((n + k) (degree + k/n)) a set of data.
 //!
 //! Limits: the energy is that of derivatives in the parameter. The polynomials of degree below m are free, so that at least
 //! m conditions are needed.

@@ -32,9 +32,9 @@ pub fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
-/// The energy of a scalar net over the unit square, whatever the domains of its knots: c'E c = sum_a C(n, a) w_u^(n-a) w_v^a int int
-/// (d^n y / du^(n-a) dv^a)^2 du dv with n = `order`, w_u = `anisotropy` and w_v = 1/w_u; exact, and nothing is charged across knots
-/// where the surface is broken.
+/// The energy of a scalar net over the unit square, whatever the domains of its knots: c'E c = sum_a C(n, a) w_u^(n-a)
+/// w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv with n = `order`, w_u = `anisotropy` and w_v = 1/w_u; exact, and
+/// nothing is charged across knots where the surface is broken.
 #[must_use]
 pub fn energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> SymmetricBand {
     let (rows, columns) = (u.basis_count(), v.basis_count());

@@ -58,7 +58,8 @@ pub(super) fn surface(
 /// Parts of a span of the knots of a curve.
 const PARTS: usize = 8;
 
-/// The points of a curve of knots, weights and points, between two of its parameters; none, with a fault, when they do not fit together.
+/// The points of a curve of knots, weights and points, between two of its parameters; none, with a fault, when they do
+/// not fit together.
 pub(super) fn curve(
     faults: &mut Faults,
     line: usize,

@@ -1,6 +1,7 @@
-//! Binary glTF 2.0 (Khronos, ISO/IEC 12113): one mesh, a primitive and a colour for each region. glTF has y up and z towards the
-//! viewer: X = x, Y = z, Z = -y. Read are the triangles of all meshes (primitives of mode 4 with positions as 32-bit reals), each as it stands
-//! in its mesh: transformations of nodes are not heeded, and a file that has some is refused.
+//! Binary glTF 2.0 (Khronos, ISO/IEC 12113): one mesh, a primitive and a colour for each region. glTF has y up and z
+//! towards the viewer: X = x, Y = z, Z = -y. Read are the triangles of all meshes (primitives of mode 4 with positions
+//! as 32-bit reals), each as it stands in its mesh: transformations of nodes are not heeded, and a file that has some
+//! is refused.
 
 use serde_json::{Value, json};
 use std::collections::HashSet;

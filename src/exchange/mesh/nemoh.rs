@@ -1,5 +1,6 @@
-//! Meshes of NEMOH (Ecole Centrale de Nantes): `2 1` (1: y = 0 is a plane of symmetry), the vertices with their numbers up to a line of
-//! zeros, and the four corners of each panel, counter-clockwise seen from the water, up to a line of zeros. A triangle repeats a corner.
+//! Meshes of NEMOH (Ecole Centrale de Nantes): `2 1` (1: y = 0 is a plane of symmetry), the vertices with their numbers
+//! up to a line of zeros, and the four corners of each panel, counter-clockwise seen from the water, up to a line of
+//! zeros. A triangle repeats a corner.
 
 use std::fmt::Write as _;
 

@@ -1,5 +1,6 @@
-//! Wavefront OBJ: vertices once, a group for each region. Read are vertices and faces (numbers from 1, or back from the last one when
-//! negative; `a/b/c` means the vertex a); faces of more corners become fans of triangles, everything else is passed over.
+//! Wavefront OBJ: vertices once, a group for each region. Read are vertices and faces (numbers from 1, or back from the
+//! last one when negative; `a/b/c` means the vertex a); faces of more corners become fans of triangles, everything else
+//! is passed over.
 
 use std::fmt::Write as _;
 

@@ -1,6 +1,6 @@
-//! Reading of panels, in the units and axes of their files: GDF (WAMIT), PNL (HAMS), meshes of NEMOH. Numbers are read as words whatever
-//! the lines; a panel of four different corners becomes two triangles from its first. Where the file names a plane of symmetry,
-//! the half that is given is read: whoever reads bodies mirrors it.
+//! Reading of panels, in the units and axes of their files: GDF (WAMIT), PNL (HAMS), meshes of NEMOH. Numbers are read
+//! as words whatever the lines; a panel of four different corners becomes two triangles from its first. Where the file
+//! names a plane of symmetry, the half that is given is read: whoever reads bodies mirrors it.
 
 use super::super::fault::{Faults, LARGEST, RecordFault};
 use super::MOST_TRIANGLES;
@@ -185,8 +185,8 @@ pub(in super::super) fn read_nemoh(bytes: &[u8]) -> Result<TriangleMesh, Vec<Rec
     }
 }
 
-/// Reads a PNL file: numbers of panels and nodes and two symmetries, nodes with their numbers, and panels with theirs, the number of
-/// their corners and those.
+/// Reads a PNL file: numbers of panels and nodes and two symmetries, nodes with their numbers, and panels with theirs,
+/// the number of their corners and those.
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.

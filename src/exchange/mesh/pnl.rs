@@ -1,5 +1,6 @@
-//! PNL, the hull mesh of HAMS: a header with the numbers of panels and nodes and the symmetries (0 1: y = 0 is a plane of symmetry),
-//! the nodes with their numbers, and the panels with theirs, their number of corners and those, counter-clockwise seen from the water.
+//! PNL, the hull mesh of HAMS: a header with the numbers of panels and nodes and the symmetries (0 1: y = 0 is a plane
+//! of symmetry), the nodes with their numbers, and the panels with theirs, their number of corners and those,
+//! counter-clockwise seen from the water.
 
 use std::fmt::Write as _;
 

@@ -113,8 +113,8 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     faults.or(|| TriangleMesh::from_corners(corners.into_iter()))
 }
 
-/// Binary STL: 80 bytes of header, the number of triangles, and for each its normal, its corners as 32-bit reals \[m\] and two bytes
-/// that say nothing.
+/// Binary STL: 80 bytes of header, the number of triangles, and for each its normal, its corners as 32-bit reals \[m\]
+/// and two bytes that say nothing.
 #[must_use]
 pub fn write_stl(mesh: &HullMesh, name: &str) -> Vec<u8> {
     let mut header: Vec<u8> = format!("{name}, metres").into_bytes();

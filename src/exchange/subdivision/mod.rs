@@ -1,9 +1,11 @@
-//! Control nets of FREE!ship and DELFTship: the project files `.ftm` (text) and `.fbm` (binary), of the same records in the same order.
+//! Control nets of FREE!ship and DELFTship: the project files `.ftm` (text) and `.fbm` (binary), of the same records in
+//! the same order.
 //!
-//! Name `FREE!ship`, version, precision; how the program shows the model; the project (name, designer, length, breadth, draught,
-//! ..., units, comment, preview); layers; points; edges; control curves; faces; then what does not concern the body (stations, buttocks,
-//! waterlines, diagonals, markers, estimates of resistance), which is not read. Records come and go with versions ([`Version`]). x forward,
-//! y to port, z up; metres, or feet where the project says so. Layers that are symmetric hold one side.
+//! Name `FREE!ship`, version, precision; how the program shows the model; the project (name, designer, length, breadth,
+//! draught, ..., units, comment, preview); layers; points; edges; control curves; faces; then what does not concern the
+//! body (stations, buttocks, waterlines, diagonals, markers, estimates of resistance), which is not read. Records come
+//! and go with versions ([`Version`]). x forward, y to port, z up; metres, or feet where the project says so. Layers
+//! that are symmetric hold one side.
 
 mod fbm;
 mod ftm;

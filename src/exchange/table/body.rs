@@ -102,9 +102,9 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
     }
 }
 
-/// Reads a body: triangles (STL, OBJ, GLB), panels (GDF, PNL, NEMOH), the surfaces of a CAD file (STEP, IGES) or a control net (FREE!ship), by its content or its
-/// name, with the conventions of the TOML beside it, given by its name and its text, and of others, each over those before it; none
-/// when it is no such file.
+/// Reads a body: triangles (STL, OBJ, GLB), panels (GDF, PNL, NEMOH), the surfaces of a CAD file (STEP, IGES) or a
+/// control net (FREE!ship), by its content or its name, with the conventions of the TOML beside it, given by its name
+/// and its text, and of others, each over those before it; none when it is no such file.
 pub fn read_body<'a>(
     name: &str,
     bytes: &[u8],
@@ -255,8 +255,8 @@ impl Placement {
     }
 }
 
-/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are of one body and
-/// are moved alike; a second one comes from surfaces.
+/// The body in the ship's frame: metres, x forward from AP, y to port, z up; whole, and turned outward. All meshes are
+/// of one body and are moved alike; a second one comes from surfaces.
 fn framed(
     mut meshes: Vec<TriangleMesh>,
     settings: &Settings,
@@ -380,8 +380,8 @@ fn found_axes(
     Some(frame)
 }
 
-/// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of n ends near each other
-/// all pairs are looked at, of others those that are within `slack` across.
+/// Lines whose ends are within `slack` of each other as one, the nearest ends first; each end has one mate at most. Of
+/// n ends near each other all pairs are looked at, of others those that are within `slack` across.
 fn joined(lines: Vec<MeshLine>, slack: f64) -> Vec<MeshLine> {
     // End 2 k is the first point of line k, 2 k + 1 its last.
     let end = |e: usize| {

@@ -1,12 +1,12 @@
 //! Tables of offsets of DELFTship and FREE!ship (text with counts and flags).
 //!
-//! Ten lines of one number: waterlines, stations, five flags 0 or 1 (deck line at stations, contour at stations, aft contour at
-//! waterlines, forward contour at waterlines, flat of bottom at stations), length, beam, draught. That much is published. The
-//! order of what follows is not, and is read as: x of the stations, z of the waterlines, half-breadths (a line a station, or
-//! a line a waterline where the lengths of the lines tell), then in the order of the flags: height and half-breadth of the
-//! deck at each station, height of the contour at each station, x of the aft and of the forward contour at each waterline,
-//! half-breadth of the flat of bottom at each station. A note says so. `-` and `*` are cells without hull. Written in the same order,
-//! a line a station, six decimals.
+//! Ten lines of one number: waterlines, stations, five flags 0 or 1 (deck line at stations, contour at stations, aft
+//! contour at waterlines, forward contour at waterlines, flat of bottom at stations), length, beam, draught. That much
+//! is published. The order of what follows is not, and is read as: x of the stations, z of the waterlines,
+//! half-breadths (a line a station, or a line a waterline where the lengths of the lines tell), then in the order of
+//! the flags: height and half-breadth of the deck at each station, height of the contour at each station, x of the aft
+//! and of the forward contour at each waterline, half-breadth of the flat of bottom at each station. A note says so.
+//! `-` and `*` are cells without hull. Written in the same order, a line a station, six decimals.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::problem::{Field, Place, Problems};

@@ -484,7 +484,8 @@ pub fn write(table: &OffsetTable) -> String {
         .rev()
         .filter_map(|station| {
             let mut line = line_of(station, &table.waterlines)?;
-            // A section begins on the centreplane; one of a grid may begin at the edge of a flat bottom, or at its lowest waterline.
+            // A section begins on the centreplane; one of a grid may begin at the edge of a flat bottom, or at its
+            // lowest waterline.
             if station.outlines.is_empty() && line[0].y > 0.0 {
                 line.insert(0, point(0.0, line[0].z));
             }

@@ -1,9 +1,10 @@
 //! The curves of a CAD file without surfaces (IGES, entities 126 and 110) as a table: those at one x are sections; where there are
 //! none, those at one height are waterlines.
 //!
-//! Units, axes and origin are found as those of bodies are. Curves on the side y < 0 are mirrored; curves of both sides are cut at the
-//! centreplane. Several curves at one x are branches of one section. Of waterlines sections are made at x = x_a + L (1 - cos(pi k/n))/2,
-//! straight between them. All other curves (profiles, deck lines, chines in space) are left out, with a note.
+//! Units, axes and origin are found as those of bodies are. Curves on the side y < 0 are mirrored; curves of both sides
+//! are cut at the centreplane. Several curves at one x are branches of one section. Of waterlines sections are made at
+//! x = x_a + L (1 - cos(pi k/n))/2, straight between them. All other curves (profiles, deck lines, chines in space) are
+//! left out, with a note.
 
 use std::f64::consts::PI;
 
@@ -16,7 +17,8 @@ use super::settings::Settings;
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::OutlinePoint;
 
-/// A curve whose extent in a direction is less than this part of the size is in a plane across it; planes nearer to each other are one.
+/// A curve whose extent in a direction is less than this part of the size is in a plane across it; planes nearer to
+/// each other are one.
 const FLAT: f64 = 1e-6;
 
 /// Fewer waterlines make no sections.

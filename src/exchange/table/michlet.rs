@@ -1,11 +1,11 @@
-//! Input files of Michlet (L. Lazauskas, Cyberiad), `in.mlt`: half-breadths of the immersed hull on a grid, in a list of values under
-//! comment lines that say what each is.
+//! Input files of Michlet (L. Lazauskas, Cyberiad), `in.mlt`: half-breadths of the immersed hull on a grid, in a list
+//! of values under comment lines that say what each is.
 //!
-//! Rows are stations at equal distances from the foremost to the aftmost point below the waterline, columns waterlines at equal distances
-//! from the lowest point to the waterline, both odd in number, 5 to 81. The program scales the half-breadths to the displacement volume
-//! that the file gives. Read are the two numbers, the offsets, volume, length and draught, by their comments; x counts from the aftmost
-//! point, z from the lowest. Everything else that is written is a start for the user: salt water at 15 degrees, 41 speeds up to Fn 0.5 by
-//! ITTC 1957, even keel.
+//! Rows are stations at equal distances from the foremost to the aftmost point below the waterline, columns waterlines
+//! at equal distances from the lowest point to the waterline, both odd in number, 5 to 81. The program scales the
+//! half-breadths to the displacement volume that the file gives. Read are the two numbers, the offsets, volume, length
+//! and draught, by their comments; x counts from the aftmost point, z from the lowest. Everything else that is written
+//! is a start for the user: salt water at 15 degrees, 41 speeds up to Fn 0.5 by ITTC 1957, even keel.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::problem::{Place, Problems};
@@ -181,8 +181,8 @@ fn enclosed(stations: &[StationOffsets], length: f64, draught: f64) -> f64 {
 
 /// The text of an input file.
 ///
-/// `table` has its stations at equal distances from the aftmost to the foremost point below the highest waterline, and its waterlines at
-/// equal distances from the lowest point up; `volume` is that of displacement \[m^3\].
+/// `table` has its stations at equal distances from the aftmost to the foremost point below the highest waterline, and
+/// its waterlines at equal distances from the lowest point up; `volume` is that of displacement \[m^3\].
 #[must_use]
 pub fn write(table: &OffsetTable, name: &str, volume: f64) -> String {
     let position = |k: usize| table.stations.get(k).map_or(0.0, |station| station.station.x);

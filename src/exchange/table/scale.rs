@@ -163,8 +163,9 @@ fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared:
 /// Part of the longer distance from midship at which the perpendiculars may stand.
 const PERPENDICULARS: f64 = 0.9;
 
-/// The origin of distances from midship where L_PP is not known: AP is the outermost station aft of midship that has a station as far
-/// forward of it, if it stands near the end of the table; `unit` is that of the distances. Without such a pair x is 0 at midship.
+/// The origin of distances from midship where L_PP is not known: AP is the outermost station aft of midship that has a
+/// station as far forward of it, if it stands near the end of the table; `unit` is that of the distances. Without such
+/// a pair x is 0 at midship.
 pub(super) fn ends_from_midship(
     origin: Origin,
     settings: &Settings,

@@ -40,8 +40,8 @@ pub fn breadths(hull: &Hull, net: &[f64], greatest: f64, margin: f64) -> Vec<Lim
     limits
 }
 
-/// Limits that `net` breaks by more than `slack` \[m\]: of the surface, where `start` does not break them as well, and of the control
-/// values, which on any hull lie between `-greatest` and `2 greatest`.
+/// Limits that `net` breaks by more than `slack` \[m\]: of the surface, where `start` does not break them as well, and
+/// of the control values, which on any hull lie between `-greatest` and `2 greatest`.
 #[must_use]
 pub fn broken(hull: &Hull, net: &[f64], start: &[f64], greatest: f64, slack: f64) -> Vec<Limit> {
     let mut limits = breadths(hull, net, greatest, -slack);
@@ -63,8 +63,8 @@ pub fn control_values(count: usize, greatest: f64) -> impl Iterator<Item = Limit
     (0..count).map(move |i| Limit { row: vec![(i, 1.0)], lower: -greatest, upper: 2.0 * greatest })
 }
 
-/// Limits of what the surface moves between the offsets that `net` breaks by more than `slack` \[m\], at the same points: `tolerance`
-/// times `widening` and `room` \[m\] about `reference`.
+/// Limits of what the surface moves between the offsets that `net` breaks by more than `slack` \[m\], at the same
+/// points: `tolerance` times `widening` and `room` \[m\] about `reference`.
 #[must_use]
 pub fn between(
     hull: &Hull,

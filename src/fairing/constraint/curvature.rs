@@ -1,5 +1,6 @@
 //! A sign of curvature over a part of a station or a waterline: the numerator of curvature is linear in the net (see
-//! [`super::super::bends`]), so that its sign is imposed without approximation at five points of every span and at the ends of the range.
+//! [`super::super::bends`]), so that its sign is imposed without approximation at five points of every span and at the
+//! ends of the range.
 //!
 //! Convex is full as seen from outside, x' y'' - x'' y' <= 0; concave is hollow.
 

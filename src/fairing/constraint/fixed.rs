@@ -1,8 +1,9 @@
 //! Lines that do not move: y = y_start along a line of the surface.
 //!
-//! Edges of the net are held by their control values. Along any other line y is held at the Greville points of the parameter that
-//! runs along it: where the line is a line of the parameters (stations of an upright chart, waterlines of a level one, knuckles)
-//! as many conditions as the curve has control values, so that it is held exactly (Schoenberg & Whitney 1953); elsewhere at those points.
+//! Edges of the net are held by their control values. Along any other line y is held at the Greville points of the
+//! parameter that runs along it: where the line is a line of the parameters (stations of an upright chart, waterlines
+//! of a level one, knuckles) as many conditions as the curve has control values, so that it is held exactly (Schoenberg
+//! & Whitney 1953); elsewhere at those points.
 
 use super::super::bends::Line;
 use super::super::model::{Limit, Row, value};

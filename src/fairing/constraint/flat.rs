@@ -1,10 +1,10 @@
 //! Flats: y = B/2 over a region of the side, and the edge of the flat of bottom.
 //!
-//! Every cell of the knots that lies in the region with its corners and its middle is made flat by the control values that act on
-//! it, all equal to B/2: there y = B/2 to rounding. The edges of the region are made tangent lines of the net before ([`edged`]): the
-//! surface leaves the flat with its slope, and its curvature may jump, as behind a bilge. In cells that
-//! lie in the region in part, the offsets of the table in it are held at B/2. The bottom of a hull is plane by construction, so
-//! that its flat is held by the half-breadths of the lowest line.
+//! Every cell of the knots that lies in the region with its corners and its middle is made flat by the control values
+//! that act on it, all equal to B/2: there y = B/2 to rounding. The edges of the region are made tangent lines of the
+//! net before ([`edged`]): the surface leaves the flat with its slope, and its curvature may jump, as behind a bilge.
+//! In cells that lie in the region in part, the offsets of the table in it are held at B/2. The bottom of a hull is
+//! plane by construction, so that its flat is held by the half-breadths of the lowest line.
 
 use super::super::lines::{LineCourse, LineKind};
 use super::super::model::Limit;

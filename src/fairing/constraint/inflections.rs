@@ -1,9 +1,10 @@
 //! No more than so many inflections on a line: which signs to ask for.
 //!
-//! Over sign patterns with at most m changes the one of least cost is taken, the cost of a point being |kappa| h where the net has the other
-//! sign, h its share of the line: dynamic programming over (point, changes, sign), exact and O(points m). The two points beside a
-//! change have one free between them. The program with these signs is convex; that no curve within the tolerances has fewer
-//! inflections than some number is proved elsewhere ([`super::super::inflections`]).
+//! Over sign patterns with at most m changes the one of least cost is taken, the cost of a point being |kappa| h where
+//! the net has the other sign, h its share of the line: dynamic programming over (point, changes, sign), exact and
+//! O(points m). The two points beside a change have one free between them. The program with these signs is convex; that
+//! no curve within the tolerances has fewer inflections than some number is proved elsewhere
+//! ([`super::super::inflections`]).
 
 use super::super::bends::{Bend, changes, dead, signs};
 use super::super::model::Limit;

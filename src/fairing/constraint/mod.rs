@@ -1,6 +1,7 @@
-//! What a fair hull has to hold, one file each: quantities of the whole hull ([`Constraint`]) and rules for single lines and regions
-//! ([`Rule`]), as rows over the net. Linear quantities are the same rows that the hydrostatics evaluate; the metacentre and the wetted
-//! surface are linearised about a hull, and the answer is the start of the next linearisation ([`super::relinearise`]).
+//! What a fair hull has to hold, one file each: quantities of the whole hull ([`Constraint`]) and rules for single
+//! lines and regions ([`Rule`]), as rows over the net. Linear quantities are the same rows that the hydrostatics
+//! evaluate; the metacentre and the wetted surface are linearised about a hull, and the answer is the start of the next
+//! linearisation ([`super::relinearise`]).
 
 mod area;
 mod breadth;
@@ -48,8 +49,8 @@ pub enum Constraint {
         /// Half width of the band \[m^2\].
         band: f64,
     },
-    /// Height of the transverse metacentre \[m\] at the design draught, KM_T = KB + I_T / V, less KG: GM_T for a height of the centre of
-    /// gravity, KM_T for 0. Not linear: its row is that of the tangent at a hull.
+    /// Height of the transverse metacentre \[m\] at the design draught, KM_T = KB + I_T / V, less KG: GM_T for a height
+    /// of the centre of gravity, KM_T for 0. Not linear: its row is that of the tangent at a hull.
     Metacentre {
         /// Target of GM_T or KM_T \[m\].
         height: f64,

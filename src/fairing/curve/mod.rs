@@ -5,14 +5,16 @@
 //! subject to  |y(x_k) - d_k| <= delta_k,  locked points and end slopes,  area, centroid,  signs of y''
 //! ```
 //!
-//! y is a spline (quintic; cubic for m = 2) with knots at the sites: broken at knuckles, of broken curvature at tangent points. mu comes
-//! from generalised cross-validation ([`super::smoothing`]). E_m is the integral of the square of the (m-2)th derivative of the true
-//! curvature with respect to arc length. Its metric is frozen at the last curve, which makes one convex program of it; programs
-//! follow while the exact functional falls, within the tolerances, which are the trust region. Where slopes are mild one is enough.
+//! y is a spline (quintic; cubic for m = 2) with knots at the sites: broken at knuckles, of broken curvature at tangent
+//! points. mu comes from generalised cross-validation ([`super::smoothing`]). E_m is the integral of the square of the
+//! (m-2)th derivative of the true curvature with respect to arc length. Its metric is frozen at the last curve, which
+//! makes one convex program of it; programs follow while the exact functional falls, within the tolerances, which are
+//! the trust region. Where slopes are mild one is enough.
 //!
-//! Signs: the least number of inflections within the tolerances is found and proved by [`super::inflections`]; a pattern with this number
-//! (or the number that is wished) is imposed on the coefficients of y'', one free at each change. Its price, the growth of the objective
-//! over sigma^2, must not exceed [`PRICE`]; else one more inflection is allowed, until it does.
+//! Signs: the least number of inflections within the tolerances is found and proved by [`super::inflections`]; a
+//! pattern with this number (or the number that is wished) is imposed on the coefficients of y'', one free at each
+//! change. Its price, the growth of the objective over sigma^2, must not exceed [`PRICE`]; else one more inflection is
+//! allowed, until it does.
 //!
 //! References: Reinsch 1967, Wahba 1990 (smoothing splines); Horn 1983, Moreton & Sequin 1992 (true curvature).
 

@@ -160,8 +160,8 @@ impl FairCurve {
     }
 }
 
-/// Where y'' changes its sign between the knuckles; parts below [`FLAT`] of its largest value on the stretch are flat, and a change over a
-/// flat is put at its middle.
+/// Where y'' changes its sign between the knuckles; parts below [`FLAT`] of its largest value on the stretch are flat,
+/// and a change over a flat is put at its middle.
 pub(super) fn inflections(curve: &BsplineCurve<1>, knuckles: &[f64]) -> Vec<f64> {
     let breaks = curve.knots().breakpoints();
     let (from, to) = curve.knots().domain();

@@ -32,8 +32,8 @@ pub(super) fn scores(forms: &SignForms, smoother: &Smoother, smoothed: &Smoothed
         .collect()
 }
 
-/// The best runs of alternating signs for one stretch: the first sign, the changes and the sum of squares overruled. Dynamic programming over
-/// the forms, O(n k).
+/// The best runs of alternating signs for one stretch: the first sign, the changes and the sum of squares overruled.
+/// Dynamic programming over the forms, O(n k).
 fn runs(scores: &[f64], count: usize) -> Option<(i8, Vec<usize>, f64)> {
     let n = scores.len();
     if n < count + 1 {
@@ -95,8 +95,8 @@ impl Signs {
         (inside && list.windows(2).all(|pair| pair[0] < pair[1])).then_some(next)
     }
 
-    /// The pattern for the program: at each change the form before it or after it, the one with the smaller score, is free if its run
-    /// keeps another.
+    /// The pattern for the program: at each change the form before it or after it, the one with the smaller score, is
+    /// free if its run keeps another.
     pub(super) fn pattern(&self, scores: &[f64]) -> Pattern {
         let mut signs = vec![0_i8; scores.len()];
         let mut imposed = signs.clone();

@@ -1,7 +1,8 @@
 //! The spline, its readings and its energy.
 //!
-//! With p = y', q = 1 + p^2, ds = sqrt(q) dx and kappa = q^(-3/2) y'', the derivative of order j of kappa with respect to s is linear in
-//! y'', ..., y^(j+2) once q and its derivatives are those of a given curve. With g = q^(-3/2) and w = q^(-1/2):
+//! With p = y', q = 1 + p^2, ds = sqrt(q) dx and kappa = q^(-3/2) y'', the derivative of order j of kappa with respect
+//! to s is linear in y'', ..., y^(j+2) once q and its derivatives are those of a given curve. With g = q^(-3/2) and w =
+//! q^(-1/2):
 //!
 //! ```text
 //! kappa     = g y''

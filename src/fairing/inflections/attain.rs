@@ -120,7 +120,8 @@ fn factor_of(bands: &Bands, space: &Space, wanted: &[Bend], coefficients: &[f64]
 /// A lower bound of the factor from multipliers alone, for the values at the sites as unknowns (0 where the space is another).
 ///
 /// Multiplied by z and summed the rows say: sum of limits <= (A'z)_tau tau + (A'z)_c c. What A'z leaves over in c is
-/// bounded because every value lies within its band when tau <= 1: the bound holds if it exceeds 1 and proves then that no curve exists.
+/// bounded because every value lies within its band when tau <= 1: the bound holds if it exceeds 1 and proves then that
+/// no curve exists.
 fn proved(problem: &Problem, space: &Space, bands: &Bands, multipliers: &[f64], scale: f64) -> f64 {
     if space.knots.is_some() {
         return 0.0;

@@ -50,7 +50,8 @@ pub struct Stretch {
 pub struct SmallerCount {
     /// The number.
     pub count: usize,
-    /// No curve has as few unless every tolerance is multiplied by this; `None` where points that are held forbid it at any tolerance.
+    /// No curve has as few unless every tolerance is multiplied by this; `None` where points that are held forbid it at
+    /// any tolerance.
     pub factor: Option<f64>,
 }
 

@@ -47,8 +47,9 @@ impl Witness {
 /// Witnesses of alternating bends, each beginning not before the last cell but one of the one before it. A stretch that
 /// begins with the bend `first` changes its bend at least once for each.
 ///
-/// Why: the first run of one bend cannot hold the first witness, i_1 to k_1, so that it hands over to the next run at or
-/// before the cell k_1 - 2 to k_1 - 1. The next run therefore holds i_2 >= k_1 - 2 if it reaches k_2, which the second witness forbids. And so on.
+/// Why: the first run of one bend cannot hold the first witness, i_1 to k_1, so that it hands over to the next run at
+/// or before the cell k_1 - 2 to k_1 - 1. The next run therefore holds i_2 >= k_1 - 2 if it reaches k_2, which the
+/// second witness forbids. And so on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
     /// The bend at the beginning.

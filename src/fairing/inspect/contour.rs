@@ -231,7 +231,8 @@ impl<'a> Locator<'a> {
     }
 }
 
-/// Derivatives of the motion [a, b] = [-g_v, g_u] along a section of a surface with the derivatives s\[i\]\[j\] in u and v, g = n . S.
+/// Derivatives of the motion [a, b] = [-g_v, g_u] along a section of a surface with the derivatives s\[i\]\[j\] in u
+/// and v, g = n . S.
 pub(in super::super) fn motion_rates<const N: usize>(s: &[[Point; N]; N], n: Point, [a, b]: [f64; 2]) -> [f64; 2] {
     let g = |i: usize, j: usize| dot(n, s[i][j]);
     [-(g(1, 1) * a + g(0, 2) * b), g(2, 0) * a + g(1, 1) * b]

@@ -157,8 +157,8 @@ impl SurfaceMap {
         (0..if found.columns { self.rows } else { self.columns() }).map(pair).collect()
     }
 
-    /// The least number that the part `share` of the surface does not pass with the size of a curvature (0 Gaussian, 1 mean); a point
-    /// stands for the girth and the length between the middles of its steps. 0 on a flat hull.
+    /// The least number that the part `share` of the surface does not pass with the size of a curvature (0 Gaussian, 1
+    /// mean); a point stands for the girth and the length between the middles of its steps. 0 on a flat hull.
     #[must_use]
     pub fn size(&self, which: usize, share: f64) -> f64 {
         let weighted = |(k, point): (usize, &MapPoint)| {

@@ -5,14 +5,14 @@
 //! the tolerance, which is the resolution of the drawing times its scale ([`Resolution`]). A lesser bump does not show on paper.
 //!
 //! Accuracy: curvature to rounding; lengths and energies of a piece to the Clenshaw-Curtis rule of 13 points (1e-10 for
-//! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points.
-//! Where the half-breadth shrinks to nothing, as at the end stations of a table, the surface can turn within microns of the
-//! centreplane, which says nothing about fairness. A curve whose half-breadth is below B/1000 all along is therefore not
-//! counted, and of other curves the ends where it is are left out if they are longer than B/50; both are told.
-//! Limit: at the edge of a narrow flat of bottom near the ends a fitted surface may turn within centimetres. Such turns count,
-//! and rule the sums of squared curvature; the reports name the curve that holds more than half of such a sum, with the place of its
-//! turn, and give the median over the curves beside the sum.
-//! Cost: one section and about 30 evaluations of third derivatives for each patch that it crosses.
+//! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points. Where the half-breadth
+//! shrinks to nothing, as at the end stations of a table, the surface can turn within microns of the centreplane, which
+//! says nothing about fairness. A curve whose half-breadth is below B/1000 all along is therefore not counted, and of
+//! other curves the ends where it is are left out if they are longer than B/50; both are told. Limit: at the edge of a
+//! narrow flat of bottom near the ends a fitted surface may turn within centimetres. Such turns count, and rule the
+//! sums of squared curvature; the reports name the curve that holds more than half of such a sum, with the place of its
+//! turn, and give the median over the curves beside the sum. Cost: one section and about 30 evaluations of third
+//! derivatives for each patch that it crosses.
 
 mod comb;
 mod contour;

@@ -1,8 +1,9 @@
 //! The map of the side over stations.
 //!
-//! Rows follow the lines v = constant of the surface, at about equal steps of the mean girth, so that what runs along such a line (a bilge,
-//! a chine, the edge of a flat) runs along a row. Knot lines across which curvature may jump are two rows each, or two columns where x is
-//! constant along them: one for each side. Girths are measured along chords and start at the centreplane, so that a flat of bottom counts.
+//! Rows follow the lines v = constant of the surface, at about equal steps of the mean girth, so that what runs along
+//! such a line (a bilge, a chine, the edge of a flat) runs along a row. Knot lines across which curvature may jump are
+//! two rows each, or two columns where x is constant along them: one for each side. Girths are measured along chords
+//! and start at the centreplane, so that a flat of bottom counts.
 
 use super::map::{KnotLine, MapBreak, MapPoint, SurfaceMap, distance, point};
 use crate::hull::Hull;
@@ -160,7 +161,8 @@ impl Track<'_> {
         inside
     }
 
-    /// The places of the rows with their v: what lies beyond an end of the station is taken at that end; none between two pieces of it.
+    /// The places of the rows with their v: what lies beyond an end of the station is taken at that end; none between
+    /// two pieces of it.
     fn places(&self, rows: &[f64]) -> Vec<Option<(f64, Place)>> {
         let on: Vec<_> = rows.iter().map(|&v| self.at(v)).collect();
         let (Some(first), Some(last)) = (on.iter().position(Option::is_some), on.iter().rposition(Option::is_some))
@@ -211,8 +213,8 @@ impl Track<'_> {
 }
 
 impl SurfaceMap {
-    /// The map over about `columns` stations, aft to forward, with about `rows` points each. Stations without a curve on the side have points
-    /// without normal and curvature.
+    /// The map over about `columns` stations, aft to forward, with about `rows` points each. Stations without a curve
+    /// on the side have points without normal and curvature.
     #[must_use]
     pub fn at_stations(hull: &Hull, columns: usize, rows: usize) -> Self {
         let (rows, mut breaks, above) = self::rows(hull, rows.max(2));

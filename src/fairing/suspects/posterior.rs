@@ -56,8 +56,9 @@ pub(super) fn readings(mut list: Vec<Reading>) -> Vec<Reading> {
     list
 }
 
-/// The hypotheses about a cell with their evidence in place of probabilities, "right as written" first. `copies` are kinds of neighbours whose text the cell repeats,
-/// `wrong` is the share of wrong cells that the rest of the table makes likely.
+/// The hypotheses about a cell with their evidence in place of probabilities, "right as written" first. `copies` are
+/// kinds of neighbours whose text the cell repeats, `wrong` is the share of wrong cells that the rest of the table
+/// makes likely.
 pub(super) fn weighed(
     verdict: &Verdict,
     written: f64,

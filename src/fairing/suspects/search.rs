@@ -391,7 +391,8 @@ impl Search<'_> {
         result
     }
 
-    /// Exchanges cells that are set aside for the one beside all of them that explains the neighbourhood best, where one explains it better.
+    /// Exchanges cells that are set aside for the one beside all of them that explains the neighbourhood best, where
+    /// one explains it better.
     fn exchanged(&mut self, cells: &[usize]) -> Option<usize> {
         let beside = |grid: &Grid, cell: usize| {
             EXCHANGES.map(|(steps, lines)| grid.shifted(Along::Station, cell, steps, lines)).into_iter().flatten()
@@ -432,8 +433,8 @@ impl Search<'_> {
         changed
     }
 
-    /// Exchanges two suspects for one cell beside both where that explains the neighbourhood better: both sides of a wrong cell may have
-    /// looked worse than it.
+    /// Exchanges two suspects for one cell beside both where that explains the neighbourhood better: both sides of a
+    /// wrong cell may have looked worse than it.
     fn merge(&mut self, found: &mut Vec<usize>) -> bool {
         let mut changed = false;
         let pairs: Vec<[usize; 2]> =

@@ -1,8 +1,9 @@
 //! Splines of least energy that keep within limits: overshoot between data is pulled back.
 //!
-//! A spline of least energy through data that end flat (flat of side, closed end) swings beyond them in the neighbouring gaps. Where
-//! it leaves the limits of a gap by more than the tolerance, it is made to meet the monotone cubic of the data (Fritsch & Butland
-//! 1984) in the middle of the gap, which has a knot of its own for that. The data are met as before.
+//! A spline of least energy through data that end flat (flat of side, closed end) swings beyond them in the
+//! neighbouring gaps. Where it leaves the limits of a gap by more than the tolerance, it is made to meet the monotone
+//! cubic of the data (Fritsch & Butland 1984) in the middle of the gap, which has a knot of its own for that. The data
+//! are met as before.
 
 use super::super::HullError;
 use super::FitError;
@@ -68,8 +69,8 @@ impl Line {
         Self { sites, values, slacks, limits, tolerance, slopes: Vec::new(), runs: Vec::new() }
     }
 
-    /// Limits only where two neighbouring data agree to `tolerance`. Where they are equal the spline is level: slopes of 0 at the edges
-    /// of such runs, which want a double knot there.
+    /// Limits only where two neighbouring data agree to `tolerance`. Where they are equal the spline is level: slopes
+    /// of 0 at the edges of such runs, which want a double knot there.
     pub(super) fn flat_kept(sites: Vec<f64>, values: Vec<f64>, tolerance: f64) -> Self {
         let limits = values
             .windows(2)
@@ -110,8 +111,8 @@ impl Line {
         runs
     }
 
-    /// Where the spline falls below `lowest` between two sites, both get the slopes of the monotone cubic of the data, so that on double
-    /// knots it is that cubic between them. Tells whether there are such gaps.
+    /// Where the spline falls below `lowest` between two sites, both get the slopes of the monotone cubic of the data,
+    /// so that on double knots it is that cubic between them. Tells whether there are such gaps.
     pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64) -> bool {
         if control.iter().all(|&c| c >= lowest) {
             return false;

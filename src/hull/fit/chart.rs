@@ -129,8 +129,8 @@ fn knots_at(sites: &[f64], times: &[usize]) -> Result<KnotVector, SplineError> {
     KnotVector::from_breakpoints(3, sites, &times[1..sites.len() - 1])
 }
 
-/// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them and `times`-fold knots on them; `blunt` where
-/// the bottom is flat. Ever less of the chord lengths and more of the heights until z rises with v.
+/// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them and `times`-fold knots on them;
+/// `blunt` where the bottom is flat. Ever less of the chord lengths and more of the heights until z rises with v.
 pub(super) fn heights(z: &[f64], girths: &[f64], times: &[usize], blunt: bool) -> Result<Heights, FitError> {
     const STEPS: u32 = 8;
     let total: f64 = girths.iter().sum();

@@ -1,12 +1,13 @@
 //! Half-breadths that stay above the centreplane: splines through data, lifted where they dip below it.
 //!
-//! Where a profile slides quickly from waterline to waterline, values next to it are 0, 0, 0 and then much, and every twice differentiable
-//! curve through them dips below 0. On knots that are double (C1) the value at a knot is the mean of the control values beside it,
+//! Where a profile slides quickly from waterline to waterline, values next to it are 0, 0, 0 and then much, and every
+//! twice differentiable curve through them dips below 0. On knots that are double (C1) the value at a knot is the mean
+//! of the control values beside it,
 //!
 //! > y = (h' c + h c') / (h + h'),  h and h' the spans below and above,
 //!
-//! so that a negative one can be put to 0 and the other one made to keep y. If the knots next to it are double as well, no other value
-//! at a knot changes. Knots are made double only where the surface falls below 0, and beside that.
+//! so that a negative one can be put to 0 and the other one made to keep y. If the knots next to it are double as well,
+//! no other value at a knot changes. Knots are made double only where the surface falls below 0, and beside that.
 
 use std::collections::BTreeSet;
 
@@ -20,8 +21,9 @@ const LOOKS: usize = 8;
 /// Values of less than this part of the greatest control value are 0.
 const ROUNDING: f64 = 1e-13;
 
-/// Rounds of lifting: what is taken from one side of a knot may be missed on the other. In the first ones each line is lifted by itself;
-/// after them all lines that have part in a dip are level at its knots, so that the surface there has the sign of the data.
+/// Rounds of lifting: what is taken from one side of a knot may be missed on the other. In the first ones each line is
+/// lifted by itself; after them all lines that have part in a dip are level at its knots, so that the surface there has
+/// the sign of the data.
 const ROUNDS: usize = 6;
 const OWN: usize = 3;
 
@@ -34,8 +36,8 @@ pub(super) fn inserted(knots: &KnotVector, control: &[f64], added: &[f64]) -> Re
     Ok((fine.knots().clone(), fine.points().iter().map(|p| p[0]).collect()))
 }
 
-/// Lifts a surface that dips below 0 by more than `tolerance`: control values are `lines` over `knots`, one a basis function of `along`.
-/// Gives the knots that were inserted into all lines, none where nothing dips.
+/// Lifts a surface that dips below 0 by more than `tolerance`: control values are `lines` over `knots`, one a basis
+/// function of `along`. Gives the knots that were inserted into all lines, none where nothing dips.
 pub(super) fn lift(
     along: &KnotVector,
     knots: &KnotVector,
@@ -135,8 +137,9 @@ fn beside(knots: &KnotVector, breaks: &[f64], at: usize) -> std::ops::Range<usiz
     }
 }
 
-/// Makes the control values beside a break not negative if the value there is not, and else equal to it: control values of waterlines may
-/// be negative themselves, which are data here. With `level` they are equal in any case. Tells whether they were not so before.
+/// Makes the control values beside a break not negative if the value there is not, and else equal to it: control values
+/// of waterlines may be negative themselves, which are data here. With `level` they are equal in any case. Tells
+/// whether they were not so before.
 fn raise(knots: &KnotVector, breaks: &[f64], at: usize, control: &mut [f64], level: bool) -> bool {
     let rounding = ROUNDING * control.iter().fold(0.0f64, |most, c| most.max(c.abs()));
     let own = &mut control[beside(knots, breaks, at)];

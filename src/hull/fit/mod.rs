@@ -1,8 +1,8 @@
 //! From a table of offsets to a hull: a surface through every cell, faithful where the table is silent.
 //!
-//! The default method works on a chart that follows the ship: see `level` for hulls whose waterlines run from profile to
-//! profile, `upright` for rockered keels and chines, `skin` for tables of section outlines. Every cell with a value is met to 1e-9 m
-//! unless it is marked doubtful; what had to be assumed is noted.
+//! The default method works on a chart that follows the ship: see `level` for hulls whose waterlines run from profile
+//! to profile, `upright` for rockered keels and chines, `skin` for tables of section outlines. Every cell with a value
+//! is met to 1e-9 m unless it is marked doubtful; what had to be assumed is noted.
 
 mod bounded;
 mod chart;

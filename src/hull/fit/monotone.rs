@@ -1,7 +1,8 @@
 //! Monotone piecewise cubics through points, for profiles (Fritsch & Butland 1984).
 
-/// The slope at point `i` of the monotone piecewise cubic through `points` (t rising): the weighted harmonic mean of the slopes of the
-/// neighbouring chords, 0 where these change sign; one-sided at the ends, limited to three times the chord; 0 for a single point.
+/// The slope at point `i` of the monotone piecewise cubic through `points` (t rising): the weighted harmonic mean of
+/// the slopes of the neighbouring chords, 0 where these change sign; one-sided at the ends, limited to three times the
+/// chord; 0 for a single point.
 pub(super) fn monotone_slope(points: &[(f64, f64)], i: usize) -> f64 {
     let Some(last) = points.len().checked_sub(1).filter(|&last| last > 0) else { return 0.0 };
     let chord = |i: usize| (points[i + 1].1 - points[i].1) / (points[i + 1].0 - points[i].0);

@@ -42,8 +42,9 @@ pub(super) const BY_STATIONS: &str = "from the station at x = 0 to the outermost
 /// Part of the length of the hull that the distance of the perpendiculars is at least.
 const PERPENDICULARS: f64 = 0.9;
 
-/// L_PP by the stations, x counting from AP: the outermost one that stands a whole number of the usual distance (the median) forward of
-/// the station at x = 0; none where there is no such station or the hull of `length` \[m\] is much longer.
+/// L_PP by the stations, x counting from AP: the outermost one that stands a whole number of the usual distance (the
+/// median) forward of the station at x = 0; none where there is no such station or the hull of `length` \[m\] is much
+/// longer.
 pub(super) fn length_by_stations(table: &OffsetTable, length: f64) -> Option<f64> {
     let mut places: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
     places.sort_by(f64::total_cmp);
@@ -56,8 +57,9 @@ pub(super) fn length_by_stations(table: &OffsetTable, length: f64) -> Option<f64
     (from_aft && step > 0.0 && last >= PERPENDICULARS * length).then_some(last)
 }
 
-/// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline at T, B twice the
-/// greatest half-breadth, T seven tenths of the height up to the lowest upper edge of a section, D the top. What was not stated is noted.
+/// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline
+/// at T, B twice the greatest half-breadth, T seven tenths of the height up to the lowest upper edge of a section, D
+/// the top. What was not stated is noted.
 pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
     let stated = &table.stated;
     let usable = |value: Option<f64>| value.filter(|v| v.is_finite() && *v > 0.0);

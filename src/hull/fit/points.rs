@@ -5,9 +5,10 @@
 //!
 //! > int int d_uu^2 + 2 d_uv^2 + d_vv^2 du dv,   d = 0 at every cell and along the edges,   d = b - y at every reading,
 //!
-//! on the knots of the surface and as many more in v as the readings of a station need. The system is banded: the conditions enter as
-//! penalties, and their multipliers follow by repeated solution (augmented Lagrangian: Hestenes 1969, Powell 1969), which meets them
-//! to rounding. Cost: O(n w^2) for n points of the net and w along its shorter side.
+//! on the knots of the surface and as many more in v as the readings of a station need. The system is banded: the
+//! conditions enter as penalties, and their multipliers follow by repeated solution (augmented Lagrangian: Hestenes
+//! 1969, Powell 1969), which meets them to rounding. Cost: O(n w^2) for n points of the net and w along its shorter
+//! side.
 
 use super::FitError;
 use super::features::FlatOfSide;
@@ -176,8 +177,8 @@ fn knots_between(v: &KnotVector, readings: &[Reading]) -> Vec<f64> {
     added
 }
 
-/// The moves of the net of least energy that meet `rows` and leave the edges stern, stem and bottom and the flat of side of half-breadth
-/// `flat`; none where they cannot.
+/// The moves of the net of least energy that meet `rows` and leave the edges stern, stem and bottom and the flat of
+/// side of half-breadth `flat`; none where they cannot.
 fn least_moves(surface: &BsplineSurface<3>, rows: &[(Vec<(usize, f64)>, f64)], flat: Option<f64>) -> Option<Vec<f64>> {
     let [along, across] = surface.shape();
     let count = along * across;

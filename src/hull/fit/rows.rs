@@ -292,7 +292,8 @@ fn outside(line: &Waterline<'_>, k: usize) -> bool {
 
 /// The end of a waterline on the plane of the transom; none where it closes before it, and where an offset lies aft of the plane.
 ///
-/// It closes before it when the table gives an end or a station without hull before the plane, or when it has no breadth left there.
+/// It closes before it when the table gives an end or a station without hull before the plane, or when it has no
+/// breadth left there.
 fn on_transom(line: &Waterline<'_>, first: usize, last: usize, value: &dyn Fn(usize) -> Option<f64>) -> Option<End> {
     let plane = line.table.transom?;
     let at = plane.x_base + plane.slope * line.z();

@@ -33,8 +33,8 @@ pub(super) fn notes(table: &OffsetTable, rows: &[Row]) -> Vec<String> {
     notes
 }
 
-/// The half-breadth at `x` of the parabola through the first three of `cells` (x, y), the aftmost first; of the line through two, or
-/// one alone. None where it is not positive, or the first cell has no breadth.
+/// The half-breadth at `x` of the parabola through the first three of `cells` (x, y), the aftmost first; of the line
+/// through two, or one alone. None where it is not positive, or the first cell has no breadth.
 ///
 /// Third order in the spaces between stations. A parabola does not carry more than twice the change over the first space.
 pub(super) fn breadth(x: f64, cells: &[(f64, f64)]) -> Option<f64> {

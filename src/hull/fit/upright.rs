@@ -59,8 +59,8 @@ const OVERSHOOT: f64 = 0.05;
 /// Heights nearer than this, in parts of the depth, are one height.
 const SLACK: f64 = 1e-9;
 
-/// Whether the upright chart is the one for a table: where it has knuckles that do not run along waterlines, and where the keel line of the middle three fifths of the
-/// length varies by more than a twentieth of the depth (rocker, rake).
+/// Whether the upright chart is the one for a table: where it has knuckles that do not run along waterlines, and where
+/// the keel line of the middle three fifths of the length varies by more than a twentieth of the depth (rocker, rake).
 pub(super) fn suits(table: &OffsetTable) -> bool {
     (has_knuckles(table) && !features::knuckles_are_level(table)) || has_rocker(table)
 }
@@ -209,8 +209,9 @@ impl Net {
     }
 }
 
-/// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the outermost ones, B twice the greatest half-breadth, D
-/// the highest point, T seven tenths of the height up to the lowest upper edge. What was not stated is noted.
+/// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the outermost ones, B twice the
+/// greatest half-breadth, D the highest point, T seven tenths of the height up to the lowest upper edge. What was not
+/// stated is noted.
 pub(super) fn particulars(
     table: &OffsetTable,
     surface: &BsplineSurface<3>,

@@ -1,7 +1,8 @@
 //! The body of a hull as patches over rectangles of parameters: the side to port, and the halves of the faces that close it.
 //!
-//! The side is S(u, v), above a knot line below the lowest deck drawn down to it: v = v_0 + (w - v_0) (d(u) - v_0) / (v_1 - v_0) for w > v_0.
-//! A closing face is ruled from the centreplane to an edge of the side, (x, s y, z) with 0 <= s <= 1.
+//! The side is S(u, v), above a knot line below the lowest deck drawn down to it: v = v_0 + (w - v_0) (d(u) - v_0) /
+//! (v_1 - v_0) for w > v_0. A closing face is ruled from the centreplane to an edge of the side, (x, s y, z) with 0 <=
+//! s <= 1.
 
 use super::super::form::Hull;
 use super::{Region, above_deck, deck_parameter};
@@ -261,8 +262,8 @@ impl<'a> Body<'a> {
         })
     }
 
-    /// The largest principal curvature k of the side at a place \[1/m\], and the form that gives |normal curvature| / k of a direction;
-    /// none where the surface has no tangent plane.
+    /// The largest principal curvature k of the side at a place \[1/m\], and the form that gives |normal curvature| / k
+    /// of a direction; none where the surface has no tangent plane.
     pub(super) fn curvature(&self, place: [f64; 2]) -> Option<(f64, Form)> {
         let jet = self.hull.surface().jet(place[0], self.height(place));
         let found = jet.curvature()?;

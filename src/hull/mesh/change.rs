@@ -107,8 +107,8 @@ impl Half<'_> {
         Some((if border { point } else { self.lifted(point) }, site))
     }
 
-    /// The face that closes the body beside an edge of the side, where it ends at the centreplane: which it is, its end, and the next vertex
-    /// on the centreplane.
+    /// The face that closes the body beside an edge of the side, where it ends at the centreplane: which it is, its
+    /// end, and the next vertex on the centreplane.
     fn narrow_end(&self, beside: &[usize], a: usize, b: usize) -> Option<(Region, usize, usize)> {
         let tip = if self.on_centreplane(a) { a } else { b };
         if self.on_centreplane(a) == self.on_centreplane(b) || beside.len() != 2 {
@@ -119,8 +119,8 @@ impl Half<'_> {
         (self.on_centreplane(next) && self.beside(tip, next).1 == 1).then_some((region, tip, next))
     }
 
-    /// Puts a vertex on the edge a b. Where that is an edge of a face that closes the body, which is narrower than the deviation there, the
-    /// face ends at the vertex.
+    /// Puts a vertex on the edge a b. Where that is an edge of a face that closes the body, which is narrower than the
+    /// deviation there, the face ends at the vertex.
     pub(super) fn split(&mut self, a: usize, b: usize) -> Option<usize> {
         let (beside, count) = self.beside(a, b);
         if count > 2 {
@@ -201,8 +201,8 @@ impl Half<'_> {
         }
     }
 
-    /// Draws vertex a to b where that keeps the mesh a surface, its edges no longer than `longest` of their wanted lengths, and `better`
-    /// says so of the least angles at a before and after.
+    /// Draws vertex a to b where that keeps the mesh a surface, its edges no longer than `longest` of their wanted
+    /// lengths, and `better` says so of the least angles at a before and after.
     pub(super) fn collapse(&mut self, a: usize, b: usize, longest: f64, better: impl Fn(f64, f64) -> bool) -> bool {
         let (beside, count) = self.beside(a, b);
         if count == 0 || count > 2 || !self.may_leave(a, b) {
@@ -247,8 +247,8 @@ impl Half<'_> {
         true
     }
 
-    /// Moves a vertex to where the triangles around it are better, on the surface and on its edge of the body: towards the middle of its
-    /// neighbours, or with `each` towards one of them.
+    /// Moves a vertex to where the triangles around it are better, on the surface and on its edge of the body: towards
+    /// the middle of its neighbours, or with `each` towards one of them.
     pub(super) fn relax(&mut self, v: usize, each: bool) -> bool {
         if !self.sites[v].is_point() || self.around[v].is_empty() {
             return false;

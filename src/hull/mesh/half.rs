@@ -7,7 +7,8 @@ use crate::spline::{cross, dot, length, minus};
 /// Edges along which the surface bends little are longer than those across by at most this.
 const STRETCH: f64 = 3.5;
 
-/// Half-breadth between the edges of the side, at least, over the deviation: what touches the centreplane there would belong to both sides.
+/// Half-breadth between the edges of the side, at least, over the deviation: what touches the centreplane there would
+/// belong to both sides.
 const LIFT: f64 = 1e-3;
 
 /// A triangle: its face, and its corners, normals outward.

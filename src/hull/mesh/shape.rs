@@ -1,11 +1,13 @@
-//! Triangles of a good shape: lengths of edges as the curvature asks, and no angle below a bound but where the body has a sharper corner.
+//! Triangles of a good shape: lengths of edges as the curvature asks, and no angle below a bound but where the body has
+//! a sharper corner.
 //!
-//! The wanted length of edges is sqrt(5 d / k) with the deviation d and the largest principal curvature k, at most the half-breadth of a
-//! closing face beside it, and grows by at most a part of the distance. Edges are split, flipped and collapsed to it, vertices moved to the middle
-//! of their neighbours (Botsch and Kobbelt 2004); then each triangle with an angle that is too small is taken by itself: an edge is flipped, a short
-//! one collapsed, a vertex moved, or the longest edge of those that follow from it is split (Rivara 1997), the first that makes it better.
-//! Where a few are left that nothing helps, they may be off by the whole tolerance, vertices are moved towards each of their neighbours, and
-//! edges on the way to the longest are split. The number of passes is bounded, so that it always ends.
+//! The wanted length of edges is sqrt(5 d / k) with the deviation d and the largest principal curvature k, at most the
+//! half-breadth of a closing face beside it, and grows by at most a part of the distance. Edges are split, flipped and
+//! collapsed to it, vertices moved to the middle of their neighbours (Botsch and Kobbelt 2004); then each triangle with
+//! an angle that is too small is taken by itself: an edge is flipped, a short one collapsed, a vertex moved, or the
+//! longest edge of those that follow from it is split (Rivara 1997), the first that makes it better. Where a few are
+//! left that nothing helps, they may be off by the whole tolerance, vertices are moved towards each of their
+//! neighbours, and edges on the way to the longest are split. The number of passes is bounded, so that it always ends.
 
 use super::half::{Half, least_sine};
 use super::{LEAST_ANGLE, Region};
@@ -152,8 +154,9 @@ impl Half<'_> {
         }
     }
 
-    /// The angle of the corner of the body that a corner of a triangle is in, where that is less than the bound \[rad\]: between the next
-    /// edges of the body to both sides, or twice that to one side where the other is the centreplane.
+    /// The angle of the corner of the body that a corner of a triangle is in, where that is less than the bound
+    /// \[rad\]: between the next edges of the body to both sides, or twice that to one side where the other is the
+    /// centreplane.
     pub(super) fn sharp_corner(&self, face: usize, v: usize) -> Option<f64> {
         let (region, _) = self.faces[face]?;
         let (mut sum, mut halved) = (0.0, false);
@@ -215,7 +218,8 @@ impl Half<'_> {
         edge((0..3).fold(0, |k, other| if long(other) > long(k) * (1.0 + 1e-9) { other } else { k }))
     }
 
-    /// Splits the edge at the end of the path over longest edges that begins with a triangle, at last the one before it that can be split.
+    /// Splits the edge at the end of the path over longest edges that begins with a triangle, at last the one before it
+    /// that can be split.
     fn split_path(&mut self, face: usize) -> bool {
         let mut at = face;
         let Some((_, corners)) = self.faces[at] else { return false };
@@ -338,7 +342,8 @@ impl Half<'_> {
         }
     }
 
-    /// Takes the vertices between the edges of the side off the centreplane, which would belong to both sides with all that meets there.
+    /// Takes the vertices between the edges of the side off the centreplane, which would belong to both sides with all
+    /// that meets there.
     fn part(&mut self) {
         for v in 0..self.points.len() {
             if self.on_centreplane(v) && self.ring(v).into_iter().all(|other| self.beside(v, other).1 == 2) {

@@ -21,7 +21,8 @@ fn size_at(curvature: f64, deviation: f64) -> f64 {
     (5.0 * deviation / curvature.max(1e-12)).sqrt().max(LEAST_SIZE * deviation)
 }
 
-/// The start of a mesh from lines of the parameters; `across` cells from the centreplane to the edge of the faces that close the body.
+/// The start of a mesh from lines of the parameters; `across` cells from the centreplane to the edge of the faces that
+/// close the body.
 pub(super) fn half<'a>(body: &'a Body<'a>, [us, ws]: [&[f64]; 2], deviation: f64, across: usize) -> Half<'a> {
     let mut half = Half {
         body,

@@ -6,10 +6,11 @@
 //! T(u, t) = S(u, v_0 + t (d(u) - v_0)),   0 <= t <= 1.
 //! ```
 //!
-//! Where no knot lies between v_0 and the deck, T is a polynomial of the degree of S in t, and only its coefficients, functions of u,
-//! are interpolated: by splines two degrees higher, as smooth as S at the knots of S, with corners where the deck has knots, so that the lower
-//! edge is that of the part below to rounding. Where the deck crosses knots they are lines that move in t; T is then interpolated in t
-//! too. Spans are halved until the deviation, measured between the points that are met, is small enough or spans are too many.
+//! Where no knot lies between v_0 and the deck, T is a polynomial of the degree of S in t, and only its coefficients,
+//! functions of u, are interpolated: by splines two degrees higher, as smooth as S at the knots of S, with corners
+//! where the deck has knots, so that the lower edge is that of the part below to rounding. Where the deck crosses knots
+//! they are lines that move in t; T is then interpolated in t too. Spans are halved until the deviation, measured
+//! between the points that are met, is small enough or spans are too many.
 
 use super::super::form::Hull;
 use super::super::mesh::deck_parameter;

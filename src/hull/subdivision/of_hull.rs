@@ -1,9 +1,10 @@
 //! The control net of a hull.
 //!
-//! A grid of parameters, lines of knuckles in it, and the points of the net such that the limit surface passes through the points of
-//! the hull on the grid: along each line between knuckles (P_{i-1} + 4 P_i + P_{i+1}) / 6 = S_i with P = S at the ends, first along,
-//! then around. Between the grid the limit leaves the hull by O(h^4), beside knuckles and ends by O(h^2), since creases are natural. The faces
-//! that close the body (bottom, transom, flat bow, deck) are strips from the edge of the surface to the centreline.
+//! A grid of parameters, lines of knuckles in it, and the points of the net such that the limit surface passes through
+//! the points of the hull on the grid: along each line between knuckles (P_{i-1} + 4 P_i + P_{i+1}) / 6 = S_i with P =
+//! S at the ends, first along, then around. Between the grid the limit leaves the hull by O(h^4), beside knuckles and
+//! ends by O(h^2), since creases are natural. The faces that close the body (bottom, transom, flat bow, deck) are
+//! strips from the edge of the surface to the centreline.
 
 use super::super::form::Hull;
 use super::super::mesh::{Region, deck_parameter};
@@ -178,8 +179,9 @@ impl Builder {
 }
 
 impl SubdivisionNet {
-    /// The net of the half y >= 0 of a hull up to its deck, all layers symmetric, with at most so many lines that its limit is within
-    /// `deviation` \[m\] of the hull; and what it is within \[m\], which is more where more lines would be too many.
+    /// The net of the half y >= 0 of a hull up to its deck, all layers symmetric, with at most so many lines that its
+    /// limit is within `deviation` \[m\] of the hull; and what it is within \[m\], which is more where more lines would
+    /// be too many.
     #[must_use]
     pub fn of_hull(hull: &Hull, deviation: f64) -> (Self, f64) {
         let surface = hull.surface();

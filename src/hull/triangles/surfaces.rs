@@ -1,9 +1,10 @@
 //! Triangles over rational B-spline surfaces in space.
 //!
-//! Each span of the knots is cut into equal parts, so many that the chords of the quarters of a span, and of its diagonal, stay within
-//! the deviation; spans that need no cut are joined while they stay within it together, unless the surface may have a corner between
-//! them. With parts halved the polyhedron is nested, and what is integrated over it has an error that falls by four: 4/3 of
-//! the finer less 1/3 of the coarser is of fourth order where nothing cuts the triangles.
+//! Each span of the knots is cut into equal parts, so many that the chords of the quarters of a span, and of its
+//! diagonal, stay within the deviation; spans that need no cut are joined while they stay within it together, unless
+//! the surface may have a corner between them. With parts halved the polyhedron is nested, and what is integrated over
+//! it has an error that falls by four: 4/3 of the finer less 1/3 of the coarser is of fourth order where nothing cuts
+//! the triangles.
 
 use super::TriangleMesh;
 use crate::spline::{BsplineSurface, KnotVector, length, minus};
@@ -18,8 +19,8 @@ const HALVES: usize = 400_000;
 /// How often the deviation is doubled at most.
 const DOUBLINGS: usize = 8;
 
-/// The bends of a surface in each span in u, and in v: the most by which halves of it leave their chords, and the diagonals of its cells
-/// theirs.
+/// The bends of a surface in each span in u, and in v: the most by which halves of it leave their chords, and the
+/// diagonals of its cells theirs.
 struct Bends<'a> {
     surface: &'a BsplineSurface<4>,
     along: [Vec<f64>; 2],
@@ -172,8 +173,8 @@ impl TriangleMesh {
         Self::from_corners(corners.into_iter())
     }
 
-    /// Two such meshes, the second with every edge halved, and their deviation \[m\]: `deviation`, doubled up to eight times until the first has
-    /// `enough` triangles.
+    /// Two such meshes, the second with every edge halved, and their deviation \[m\]: `deviation`, doubled up to eight
+    /// times until the first has `enough` triangles.
     ///
     /// # Errors
     /// How many triangles there would be, where these are more than four times `enough` even so.

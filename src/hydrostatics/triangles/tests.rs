@@ -137,7 +137,8 @@ fn a_missing_deck_and_a_missing_transom_do_not_matter_below() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
-    /// Volumes are continuous and their slope is the waterplane, also where draughts meet vertices; rows do not depend on each other.
+    /// Volumes are continuous and their slope is the waterplane, also where draughts meet vertices; rows do not depend
+    /// on each other.
     #[test]
     fn rows_are_continuous_and_independent(steps in prop::collection::vec(0.1..1.5_f64, 3..8), y in prop::collection::vec(0.5..5.0_f64, 9)) {
         let mut z = 0.0;

@@ -301,8 +301,8 @@ impl Form {
         (volume, moment)
     }
 
-    /// Nodes of a quadrature (error 1e-7, which the correction of the net takes up) over the height from keel to design waterline, split where the section or the stern has a
-    /// corner; along the girth, where b(z) is smooth.
+    /// Nodes of a quadrature (error 1e-7, which the correction of the net takes up) over the height from keel to design
+    /// waterline, split where the section or the stern has a corner; along the girth, where b(z) is smooth.
     pub(super) fn height_nodes(&self) -> Vec<HeightNode> {
         let (floor, bilge) = self.section.girths();
         let top = self.section.girth_at(self.draught);

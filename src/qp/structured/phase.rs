@@ -4,8 +4,8 @@
 use super::super::problem::Problem;
 use super::super::sparse::SparseRows;
 
-/// min 1/2 |e|^2, l <= Ax - e <= u, rows of unit size: the smallest change of the limits that makes the rows feasible. At the optimum
-/// A'z = 0 and e = z: the multipliers are a Farkas proof unless e = 0.
+/// min 1/2 |e|^2, l <= Ax - e <= u, rows of unit size: the smallest change of the limits that makes the rows feasible.
+/// At the optimum A'z = 0 and e = z: the multipliers are a Farkas proof unless e = 0.
 pub(super) fn nearest_feasible(problem: &Problem) -> Problem {
     let (n, m) = (problem.linear.len(), problem.rows.row_count());
     let mut rows = SparseRows::new(n + m);

@@ -16,11 +16,12 @@
 //! volume_percent = 0.5                    # of the published figure
 //! ```
 //!
-//! `[check]` holds figures of other integrations of the same table; it is used where nothing is published. `volume_m3` of `[mesh_check]`,
-//! `[obj_check]`, `[stl_check]` (meshes of the same ship) and `[table_check]` (trapezoids over the table) is shown and not judged. `[sign_trap]` says
-//! that centres in columns named `..._printed` count positive towards the aft end. A file `*hydrostatics.csv` beside it is
-//! a published table: its columns have the same names, its draughts are `T_m`. `lcb_x_m` counts from the origin of x in the
-//! table; `x_min` of `[particulars]` is the x of the aftmost station there, for readers that put AP elsewhere.
+//! `[check]` holds figures of other integrations of the same table; it is used where nothing is published. `volume_m3`
+//! of `[mesh_check]`, `[obj_check]`, `[stl_check]` (meshes of the same ship) and `[table_check]` (trapezoids over the
+//! table) is shown and not judged. `[sign_trap]` says that centres in columns named `..._printed` count positive
+//! towards the aft end. A file `*hydrostatics.csv` beside it is a published table: its columns have the same names, its
+//! draughts are `T_m`. `lcb_x_m` counts from the origin of x in the table; `x_min` of `[particulars]` is the x of the
+//! aftmost station there, for readers that put AP elsewhere.
 
 use toml::{Table, Value};
 

@@ -1,5 +1,5 @@
-//! The entities of a closed solid: vertices (502), edges (504) on curves (126), and for each face its surface (128), its loop (508) and
-//! itself (510); the shell of the faces (514) and the solid (186).
+//! The entities of a closed solid: vertices (502), edges (504) on curves (126), and for each face its surface (128),
+//! its loop (508) and itself (510); the shell of the faces (514) and the solid (186).
 
 use super::super::real;
 use super::colour;

@@ -1,6 +1,6 @@
-//! Reading of IGES: every rational B-spline surface (entity 128) with the transformation (124) of its directory entry. Entities that
-//! trim surfaces or make bodies of them (142, 144, 143, 502 to 514) refer to surfaces that are read untrimmed; curves are passed over. Of a
-//! file without such surfaces the curves (126, and lines, 110) are read.
+//! Reading of IGES: every rational B-spline surface (entity 128) with the transformation (124) of its directory entry.
+//! Entities that trim surfaces or make bodies of them (142, 144, 143, 502 to 514) refer to surfaces that are read
+//! untrimmed; curves are passed over. Of a file without such surfaces the curves (126, and lines, 110) are read.
 
 use std::collections::BTreeMap;
 
@@ -11,11 +11,12 @@ use crate::spline::BsplineSurface;
 /// Columns before the letter of a section.
 const LETTER: usize = 72;
 
-/// Metres in the units of the flag of the global section, from 1: inch, millimetre, (named), foot, mile, metre, kilometre, mil, micron,
-/// centimetre, microinch.
+/// Metres in the units of the flag of the global section, from 1: inch, millimetre, (named), foot, mile, metre,
+/// kilometre, mil, micron, centimetre, microinch.
 const UNITS: [f64; 11] = [0.0254, 1e-3, f64::NAN, 0.3048, 1609.344, 1.0, 1e3, 2.54e-5, 1e-6, 1e-2, 2.54e-8];
 
-/// Entities that are neither surfaces nor parts of what is read, and need no mention: transformations, curves, names, colours, trimming.
+/// Entities that are neither surfaces nor parts of what is read, and need no mention: transformations, curves, names,
+/// colours, trimming.
 const SILENT: [usize; 25] = [
     0, 100, 102, 104, 106, 110, 112, 116, 124, 126, 130, 141, 142, 143, 144, 186, 308, 314, 402, 404, 406, 408, 410,
     502, 504,

@@ -1,5 +1,5 @@
-//! Reading of STEP (ISO 10303-21): every B_SPLINE_SURFACE_WITH_KNOTS of the data section, rational or not, untrimmed, in the length unit
-//! of the file. Placements of assemblies are not applied, and a note says where there are some.
+//! Reading of STEP (ISO 10303-21): every B_SPLINE_SURFACE_WITH_KNOTS of the data section, rational or not, untrimmed,
+//! in the length unit of the file. Placements of assemblies are not applied, and a note says where there are some.
 
 use std::collections::BTreeMap;
 

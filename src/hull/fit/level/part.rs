@@ -21,8 +21,8 @@ const FLAT_BOTTOM: f64 = 0.05;
 /// Swings beyond centreplane and greatest half-breadth that are left alone, over the latter.
 const SWING: f64 = 1e-4;
 
-/// Half-breadths below 0 by less than this part of the greatest one are left alone: a tenth of a millimetre on a ship. Ringing dies down by
-/// a factor of four a waterline, so that a smaller part would ask for knots on nearly all of them.
+/// Half-breadths below 0 by less than this part of the greatest one are left alone: a tenth of a millimetre on a ship.
+/// Ringing dies down by a factor of four a waterline, so that a smaller part would ask for knots on nearly all of them.
 const FLOOR: f64 = 1e-5;
 
 /// Control values that are one half-breadth differ by less than this part of it.

@@ -1,7 +1,8 @@
 //! Slopes of piecewise cubics through data, and the limits within which they make no waves.
 //!
-//! A cubic with values a, b and slopes s, t over a gap h has the Bezier values a, a + s h/3, b - t h/3, b. It stays between a and b if
-//! these rise (or fall), s + t <= 3 (b - a)/h with neither against the direction of the gap (Fritsch & Carlson 1980: sufficient).
+//! A cubic with values a, b and slopes s, t over a gap h has the Bezier values a, a + s h/3, b - t h/3, b. It stays
+//! between a and b if these rise (or fall), s + t <= 3 (b - a)/h with neither against the direction of the gap (Fritsch
+//! & Carlson 1980: sufficient).
 
 /// Where neighbouring gaps turn, a slope up to this part of the smaller of theirs is left: samples of a parabola in a gap
 /// ratio of three need one.

@@ -1,15 +1,16 @@
 //! Tables of section outlines: the surface goes around each section by its girth, and from section to section.
 //!
-//! S(u, v) = (x(u), y(u, v), z(u, v)): the upright chart with heights that are free at every section. y(v) and z(v) of a section are
-//! piecewise cubic in v, which runs like its girth, so that flat bottoms, ledges, tunnels and bulbs, where y(z) is steep or jumps, are as
-//! smooth as walls. z does not fall with v, in the net: the chart cannot fold.
+//! S(u, v) = (x(u), y(u, v), z(u, v)): the upright chart with heights that are free at every section. y(v) and z(v) of
+//! a section are piecewise cubic in v, which runs like its girth, so that flat bottoms, ledges, tunnels and bulbs,
+//! where y(z) is steep or jumps, are as smooth as walls. z does not fall with v, in the net: the chart cannot fold.
 //!
 //! Exact: every point of a section that rises from keel to deck, to rounding. Straight pieces between points in line stay straight,
 //! corners stay sharp. Second order around the section, up to fourth along the ship; C1 everywhere, and C2 at the sections where
 //! no limit acts. Nothing swings: control values stay within what neighbouring sections have, half-breadths are not negative.
 //!
-//! Limits: pieces that fall on the way from keel to deck (tunnels seen from below, hooks) are left out, with a note. Cost: linear in the
-//! number of sections, and in that of nodes but for their assignment, which takes points times nodes a section.
+//! Limits: pieces that fall on the way from keel to deck (tunnels seen from below, hooks) are left out, with a note.
+//! Cost: linear in the number of sections, and in that of nodes but for their assignment, which takes points times
+//! nodes a section.
 
 mod along;
 mod limits;

@@ -1,13 +1,13 @@
 //! Which point of a section goes with which point of the next: one list of parameters, the nodes, for all sections.
 //!
-//! The parameter of a section is the share of its girth. Where the keel line jumps (skeg, dome, stem over a bulb), the sections on the shallow
-//! side begin at the parameter at which the last deep section is nearest to their keel: what is below that shrinks to the keel line
-//! and is not drawn out over the hull beyond.
+//! The parameter of a section is the share of its girth. Where the keel line jumps (skeg, dome, stem over a bulb), the
+//! sections on the shallow side begin at the parameter at which the last deep section is nearest to their keel: what is
+//! below that shrinks to the keel line and is not drawn out over the hull beyond.
 //!
-//! A point that is put on a node is met to rounding, but moves the lines of the net along the section, each section in its own way; too
-//! many of them make waves between the sections. In tables with few points all are put on nodes; in those with many (sections
-//! cut from meshes, digitised ones) the corners, and what else would be missed by more than a tolerance. Of all ways to put
-//! points on nodes in order, the one with the least sum of squared shifts is taken.
+//! A point that is put on a node is met to rounding, but moves the lines of the net along the section, each section in
+//! its own way; too many of them make waves between the sections. In tables with few points all are put on nodes; in
+//! those with many (sections cut from meshes, digitised ones) the corners, and what else would be missed by more than a
+//! tolerance. Of all ways to put points on nodes in order, the one with the least sum of squared shifts is taken.
 
 use super::limits;
 use super::section::Section;

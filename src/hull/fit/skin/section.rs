@@ -20,8 +20,8 @@ const HAIR: f64 = 1e-10;
 /// An outermost section nearer to the next one than this part of the following space is crowded.
 const CROWDED: f64 = 0.1;
 
-/// A crowded section with less than this part of the area of the next one cuts the transom, and the next one may with less than this part of
-/// what the following two let expect.
+/// A crowded section with less than this part of the area of the next one cuts the transom, and the next one may with
+/// less than this part of what the following two let expect.
 const NARROW: f64 = 0.75;
 
 /// A section.
@@ -132,8 +132,8 @@ fn crowded_ends(sections: &mut Vec<Section>, notes: &mut Vec<String>) {
     }
 }
 
-/// Tells of an outermost section, beside one that was left out, with much less area than the next two let expect: it is met, and hollows
-/// the surface up to the next one.
+/// Tells of an outermost section, beside one that was left out, with much less area than the next two let expect: it is
+/// met, and hollows the surface up to the next one.
 fn note_cut(sections: &[Section], fore: bool, notes: &mut Vec<String>) {
     let at = |n: usize| if fore { &sections[sections.len() - 1 - n] } else { &sections[n] };
     let rate = (at(1).area() - at(2).area()) / (at(1).x - at(2).x);

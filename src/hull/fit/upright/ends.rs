@@ -12,9 +12,9 @@ const POINTED: f64 = 1e-6;
 
 /// Closes the hull at its ends.
 ///
-/// A section with breadth at an end of the table is the transom, or a flat bow, unless the ends of the waterlines tell where the
-/// profile reaches the upper edge. At the fore end a section that narrows is carried on along keel line and upper edge to the point in which they
-/// meet, when that is within a space and a half.
+/// A section with breadth at an end of the table is the transom, or a flat bow, unless the ends of the waterlines tell
+/// where the profile reaches the upper edge. At the fore end a section that narrows is carried on along keel line and
+/// upper edge to the point in which they meet, when that is within a space and a half.
 pub(in crate::hull::fit) fn close(table: &OffsetTable, profiles: &mut Vec<Profile>, notes: &mut Vec<String>) {
     let breadth = profiles.iter().map(Profile::breadth).fold(0.0, f64::max);
     for fore in [false, true] {

@@ -4,9 +4,10 @@
 //! g = u where both ends are sharp or cut off; u (2 - u) where the fore end is blunt, u^2 where the aft end is,
 //! 3 u^2 - 2 u^3 where both are. At a blunt end y ~ sqrt(distance) then is smooth in u.
 //!
-//! Across the stations every line and every column of the net is the cubic spline with the "not a knot" end conditions (de Boor 2001, IV),
-//! of fourth order; where a line jumps (skeg, bulb) the spline is interrupted: the stations on both sides of the jump are
-//! p-fold knots and the piece between them is straight. All of them lie in one space with a knot at every station.
+//! Across the stations every line and every column of the net is the cubic spline with the "not a knot" end conditions
+//! (de Boor 2001, IV), of fourth order; where a line jumps (skeg, bulb) the spline is interrupted: the stations on both
+//! sides of the jump are p-fold knots and the piece between them is straight. All of them lie in one space with a knot
+//! at every station.
 
 use crate::spline::{BsplineCurve, Collocation, KnotVector, SplineError};
 
@@ -149,8 +150,8 @@ impl Across {
     }
 }
 
-/// Stations on both sides of the jumps of a line with the given values: steps above a fifth of the `size` of the hull there that are
-/// three times as steep as the steps next to them.
+/// Stations on both sides of the jumps of a line with the given values: steps above a fifth of the `size` of the hull
+/// there that are three times as steep as the steps next to them.
 pub(super) fn jumps(x: &[f64], values: &[f64], size: f64) -> Vec<usize> {
     let slope = |k: usize| (values[k + 1] - values[k]) / (x[k + 1] - x[k]);
     let count = x.len().saturating_sub(1);

@@ -1,9 +1,9 @@
 //! Knuckles and tangent lines at the stations: heights, half-breadths, and where they go beyond their ends.
 //!
-//! They come from the lines of the table (a cubic spline through their points, read at the stations) and from marked points,
-//! which are joined from station to station in order of height. Every line runs over the whole length of the net. Beyond
-//! an end that lies on the centreplane or the keel it runs in the keel line, beyond one on the upper edge in that; else it keeps its
-//! share of the height of the section, and the surface is smooth across it there.
+//! They come from the lines of the table (a cubic spline through their points, read at the stations) and from marked
+//! points, which are joined from station to station in order of height. Every line runs over the whole length of the
+//! net. Beyond an end that lies on the centreplane or the keel it runs in the keel line, beyond one on the upper edge
+//! in that; else it keeps its share of the height of the section, and the surface is smooth across it there.
 
 use super::profile::{Profile, SectionPoint};
 use crate::hull::cell::{FeatureLine, LineKind};
