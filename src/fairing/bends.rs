@@ -215,19 +215,20 @@ pub fn changes(signs: &[i8]) -> usize {
 /// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the
 /// band is left open, and no more than what departs by `seen` \[m\] over the length of the part. Lobes that depart by
 /// less than `seen` from their chord, which nobody counts, may fade but not grow: they would be counted. Where
-/// `strictly`, nothing is in the dead band, and a line all of whose lobes that are counted turn one way turns that way
-/// everywhere: lobes of the other sign might join to one that is seen.
+/// `strictly`, nothing is in the dead band, and what lies between lobes that are counted turns as the one before it, at
+/// the start of the line as the first: lobes that nobody sees might join to one that is seen.
 #[must_use]
 pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Limit> {
     let none = dead(bends, start);
     let mut signs = signs_beyond(bends, start, if strictly { 0.0 } else { none });
     let mut small = unseen(bends, &signs, start, seen);
-    let mut counted = signs.iter().zip(&small).filter(|&(&sign, &small)| sign != 0 && !small).map(|(&sign, _)| sign);
-    if let Some(first) = counted.next()
-        && strictly
-        && counted.all(|sign| sign == first)
-    {
-        signs.fill(first);
+    let counted = |k: usize| signs[k] != 0 && !small[k];
+    if strictly && let Some(first) = (0..signs.len()).find(|&k| counted(k)) {
+        let turned = (0..signs.len()).scan(signs[first], |last, k| {
+            *last = if counted(k) { signs[k] } else { *last };
+            Some(*last)
+        });
+        signs = turned.collect();
         small.fill(false);
     }
     let mut limits = Vec::new();
@@ -279,16 +280,23 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    /// y'' along a line from 0 to 10 m: a lobe of a metre and 1e-3 / m between two of the other sign. It departs by 1.25e-4 m.
+    /// A line from 0 to 10 m with this y''.
+    fn line(second: impl Fn(f64) -> f64) -> (Vec<Bend>, Vec<f64>) {
+        let at: Vec<f64> = (0..101).map(|k| 0.1 * f64::from(k)).collect();
+        let bend = |(k, &at): (usize, &f64)| Bend {
+            numerator: vec![(k, 1.0)],
+            offset: 0.0,
+            slope: Vec::new(),
+            along: 1.0,
+            at,
+        };
+        (at.iter().enumerate().map(bend).collect(), at.iter().copied().map(second).collect())
+    }
+
+    /// A lobe of a metre and 1e-3 / m between two of the other sign. It departs by 1.25e-4 m.
     #[test]
     fn lobes_that_nobody_sees_may_not_grow() {
-        let at: Vec<f64> = (0..101).map(|k| 0.1 * f64::from(k)).collect();
-        let second: Vec<f64> = at.iter().map(|x| if (4.45..5.45).contains(x) { -1e-3 } else { 1e-2 }).collect();
-        let bends: Vec<Bend> = at
-            .iter()
-            .enumerate()
-            .map(|(k, &at)| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at })
-            .collect();
+        let (bends, second) = line(|x| if (4.45..5.45).contains(&x) { -1e-3 } else { 1e-2 });
         let limit_at = |seen: f64, x: usize| kept(&bends, &second, seen, false)[x].clone();
         // Seen, it may grow; else it stays between where it is and nothing. The others are seen.
         assert!(limit_at(5e-5, 50).lower.is_infinite());
@@ -298,5 +306,21 @@ mod tests {
         // Strictly, it goes with the others.
         let strict = kept(&bends, &second, 1e-4, true)[50].clone();
         assert!(strict.lower > -1e-4 && strict.upper.is_infinite(), "{strict:?}");
+    }
+
+    /// Two lobes that are seen, and six of a metre that nobody sees: three of them might join to one that is.
+    #[test]
+    fn lobes_that_nobody_sees_go_strictly_with_the_one_before() {
+        let (bends, second) = line(|x| match x {
+            x if x < 2.0 => 1e-2,
+            x if x < 4.0 => -1e-2,
+            x if (x as usize).is_multiple_of(2) => 1e-4,
+            _ => -1e-4,
+        });
+        let limits = kept(&bends, &second, 1e-4, true);
+        assert!(limits[..20].iter().all(|limit| limit.upper.is_infinite() && limit.lower > -2e-4));
+        assert!(limits[20..].iter().all(|limit| limit.lower.is_infinite() && limit.upper < 2e-4));
+        let loose = kept(&bends, &second, 1e-4, false);
+        assert!(loose[40..].iter().all(|limit| limit.lower.is_finite() && limit.upper.is_finite()));
     }
 }

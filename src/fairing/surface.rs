@@ -28,6 +28,10 @@ pub use crate::spline::{basis_row, energy};
 /// Half-breadths below this part of B are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
 
+/// Control values of stem and stern below this part of B are on the centreplane: a fit leaves up to 7e-6 at closed ends
+/// of published tables, and ends that are open have 2e-3 and more.
+const ENDS: f64 = 1e-5;
+
 /// Control values along the ship for an offset, on the quintic net.
 const DENSITY: [f64; 2] = [0.8, 0.9];
 
@@ -333,7 +337,7 @@ impl FairSurface {
         let order = settings.order.unwrap_or(if smooth { 4 } else { 3 });
         let order = order.clamp(2, surface.u().degree().max(surface.v().degree()).min(MAX_DEGREE));
         let (mut readings, places) = readings(table, &hull);
-        let known = known(fitted, &hull, !smooth);
+        let known = known(fitted, &hull, smooth);
         for reading in &mut readings {
             // A reading of known control values alone says nothing.
             let free =
@@ -504,29 +508,29 @@ impl<'a> StationLine<'a> {
     }
 }
 
-/// Control values that do not move: those of the edges of the net that lie on the centreplane in the fit.
+/// Control values that do not move: those at stem, stern and keel that lie on the centreplane in the fit, where they lie
+/// in it on a net of the fit (`own` false).
 fn known(fitted: &Hull, hull: &Hull, own: bool) -> Vec<Option<f64>> {
     let [rows, columns] = hull.surface().shape();
-    let slack = CENTREPLANE * hull.particulars().breadth;
     let [fit_rows, fit_columns] = fitted.surface().shape();
-    let at = |i: usize, j: usize| fitted.surface().point(i, j)[1].abs() <= slack;
+    let breadth = hull.particulars().breadth;
+    let closed = |i: usize, j: usize, part: f64| {
+        let y = fitted.surface().point(i, j)[1];
+        (y.abs() <= part * breadth).then_some(y)
+    };
     // On a net of its own an edge is on the centreplane or it is not.
-    let whole_row = |i: usize| (0..fit_columns).all(|j| at(i, j));
-    let whole_column = |j: usize| (0..fit_rows).all(|i| at(i, j));
+    let whole_row = |i: usize| (0..fit_columns).all(|j| closed(i, j, ENDS).is_some());
+    let whole_column = |j: usize| (0..fit_rows).all(|i| closed(i, j, CENTREPLANE).is_some());
     let (aft, fore, keel) = (whole_row(0), whole_row(fit_rows - 1), whole_column(0));
-    let mut known = vec![None; rows * columns];
-    for i in 0..rows {
-        for j in 0..columns {
-            let edge = (i == 0, i + 1 == rows, j == 0);
-            let fixed = if own {
-                (edge.0 || edge.1 || edge.2) && at(i, j)
-            } else {
-                (edge.0 && aft) || (edge.1 && fore) || (edge.2 && keel)
-            };
-            if fixed {
-                known[i * columns + j] = Some(0.0);
-            }
+    let value = |i: usize, j: usize| {
+        let [at_aft, at_fore, at_keel] = [i == 0, i + 1 == rows, j == 0];
+        if own {
+            ((at_aft && aft) || (at_fore && fore) || (at_keel && keel)).then_some(0.0)
+        } else if at_aft || at_fore {
+            closed(i, j, ENDS)
+        } else {
+            closed(i, j, CENTREPLANE).filter(|_| at_keel)
         }
-    }
-    known
+    };
+    (0..rows * columns).map(|k| value(k / columns, k % columns)).collect()
 }
