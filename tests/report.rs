@@ -348,7 +348,7 @@ fn lines_with_combs_are_chosen_by_their_names() {
     let chosen = outputs("waterline 3.125, station -20").unwrap();
     assert!(text(&chosen, "fairing-buttocks.svg").contains("no combs"));
     assert!(
-        text(&chosen, "fairing-body-plan.svg").contains("combs of stations on every sheet, before and after: 10 mm = ")
+        text(&chosen, "fairing-body-plan.svg").contains("of 25 stations, on every sheet, before and after: 10 mm = ")
     );
     assert!(text(&chosen, "fairing-body-plan.svg").len() < text(files, "fairing-body-plan.svg").len());
     for (words, part) in [

@@ -381,6 +381,7 @@ pub(super) mod colour {
     pub(in crate::plot) const VERMILION: [u8; 3] = [213, 94, 0];
     pub(in crate::plot) const GREEN: [u8; 3] = [0, 122, 89];
     pub(in crate::plot) const PURPLE: [u8; 3] = [168, 67, 127];
+    pub(in crate::plot) const GREY: [u8; 3] = [150, 150, 150];
 }
 
 fn dark(colour: [u8; 3]) -> &'static str {
@@ -389,6 +390,7 @@ fn dark(colour: [u8; 3]) -> &'static str {
         colour::VERMILION => "#d55e00",
         colour::GREEN => "#007a59",
         colour::PURPLE => "#a8437f",
+        colour::GREY => "#767676",
         _ => "#000000",
     }
 }

@@ -10,7 +10,7 @@ use super::fairing_combs::FairingCombs;
 use super::label::{LabelPlacer, Preference};
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
-use super::station_names::{ROWS, name_stations};
+use super::station_names::{ROWS, name_stations, number_sections};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Comb;
@@ -20,8 +20,8 @@ use crate::qp::Status;
 
 /// Room at the sides, above and below the drawing \[mm\].
 const SIDE: f64 = 38.0;
-const HEAD: f64 = 50.0;
-const FOOT: f64 = 34.0;
+const HEAD: f64 = 40.0;
+const FOOT: f64 = 30.0;
 /// Room aft and forward of views along the ship \[mm\]: names and heights stand aft.
 pub(super) const LONG_SIDES: [f64; 2] = [19.5, 10.0];
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
@@ -223,6 +223,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
+    number_sections(&mut canvas, record, &drawn.curves, &mut placer, &window);
     let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
@@ -367,7 +368,8 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     after.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &AFTER_COMB));
     let places = |comb: &Comb| comb.inflections.iter().map(|&place| at(&comb.cut)(place)).collect::<Vec<_>>();
     let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
-    let words = after.first().map(|comb| plan.combs.words(&comb.cut));
+    let bearing = cuts.iter().filter(|cut| after.iter().any(|comb| comb.cut == **cut)).count();
+    let words = after.first().map(|comb| plan.combs.words(&comb.cut, [bearing, cuts.len()]));
     Drawn { curves: drawn, rings, words, left_out }
 }
 

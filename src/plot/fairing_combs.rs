@@ -119,9 +119,14 @@ impl FairingCombs {
         self.scales[kind(cut)]
     }
 
-    /// That scale, for the sheet.
-    pub(super) fn words(&self, cut: &Cut) -> String {
-        format!("combs of {} on every sheet, before and after: {}", KINDS[kind(cut)], self.scale(cut).words())
+    /// That scale, for a sheet with `bearing` of `all` lines that bear combs.
+    pub(super) fn words(&self, cut: &Cut, [bearing, all]: [usize; 2]) -> String {
+        let lines = if bearing < all {
+            format!("{bearing} of {all} {}", KINDS[kind(cut)])
+        } else {
+            KINDS[kind(cut)].to_owned()
+        };
+        format!("combs of {lines}, on every sheet, before and after: {}", self.scale(cut).words())
     }
 
     /// The combs that plans show on some planes, before and after.

@@ -149,7 +149,7 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
         "{}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
-        combs.words(&first)
+        combs.words(&first, [lines.len(); 2])
     );
     canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let size = [

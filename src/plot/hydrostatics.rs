@@ -105,7 +105,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let draught = inputs.design.draught;
     let (low, high) = rows.iter().fold((draught, draught), |(a, b), row| (a.min(row.draught), b.max(row.draught)));
     let left = Axis::new("draught T [m]", if low < 0.35 * high { 0.0 } else { low }, high, 10.0);
-    let (design, immersed) = (caption::design_waterline(inputs), inputs.immersed_edge(&rows));
+    let (design, immersed) = (format!("DWL {:.2} m", inputs.design.draught), inputs.immersed_edge(&rows));
     let edge = immersed.map_or(String::new(), caption::immersed_edge);
     let mut levels = vec![Level { at: draught, name: &design, pen: DESIGN }];
     levels.extend(immersed.map(|at| Level { at, name: &edge, pen: EDGE }));

@@ -16,6 +16,14 @@ pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
     drawing_scales().find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9)).unwrap_or(1_000_000)
 }
 
+/// The largest scale at which the lengths of a contracted profile fit: the scales of drawings, and those of rules with 1:75
+/// and 1:125. It is no scale of a drawing, for heights have another one.
+pub(super) fn contracted_scale(extent: f64, room: f64) -> u32 {
+    let between = [75, 125, 750, 1250, 7500, 12_500].into_iter();
+    let fits = |scale: &u32| f64::from(*scale) >= 1000.0 * extent / room * (1.0 - 1e-9);
+    between.filter(fits).chain([drawing_scale(extent, room)]).min().unwrap_or(1_000_000)
+}
+
 /// First member of `mantissas` times a power of ten that is not below `value`; `mantissas` rise from 1 to 10.
 /// A member that `value` equals to nine digits is taken as it is.
 fn round_up(value: f64, mantissas: &[f64]) -> f64 {
@@ -68,6 +76,13 @@ pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lengths_of_contracted_profiles_have_more_scales() {
+        for (extent, expected) in [(36.8, 100), (36.9, 125), (380.0, 1250), (500.0, 2000), (5000.0, 20_000), (1.0, 5)] {
+            assert_eq!(contracted_scale(extent, 368.0), expected, "{extent}");
+        }
+    }
 
     #[test]
     fn a_scale_of_the_list_that_just_fits_is_taken() {

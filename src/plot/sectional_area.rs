@@ -74,7 +74,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         // The dashes stand on the curve after fairing, so that both are seen where they are one.
         let points = upright_ends(&old, outline::immersed_length(before, design.draught));
         let dash = Some([2.4, 1.2]);
-        series.push(Series { name: "before", points, secondary: false, colour: colour::VERMILION, dash, name_at: 0.8 });
+        series.push(Series { name: "before", points, secondary: false, colour: colour::GREY, dash, name_at: 0.8 });
         let words = format!("the areas before and after differ by {apart:.3} m² at most");
         canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
         let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();

@@ -3,7 +3,7 @@
 use super::body_plan::range;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::caption;
-use super::label::{LabelPlacer, places_over};
+use super::label::{LabelPlacer, Preference, length, places_over};
 use super::sheet::LETTERS;
 use super::view::THREAD;
 use crate::fairing::record::FairRecord;
@@ -12,6 +12,8 @@ use crate::fairing::record::FairRecord;
 pub(super) const ROWS: [f64; 4] = [3.0, 6.6, 10.2, 13.8];
 /// Sections whose upper ends are nearer to each other than this bear one name \[mm\].
 const BESIDE: f64 = 2.4;
+/// Sections as long as this bear a name between their ends as well \[mm\].
+const LONG: f64 = 40.0;
 /// The unit of the steps in which a place for a name is looked for \[mm\].
 const NEAR: f64 = 2.6;
 
@@ -53,5 +55,24 @@ pub(super) fn name_stations(
         let [first, last] = [own.iter().min(), own.iter().max()].map(|k| k.map_or(String::new(), |k| name(*k)));
         let name = if first == last { first } else { range(&first, &last) };
         placer.name_off_curves(canvas, &name, &style, &places, &room, (end, &THREAD));
+    }
+}
+
+/// The names of the stations on their sections, at the bilge too, where a name keeps off the neighbours; `curves` are the
+/// first that the placer has.
+pub(super) fn number_sections(
+    canvas: &mut Canvas,
+    record: &FairRecord,
+    curves: &[(usize, Vec<[f64; 2]>)],
+    placer: &mut LabelPlacer,
+    window: &Rectangle,
+) {
+    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    let preferred = Preference { part: 0.35, crossings: 0, beside: false };
+    for (k, (station, line)) in curves.iter().enumerate() {
+        if length(line) >= LONG {
+            let name: String = caption::plain(&record.lines.stations[*station].name).chars().take(9).collect();
+            placer.name_curve(canvas, k, &name, &style, preferred, window);
+        }
     }
 }

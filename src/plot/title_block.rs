@@ -4,13 +4,14 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::sheet::{LETTERS, Sheet};
 use super::{FigureInputs, caption};
+use crate::hull::Hull;
 use crate::hydrostatics::{CoefficientLength, Quantity};
 
 /// Size of the title block [mm].
 pub(super) const SIZE: [f64; 2] = [138.0, 57.0];
 /// Where its second column begins, as a part of its width.
 const SPLIT: f64 = 0.59;
-/// Height of a row of its text [mm]; six rows are filled, the seventh is for the number of the drawing.
+/// Height of a row of its text [mm]; the seventh of the first column is for the number of the drawing.
 const ROW_OF_TEXT: f64 = 5.2;
 const FRAME: Pen = Pen::new(0.35, "#000000");
 const RULE: Pen = Pen::new(0.13, "#000000");
@@ -69,15 +70,16 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     let right_column = [
         format!("sheet {}, moulded, metres", scales.sheet.as_str()),
         format!("stations {:.3} m, 0 at AP", grid.station_spacing),
-        format!("waterlines {:.2} m", grid.waterline_spacing),
-        format!("buttocks {:.2} m", grid.buttock_spacing),
+        format!("waterlines {:.2}, buttocks {:.2} m", grid.waterline_spacing, grid.buttock_spacing),
+        diagonals(grid),
+        format!("D fall {:.1}° outboard of CL", grid.diagonal_angle.to_degrees()),
         inputs.source.unwrap_or_default().to_owned(),
         caption::program(),
     ];
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let columns = [
-        (&left_column, left, SPLIT * SIZE[0] - 4.0),
-        (&right_column, block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0),
+        (&left_column[..], left, SPLIT * SIZE[0] - 4.0),
+        (&right_column[..], block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0),
     ];
     for (column, x, room) in columns {
         for (row, text) in column.iter().enumerate() {
@@ -88,6 +90,12 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         }
     }
     draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.4]);
+}
+
+/// The heights of the diagonals on the centre line.
+fn diagonals(grid: &LinesGrid) -> String {
+    let heights: Vec<String> = grid.diagonals.iter().map(|plane| format!("{} {:.2}", plane.name, plane.at)).collect();
+    format!("{} m on CL", heights.join(", "))
 }
 
 /// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free for it.
@@ -152,14 +160,17 @@ fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
 pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
     let hull = inputs.hull;
     let fits = |planes: &Vec<&GridPlane>| table_height(planes.len()) <= room.height() + 1e-9;
-    let Some(planes) = [waterlines(grid), thinned(grid, 2), thinned(grid, 4)].into_iter().find(fits) else { return };
-    let height = table_height(planes.len());
+    let tables = [waterlines(grid), thinned(grid, 2), thinned(grid, 4)];
+    let Some(mut planes) = tables.into_iter().find(fits) else { return };
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
     let width = |count: usize| FIRST_COLUMN + column(grid) * count as f64;
     let stations = [all, whole_stations(grid), every_second(grid)]
         .into_iter()
         .find(|list| width(list.len()) <= room.width() + 1e-9);
     let Some(stations) = stations else { return };
+    // Waterlines of which no station of the table has an offset.
+    planes.retain(|plane| stations.iter().any(|station| half_breadth(hull, station, plane).is_some()));
+    let height = table_height(planes.len());
     let (left, top) = (room.left, room.bottom - height + 4.0);
     let right = left + width(stations.len());
     let style = TextStyle::new(LETTERS, Anchor::End);
@@ -171,8 +182,7 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
         let x = left + width(column + 1) - 1.0;
         canvas.text([x, row_at(0)], &station.name, &style);
         for (row, plane) in planes.iter().enumerate() {
-            let inside = plane.at <= hull.deck_height(station.at) + 1e-9;
-            if let Some(y) = hull.half_breadth(station.at, plane.at).filter(|_| inside) {
+            if let Some(y) = half_breadth(hull, station, plane) {
                 canvas.text([x, row_at(row + 1)], &format!("{:.3}", y.max(0.0)), &style);
             }
         }
@@ -192,9 +202,20 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
     canvas.line([left + FIRST_COLUMN, top], [left + FIRST_COLUMN, bottom], &RULE);
 }
 
+/// The half-breadth at a station and a waterline; none over the deck.
+fn half_breadth(hull: &Hull, station: &GridPlane, waterline: &GridPlane) -> Option<f64> {
+    let inside = waterline.at <= hull.deck_height(station.at) + 1e-9;
+    hull.half_breadth(station.at, waterline.at).filter(|_| inside)
+}
+
 /// The waterlines with the design waterline among them, from the base line up.
 fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
-    let mut planes: Vec<_> = grid.waterlines.iter().chain([&grid.design_waterline]).collect();
+    sorted(grid.waterlines.iter(), grid)
+}
+
+/// Waterlines and the design waterline, from the base line up.
+fn sorted<'a>(planes: impl Iterator<Item = &'a GridPlane>, grid: &'a LinesGrid) -> Vec<&'a GridPlane> {
+    let mut planes: Vec<_> = planes.chain([&grid.design_waterline]).collect();
     planes.sort_by(|a, b| a.at.total_cmp(&b.at));
     planes
 }
@@ -202,8 +223,5 @@ fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
 /// One of `step` of the whole waterlines, with the design waterline among them.
 fn thinned(grid: &LinesGrid, step: i64) -> Vec<&GridPlane> {
     let even = |plane: &&GridPlane| (plane.at / grid.waterline_spacing).round() as i64 % step == 0;
-    let whole = grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).filter(even);
-    let mut planes: Vec<_> = whole.chain([&grid.design_waterline]).collect();
-    planes.sort_by(|a, b| a.at.total_cmp(&b.at));
-    planes
+    sorted(grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).filter(even), grid)
 }
