@@ -86,6 +86,8 @@ impl Along {
     }
 }
 
+/// Most that a strip reaches beyond what its offsets and tolerances need, for the surface through the table.
+const FARTHEST: f64 = 3.0;
 /// Part of the height of a strip within which crosses of suspects stand.
 const INSIDE: f64 = 0.86;
 
@@ -148,7 +150,7 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     let middle = TextStyle::new(4.5, Anchor::Middle);
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
-        "{}    strips: offsets less the fair line, bars: tolerances, grey: the surface through the table",
+        "{}    grey: before, black and blue: after, rings: inflections    strips: offsets less the fair line, bars: tolerances",
         combs.words(&first, [lines.len(); 2])
     );
     canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
@@ -292,6 +294,31 @@ pub(super) fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, nam
     canvas.text(middle, name, &TextStyle::new(LETTERS, Anchor::Middle).upward());
 }
 
+/// The surface through the table less the fair one along a line \[m, mm\], in runs below the deck.
+fn departures(record: &FairRecord, (along, line): (Along, &Line<'_>)) -> Vec<Vec<[f64; 2]>> {
+    const STEPS: u32 = 160;
+    let Some((first, last)) = line.offsets.first().zip(line.offsets.last()) else { return Vec::new() };
+    let (from, to) = (along.place(first), along.place(last));
+    let below_deck = |hull: &Hull, x: f64, z: f64| {
+        let slack = 1e-6 * hull.particulars().depth;
+        hull.half_breadth(x, z).filter(|_| z <= hull.deck_height(x) + slack)
+    };
+    let half = |hull: &Hull, at: f64| match line.cut {
+        Cut::Waterline { z } => below_deck(hull, at, z),
+        Cut::Station { x } => below_deck(hull, x, at),
+        _ => None,
+    };
+    let mut runs = vec![Vec::new()];
+    for k in 0..=STEPS {
+        let at = from + (to - from) * f64::from(k) / f64::from(STEPS);
+        match (half(&record.before, at).zip(half(&record.after, at)), runs.last_mut()) {
+            (Some((old, new)), Some(run)) => run.push([at, 1e3 * (old - new)]),
+            _ => runs.push(Vec::new()),
+        }
+    }
+    runs
+}
+
 /// The strip of offsets less the fair line \[mm\].
 fn deviations(
     canvas: &mut Canvas,
@@ -304,7 +331,10 @@ fn deviations(
     let largest = kept().map(|change| 1e3 * (change.before - change.after).abs()).fold(0.0, f64::max);
     // Bars that are far longer than the moves leave the strip.
     let bars = kept().filter_map(|change| change.tolerance).map(|t| 1e3 * t).fold(0.0, f64::max);
-    let reach = (1.1 * (largest + bars)).min(8.0 * largest).max(1e-3);
+    let least = (1.1 * (largest + bars)).min(8.0 * largest).max(1e-3);
+    let departures = departures(record, (along, line));
+    let swing = departures.iter().flatten().map(|[_, by]| by.abs()).fold(0.0, f64::max);
+    let reach = least.max((1.1 * swing).min(FARTHEST * least));
     let range = Range { low: -reach, high: reach };
     let on = |at: f64, by: f64| {
         [strip.left + across.share(at) * strip.width(), strip.bottom - range.share(by) * strip.height()]
@@ -321,24 +351,8 @@ fn deviations(
             }
         }
     }
-    let steps = 160;
-    let (first, last) = (line.offsets.first(), line.offsets.last());
-    if let (Some(first), Some(last)) = (first, last) {
-        let (from, to) = (along.place(first), along.place(last));
-        let half = |hull: &Hull, at: f64| match line.cut {
-            Cut::Waterline { z } => hull.half_breadth(at, z),
-            Cut::Station { x } => hull.half_breadth(x, at),
-            _ => None,
-        };
-        let mut run: Vec<[f64; 2]> = Vec::new();
-        for k in 0..=steps {
-            let at = from + (to - from) * f64::from(k) / f64::from(steps);
-            match half(&record.before, at).zip(half(&record.after, at)) {
-                Some((old, new)) => run.push(on(at, 1e3 * (old - new))),
-                None => canvas.polyline(&std::mem::take(&mut run), &BEFORE),
-            }
-        }
-        canvas.polyline(&run, &BEFORE);
+    for run in &departures {
+        canvas.polyline(&run.iter().map(|[at, by]| on(*at, *by)).collect::<Vec<_>>(), &BEFORE);
     }
     canvas.line(on(across.low, 0.0), on(across.high, 0.0), &Pen::new(0.4, "#1f5fa8"));
     for change in kept() {
