@@ -1,4 +1,5 @@
-//! Suspects of a table of 40 stations and 25 waterlines with 5 mm of reading noise and three errors: at most 100 ms is wanted.
+//! Suspects of a table of 40 stations and 25 waterlines with 5 mm of reading noise and three errors: at most 100 ms is
+//! wanted.
 
 use std::hint::black_box;
 

@@ -1,9 +1,9 @@
 //! Tables of hydrostatics of a bicubic net of 24 x 14 control points: 40 draughts, and 80 for the growth of the cost.
 //!
-//! `wigley`: Wigley-like half-breadths between a raked stem and a raked stern, x(u, v) non-linear in u and dependent on v in
-//! the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length. `frigate`: a generated ship
-//! of 31 x 19 control points, whose lines slant at the ends. `canoe` and `canoe-mixed`: a rockered keel, z(u, v), with upright
-//! stations and with lines that rake.
+//! `wigley`: Wigley-like half-breadths between a raked stem and a raked stern, x(u, v) non-linear in u and dependent on
+//! v in the outer thirds of the length. `slanting`: the same with x dependent on v over the whole length. `frigate`: a
+//! generated ship of 31 x 19 control points, whose lines slant at the ends. `canoe` and `canoe-mixed`: a rockered keel,
+//! z(u, v), with upright stations and with lines that rake.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use loftsman::hull::{Hull, PrincipalParticulars};
@@ -32,7 +32,8 @@ fn hull(slanting: bool) -> Hull {
     Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 
-/// A canoe body: a rockered keel, stations or (`mixed`) lines that rake with the ends, y like a square root over the keel.
+/// A canoe body: a rockered keel, stations or (`mixed`) lines that rake with the ends, y like a square root over the
+/// keel.
 fn canoe(mixed: bool) -> Hull {
     let (u, v) = (KnotVector::uniform(3, 21).unwrap(), KnotVector::uniform(3, 11).unwrap());
     let (length, breadth, depth) = (100.0, 16.0, 10.0);

@@ -1,6 +1,6 @@
-//! Fairing against known truths: seeded tables of `tests/truth_hulls`, faired as a user would, measured against the hull that they
-//! were sampled from. Medians and worst cases over 30 seeds; `-- --quick` takes 3, a number as many, a name the cases of that
-//! name.
+//! Fairing against known truths: seeded tables of `tests/truth_hulls`, faired as a user would, measured against the
+//! hull that they were sampled from. Medians and worst cases over 30 seeds; `-- --quick` takes 3, a number as many, a
+//! name the cases of that name.
 
 #[path = "../tests/truth_hulls/mod.rs"]
 mod truth_hulls;

@@ -1,8 +1,8 @@
 //! Every hydrostatic quantity of bodies with closed forms: box, wedges, half cylinders, Wigley hull, ellipsoids.
 //!
 //! The bodies are splines that equal the closed shape to about 1e-13 of their size: exactly for the polynomial ones, by
-//! interpolation of degree 7 of graded parameters (angles) for the round ones. Tolerance 1e-10 relative, 1e-8 for the wetted
-//! surface and what is made of it.
+//! interpolation of degree 7 of graded parameters (angles) for the round ones. Tolerance 1e-10 relative, 1e-8 for the
+//! wetted surface and what is made of it.
 
 use loftsman::hull::{Functional, Hull, PrincipalParticulars};
 use loftsman::hydrostatics::{

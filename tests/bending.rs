@@ -1,4 +1,5 @@
-//! The bending energy of a surface: closed forms, its derivatives, and its least value within the rows of a fairing program.
+//! The bending energy of a surface: closed forms, its derivatives, and its least value within the rows of a fairing
+//! program.
 
 mod qp_problems;
 
@@ -8,7 +9,8 @@ use loftsman::qp::{Settings, SparseRows};
 use loftsman::spline::{BsplineSurface, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
-/// Control values of the square of a linear function a + b t on the Greville points of a cubic or higher spline: its blossom.
+/// Control values of the square of a linear function a + b t on the Greville points of a cubic or higher spline: its
+/// blossom.
 fn squares(knots: &KnotVector) -> Vec<[f64; 3]> {
     let p = knots.degree();
     let all = knots.knots();

@@ -1,5 +1,5 @@
-//! Hulls whose heights depend on both parameters: rockered keels, chines, re-parametrised bodies, against closed forms and
-//! quadrature of the formulas of the bodies.
+//! Hulls whose heights depend on both parameters: rockered keels, chines, re-parametrised bodies, against closed forms
+//! and quadrature of the formulas of the bodies.
 
 use loftsman::exchange::{read_hull, write_hull};
 use loftsman::hull::{Cut, Face, Functional, Hull, HullError, OffsetTable, PrincipalParticulars};
@@ -55,8 +55,8 @@ const BREADTH: f64 = 6.0;
 const DEPTH: f64 = 4.0;
 const ROCKER: f64 = 3.0;
 
-/// Canoe body: keel z_k = ROCKER xi^2, xi = 2 x / L - 1, half-breadth (B / 2) (1 - xi^2) zeta^(1/2) at the fraction zeta of the
-/// height between keel and deck; zeta = v^2, so that all is polynomial.
+/// Canoe body: keel z_k = ROCKER xi^2, xi = 2 x / L - 1, half-breadth (B / 2) (1 - xi^2) zeta^(1/2) at the fraction
+/// zeta of the height between keel and deck; zeta = v^2, so that all is polynomial.
 fn canoe(spans: [usize; 2]) -> Hull {
     let surface = surface([3, 3], spans, |u, v| {
         let xi = 2.0 * u - 1.0;

@@ -1,5 +1,5 @@
-//! Every code of a message is provoked by a test, and every code that the head of a file explains is one of the program; and the
-//! messages of whole jobs that no other test provokes.
+//! Every code of a message is provoked by a test, and every code that the head of a file explains is one of the
+//! program; and the messages of whole jobs that no other test provokes.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -251,7 +251,8 @@ fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
     assert!(!Path::new(&out).exists());
 }
 
-/// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the half-breadths.
+/// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the
+/// half-breadths.
 #[test]
 fn sections_given_as_points_are_faired() {
     use std::fmt::Write;
@@ -404,7 +405,8 @@ fn wigley_table(name: impl Fn(f64) -> String) -> String {
     text
 }
 
-/// Stations that have numbers stand where the job's L_PP puts them, and the fair table says so; without a length that is told.
+/// Stations that have numbers stand where the job's L_PP puts them, and the fair table says so; without a length that
+/// is told.
 #[test]
 fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
     let folder = folder("numbered");
@@ -434,7 +436,8 @@ fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
     }
 }
 
-/// A table that is right but for its rounding is not moved for the displacement that it does not tell as well as the hull.
+/// A table that is right but for its rounding is not moved for the displacement that it does not tell as well as the
+/// hull.
 #[test]
 fn a_table_that_is_right_stays() {
     let metres = folder("right").join("metres.csv");
@@ -445,9 +448,8 @@ fn a_table_that_is_right_stays() {
 }
 
 /// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
-/// bends more often.
-/// The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit leaves below 4e-5 m free to
-/// move it opened by 14 mm.
+/// bends more often. The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit
+/// leaves below 4e-5 m free to move it opened by 14 mm.
 #[test]
 fn ends_that_are_closed_stay_closed() {
     let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);

@@ -295,8 +295,8 @@ fn an_undeclared_chine_is_proposed_and_taken() {
     assert!(with < 0.8 * rms && line.gain.unwrap() > 100.0, "{line:?}");
     let taken = run(Accepted::These(vec![1])).unwrap();
     assert!(taken.proposals[0].accepted && taken.status == Status::Optimal);
-    // The slope of a station breaks at the chine; half of the 0.35 of the truth, since the surface that the line is put into is one
-    // that runs through it as a curve.
+    // The slope of a station breaks at the chine; half of the 0.35 of the truth, since the surface that the line is put
+    // into is one that runs through it as a curve.
     let bend = |outcome: &Outcome| {
         let y = |z: f64| outcome.after.half_breadth(50.0, z).unwrap();
         let (h, away) = (0.02, 0.005);

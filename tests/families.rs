@@ -427,10 +427,12 @@ fn the_thesis_frigate_comes_back() {
         let v = Functional::Volume.value(&hull, t);
         assert!((a / area - 1.0).abs() < 1.5e-3, "T {t}: A_WL {a} for {area}");
         assert!((Functional::WaterplaneMoment.value(&hull, t) / a / x - 1.0).abs() < 1.5e-3, "T {t}: X_WL");
-        // The lofted model of the thesis cuts the corner at keel and transom tip: a constant 13.5 to 17.5 m3, low and aft.
+        // The lofted model of the thesis cuts the corner at keel and transom tip: a constant 13.5 to 17.5 m3, low and
+        // aft.
         let lost = v - volume;
         assert!((13.5..17.6).contains(&lost), "T {t}: {lost} m3");
-        // Taking that volume out again at its own centre (13.98 m3 at z 0.34 m, x 42.6 m by the row T = 1) explains the centres.
+        // Taking that volume out again at its own centre (13.98 m3 at z 0.34 m, x 42.6 m by the row T = 1) explains the
+        // centres.
         let explained_kb = (Functional::VerticalMoment.value(&hull, t) - lost * corner(t).0) / volume;
         let explained_xcb = (Functional::LongitudinalMoment.value(&hull, t) - lost * corner(t).1) / volume;
         assert!((explained_kb - kb).abs() < 2.5e-3, "T {t}: KB {explained_kb} for {kb}");

@@ -1,7 +1,7 @@
 //! Tables of offsets become hulls: every cell is met, volumes are the published ones, bad tables are errors.
 //!
-//! Published hulls outside the repository are read from the folder that LOFTSMAN_DATA names, or `../shared/data`; where there is
-//! none, these tests say so and pass.
+//! Published hulls outside the repository are read from the folder that LOFTSMAN_DATA names, or `../shared/data`; where
+//! there is none, these tests say so and pass.
 
 use loftsman::exchange::read_table;
 use loftsman::hull::{Cell, FitMethod, Fitted, Functional, Hull, OffsetTable, StationOffsets};
@@ -17,7 +17,8 @@ fn folder() -> Option<PathBuf> {
     None
 }
 
-/// A table as the data folder writes it: x, the columns of the profile, then half-breadths under the heights of waterlines.
+/// A table as the data folder writes it: x, the columns of the profile, then half-breadths under the heights of
+/// waterlines.
 fn load(hull: &str, draught: f64) -> Option<OffsetTable> {
     let text = std::fs::read_to_string(folder()?.join(hull).join("offsets.csv")).ok()?;
     let mut lines = text.lines();
@@ -61,8 +62,8 @@ fn cells(table: &OffsetTable, hull: &Hull) -> (f64, usize) {
     (worst, missing)
 }
 
-/// Half-breadths stay between the centreplane and the greatest one; the nets of least energy may swing by 1e-3 of it where
-/// limits act on control values.
+/// Half-breadths stay between the centreplane and the greatest one; the nets of least energy may swing by 1e-3 of it
+/// where limits act on control values.
 fn swings(hull: &Hull, greatest: f64) -> [f64; 2] {
     let mut range = [0.0f64, 0.0f64];
     for i in 0..=300 {
@@ -238,7 +239,8 @@ fn sections_are_followed_around_ledges_and_bulbs() {
     }
 }
 
-/// Station numbers taken for metres make a ship that is shorter than broad: told, with what to say instead; not of a ship.
+/// Station numbers taken for metres make a ship that is shorter than broad: told, with what to say instead; not of a
+/// ship.
 #[test]
 fn a_ship_shorter_than_broad_is_told_of() {
     let table = |step: f64| {

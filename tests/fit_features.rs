@@ -1,4 +1,5 @@
-//! What tables say besides half-breadths: transom plane, flat of side, tangent lines, level knuckles, heights at buttocks, camber.
+//! What tables say besides half-breadths: transom plane, flat of side, tangent lines, level knuckles, heights at
+//! buttocks, camber.
 
 use loftsman::hull::{
     Cell, Chart, FeatureLine, FitMethod, Fitted, Functional, Hull, LineKind, OffsetTable, StationOffsets, TransomPlane,
@@ -66,7 +67,8 @@ fn a_box_ends_on_its_raked_transom() {
     }
 }
 
-/// A run that rises to a raked transom: y = 6 (1 - (1 - t)^2) c(x) with t the share of the height above the keel line z_k(x).
+/// A run that rises to a raked transom: y = 6 (1 - (1 - t)^2) c(x) with t the share of the height above the keel line
+/// z_k(x).
 fn run(x: f64, z: f64) -> Option<f64> {
     let keel = if x < 14.0 { 4.5 * (1.0 - x / 14.0).powi(2) } else { 0.0 };
     let t = (z - keel) / (8.0 - keel);
@@ -129,7 +131,8 @@ fn a_run_is_cut_by_its_transom() {
     assert!(bend < 0.05, "{bend}");
 }
 
-/// Half-breadth 6 above the edge z_f(x): 3 m from x = 30 to 90, rising to the deck at x = 10 and 110; below it 6 - (z_f - z)^2 / 4.
+/// Half-breadth 6 above the edge z_f(x): 3 m from x = 30 to 90, rising to the deck at x = 10 and 110; below it 6 - (z_f
+/// - z)^2 / 4.
 fn edge(x: f64) -> f64 {
     3.0 + 5.0 * ((30.0 - x).max(x - 90.0).max(0.0) / 20.0).powi(2)
 }

@@ -5,13 +5,13 @@
 //! interpolated it with order 3 and printed curvatures from 0.026 to 0.029.
 //!
 //! What the data allow. Curvature holds second derivatives, which interpolation of degree p on steps h gets to
-//! O(h^(p-1)), worst at open ends: an open cubic errs by 11 per cent at the seam. The way from there is a higher degree and
-//! no ends. Azimuth is periodic; along a meridian the data go on over the pole (altitude 180 - a is altitude a at the
-//! opposite azimuth) and, the hemisphere being half of a sphere, below the equator by reflection. Then only the steps
-//! matter: 16 points around alias the harmonics 1 - 16 and 1 + 16 with amplitudes 15^-(p+1) and 17^-(p+1) (Golomb 1968), so
-//! that second derivatives err by 15^(1-p) + 17^(1-p) of their size: 8e-3, 3e-5 and 1e-7 for degrees 3, 5 and 7. Found
-//! for the Gaussian curvature, up to 0.9 of the altitude: 1.6e-2, 3.7e-5 and 1.4e-7 of 1/36, that is 4.4e-4, 1.03e-6 and
-//! 3.9e-9. A periodic cubic cannot come within 1e-6 of 1/36 from these data; degree 7 does, 250 times over.
+//! O(h^(p-1)), worst at open ends: an open cubic errs by 11 per cent at the seam. The way from there is a higher degree
+//! and no ends. Azimuth is periodic; along a meridian the data go on over the pole (altitude 180 - a is altitude a at
+//! the opposite azimuth) and, the hemisphere being half of a sphere, below the equator by reflection. Then only the
+//! steps matter: 16 points around alias the harmonics 1 - 16 and 1 + 16 with amplitudes 15^-(p+1) and 17^-(p+1) (Golomb
+//! 1968), so that second derivatives err by 15^(1-p) + 17^(1-p) of their size: 8e-3, 3e-5 and 1e-7 for degrees 3, 5 and
+//! 7. Found for the Gaussian curvature, up to 0.9 of the altitude: 1.6e-2, 3.7e-5 and 1.4e-7 of 1/36, that is 4.4e-4,
+//! 1.03e-6 and 3.9e-9. A periodic cubic cannot come within 1e-6 of 1/36 from these data; degree 7 does, 250 times over.
 
 use loftsman::spline::{BsplineSurface, KnotVector, Parametrization, PeriodicCollocation};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -71,7 +71,8 @@ fn chord_parameters() -> [Vec<f64>; 2] {
 fn the_program_of_1999() {
     let sites = chord_parameters();
     let surface = BsplineSurface::through_grid([2, 2], Parametrization::ChordLength, 10, &data()).unwrap();
-    // Printed: 0.026 to 0.029, which the surface gives where it is 3 per cent of the range or more from the seam and the equator.
+    // Printed: 0.026 to 0.029, which the surface gives where it is 3 per cent of the range or more from the seam and
+    // the equator.
     let inside = range(&surface, [0.03, 0.97], [0.03, 0.9]);
     assert!((inside.low - 0.02602).abs() < 1e-5, "{}", inside.low);
     assert!((inside.high - 0.02877).abs() < 1e-5, "{}", inside.high);
@@ -121,8 +122,8 @@ fn the_data_are_met() {
     }
 }
 
-/// The largest error of the curvature and of the radius up to 0.9 of the altitude, by odd degree. That of degree 7 is below
-/// 1e-6, absolute and relative.
+/// The largest error of the curvature and of the radius up to 0.9 of the altitude, by odd degree. That of degree 7 is
+/// below 1e-6, absolute and relative.
 #[test]
 fn degree_7_is_within_a_millionth() {
     let all = [0.0, TAU];
@@ -137,8 +138,8 @@ fn degree_7_is_within_a_millionth() {
     }
 }
 
-/// Nearer to the pole the division by the shrinking S_u takes digits: still 1e-6 at 89.99 degrees; at the pole itself there
-/// is no normal.
+/// Nearer to the pole the division by the shrinking S_u takes digits: still 1e-6 at 89.99 degrees; at the pole itself
+/// there is no normal.
 #[test]
 fn towards_the_pole() {
     let surface = continued(7);

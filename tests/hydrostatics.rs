@@ -1,5 +1,5 @@
-//! Tables of hydrostatics of hulls whose lines in u slant: generated ships against identities, sheared bodies against closed
-//! forms and against section areas taken one by one.
+//! Tables of hydrostatics of hulls whose lines in u slant: generated ships against identities, sheared bodies against
+//! closed forms and against section areas taken one by one.
 
 use loftsman::hull::{Functional, Hull, PrincipalParticulars, SectionalAreaCurve};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
@@ -201,7 +201,8 @@ fn parallel_body_where_the_lines_slant() {
     }
 }
 
-/// Areas of many draughts at once are those of each alone: on plumb, raked and rockered hulls, below the keel and above the deck.
+/// Areas of many draughts at once are those of each alone: on plumb, raked and rockered hulls, below the keel and above
+/// the deck.
 #[test]
 fn areas_of_draughts_together_and_alone() {
     for (name, hull) in ships() {

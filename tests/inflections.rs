@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-/// 1 - (cosh(a t) - 1) / (cosh a - 1) with mu = a^2, the cosine where mu < 0: one inflection at pi / (2 a) if mu < -pi^2 / 4.
+/// 1 - (cosh(a t) - 1) / (cosh a - 1) with mu = a^2, the cosine where mu < 0: one inflection at pi / (2 a) if mu <
+/// -pi^2 / 4.
 fn kernel(mu: f64, t: f64) -> f64 {
     let a = mu.abs().sqrt();
     match mu {
@@ -84,7 +85,8 @@ fn the_truth_of_48_waterlines() {
         let truth = case % 3;
         let sigma = if case % 2 == 0 { 0.040 } else { 0.002 };
         let full = |random: &mut StdRng| random.random_range(-1.5..9.0);
-        // A hollow that is shallower than the bands are wide is not in the data: with 40 mm the end must be clearly hollow.
+        // A hollow that is shallower than the bands are wide is not in the data: with 40 mm the end must be clearly
+        // hollow.
         let slightest = if case % 2 == 0 { -6.5 } else { -4.0 };
         let hollow = |random: &mut StdRng| random.random_range(-9.5..slightest);
         let (aft, forward) = match (truth, case % 4 < 2) {
@@ -132,7 +134,8 @@ fn a_zigzag_has_a_change_for_every_inner_pair() {
 
 #[test]
 fn what_fewer_inflections_cost() {
-    // From 1 and 0 the chord is 1/3 where the trough is -1: 4/3 = tau (delta + delta), and no other three sites ask for more.
+    // From 1 and 0 the chord is 1/3 where the trough is -1: 4/3 = tau (delta + delta), and no other three sites ask for
+    // more.
     let x: Vec<f64> = (0..5).map(f64::from).collect();
     let bands = Bands::new(x, vec![0.0, 1.0, 0.0, -1.0, 0.0], vec![0.1; 5], vec![]).unwrap();
     let found = minimum_inflections(&bands);

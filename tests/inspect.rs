@@ -264,7 +264,8 @@ fn a_wigley_hull_has_no_inflection() {
         let q: f64 = 4.0 * height / l;
         let length = 0.5 * l * ((1.0 + q * q).sqrt() + q.asinh() / q);
         assert!((curve.length - length).abs() < 1e-8, "{} {length}", curve.length);
-        // int kappa^2 ds = int y''^2 (1 + y'^2)^(-5/2) dx, with y' = p: (8 h / l^2) [p/(3 w^3) + 2p/(3 w)], w = sqrt(1 + p^2).
+        // int kappa^2 ds = int y''^2 (1 + y'^2)^(-5/2) dx, with y' = p: (8 h / l^2) [p/(3 w^3) + 2p/(3 w)], w =
+        // sqrt(1 + p^2).
         let w = (1.0 + q * q).sqrt();
         let energy = 8.0 * height / (l * l) * 2.0 * (q / (3.0 * w.powi(3)) + 2.0 * q / (3.0 * w));
         assert!((curve.bending - energy).abs() < 1e-9, "{} {energy}", curve.bending);
@@ -331,7 +332,8 @@ fn a_box_is_flat() {
     assert!(inspection.net.iter().all(|line| line.changes == 0 && line.enclosed == 0));
 }
 
-/// y = b(z) f(|2x/L - 1|) with the cosine kernel f(t) = 1 - (1 - cos a t) / (1 - cos a), a^2 = 8 on the keel and 1 at the top.
+/// y = b(z) f(|2x/L - 1|) with the cosine kernel f(t) = 1 - (1 - cos a t) / (1 - cos a), a^2 = 8 on the keel and 1 at
+/// the top.
 fn hollow() -> Hull {
     let (u, v) = (KnotVector::uniform(3, 80).unwrap(), KnotVector::uniform(3, 16).unwrap());
     let (su, sv) = (u.greville(), v.greville());
@@ -437,7 +439,8 @@ fn what_has_no_breadth_is_not_counted() {
     assert!(end.bending < 1.0 && end.variation < 1.0, "{} {}", end.bending, end.variation);
 }
 
-/// Waterlines of the Wigley hull are parabolas y = a (1 - (2 x/L)^2): kappa = 8 a / L^2 amidships, on the convex side outward.
+/// Waterlines of the Wigley hull are parabolas y = a (1 - (2 x/L)^2): kappa = 8 a / L^2 amidships, on the convex side
+/// outward.
 #[test]
 fn a_parabola_has_its_curvature_outward() {
     let dimensions =
@@ -490,7 +493,8 @@ fn maps_of_the_wigley_hull_have_its_curvature_and_girth() {
         }
         assert!(compared > 150, "{compared}");
     }
-    // The girth of the midship section: the length of the parabola y = 5 (1 - t^2) with z = 6.25 (1 - t), and the wall above it.
+    // The girth of the midship section: the length of the parabola y = 5 (1 - t^2) with z = 6.25 (1 - t), and the wall
+    // above it.
     let map = SurfaceMap::at_stations(&hull, 31, 17);
     let middle = map.point(15, map.rows - 1);
     let slope: f64 = 1.6;

@@ -1,5 +1,5 @@
-//! The methods of five published systems, each as a setting of `Hull::fit`: their printed tables, their properties, and every
-//! file of `configs/methods` run by itself.
+//! The methods of five published systems, each as a setting of `Hull::fit`: their printed tables, their properties, and
+//! every file of `configs/methods` run by itself.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -91,7 +91,8 @@ fn the_printed_table_of_the_fishing_vessel() {
     assert!(moment(&|_, _| 1.0).abs() < 1e-12 && moment(&|i, j| (i * j * j) as f64).abs() < 1e-10);
 }
 
-/// y = x^2 + z^2 on the unit grid: nothing at the nodes, 1/4 in the middle of an edge, 1/2 in the middle of a cell, exactly.
+/// y = x^2 + z^2 on the unit grid: nothing at the nodes, 1/4 in the middle of an edge, 1/2 in the middle of a cell,
+/// exactly.
 #[test]
 fn hat_functions_over_a_paraboloid() {
     let lines: Vec<f64> = (0..=50).map(f64::from).collect();
@@ -175,7 +176,8 @@ fn borders_of_the_uniform_bicubic_surface() {
     assert!(misfit.given == 20 && (0.01..0.5).contains(&misfit.largest()), "{misfit:?}");
 }
 
-/// With a tripled row, the surface is the two surfaces of its two sides, which share the curve of that row; the tangent breaks.
+/// With a tripled row, the surface is the two surfaces of its two sides, which share the curve of that row; the tangent
+/// breaks.
 #[test]
 fn two_surfaces_joined_along_a_knuckle() {
     let settings = UniformBicubic { knuckle_waterlines: vec![1.3], knuckle_stations: vec![] };
@@ -252,9 +254,9 @@ fn a_split_quadratic_net_is_two_surfaces() {
     }
 }
 
-/// The hemisphere of radius 6 by azimuths of 22.5 and altitudes of 10 degrees, interpolated as in 1999: the thesis prints
-/// Gaussian curvatures from 0.026 to 0.029, where 1/36 is exact. An independent computation has 0.02596 to 0.02874 and the mean
-/// 0.02776 at the inner points of 60 equal parts of the parameters up to 0.9 of the altitude.
+/// The hemisphere of radius 6 by azimuths of 22.5 and altitudes of 10 degrees, interpolated as in 1999: the thesis
+/// prints Gaussian curvatures from 0.026 to 0.029, where 1/36 is exact. An independent computation has 0.02596 to
+/// 0.02874 and the mean 0.02776 at the inner points of 60 equal parts of the parameters up to 0.9 of the altitude.
 #[test]
 fn the_hemisphere_of_1999() {
     let on_sphere = |i: i32, j: i32| {
@@ -281,7 +283,8 @@ fn the_hemisphere_of_1999() {
     assert!(radius < 0.0024);
 }
 
-/// The same through the table of offsets of the hemisphere: the volume is 2/3 pi R^3 but for the cap below the lowest waterline.
+/// The same through the table of offsets of the hemisphere: the volume is 2/3 pi R^3 but for the cap below the lowest
+/// waterline.
 #[test]
 fn the_hemisphere_as_a_hull() {
     let job = read_fit(&methods_folder().join("seed004-hemisphere.toml"), None, None).unwrap();

@@ -1,5 +1,5 @@
-//! Tables that are converted keep their sections; files of other kinds are refused in one message; all problems of a table
-//! are said at once; particulars that contradict a table are warned of.
+//! Tables that are converted keep their sections; files of other kinds are refused in one message; all problems of a
+//! table are said at once; particulars that contradict a table are warned of.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,8 @@ fn among(messages: &[String], parts: &[&str]) {
     assert!(found, "{parts:?} in\n{}", messages.join("\n"));
 }
 
-/// Largest distance of the points of two tables; infinite when they have not the same stations, branches and points \[m\].
+/// Largest distance of the points of two tables; infinite when they have not the same stations, branches and points
+/// \[m\].
 fn apart(a: &OffsetTable, b: &OffsetTable) -> f64 {
     let shape = |t: &OffsetTable| -> Vec<Vec<usize>> {
         t.stations.iter().map(|s| s.outlines.iter().map(Vec::len).collect()).collect()

@@ -71,8 +71,8 @@ fn a_bilge_keeps_its_tangent_lines() {
     }
 }
 
-/// Hulls with rakes and features that their offsets do not resolve: never worse than interpolation by more than the roughness of
-/// the published tables, and at noise beyond that better by a fifth.
+/// Hulls with rakes and features that their offsets do not resolve: never worse than interpolation by more than the
+/// roughness of the published tables, and at noise beyond that better by a fifth.
 #[test]
 fn nets_of_fits_lose_noise_and_keep_features() {
     for (name, errors, part) in [("bulk carrier", 0.002, 0.95), ("Series 60", 0.0406, 0.8), ("S-175", 0.0635, 0.8)] {
@@ -105,7 +105,8 @@ fn errors_of_typing_do_not_reach_the_hull() {
     }
 }
 
-/// Errors that the neighbours of a cell are too few to see: ten and six noise levels, three side by side, large ones among 25 mm.
+/// Errors that the neighbours of a cell are too few to see: ten and six noise levels, three side by side, large ones
+/// among 25 mm.
 #[test]
 fn gross_errors_are_left_out_by_the_net() {
     for (errors, limit) in [(SMALL, 0.00076), (SIX_SIGMA, 0.00077), (ROUGH, 0.00551), (Errors::Adjacent, 0.00076)] {

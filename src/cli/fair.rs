@@ -57,8 +57,8 @@ pub(super) struct Arguments {
     /// How far an offset may move [default: three noise levels, at least two steps of the table's writing]
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<String>,
-    /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too: "stem",
-    /// "stern", "keel", "deck", "line NAME" of the table; may be repeated
+    /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too:
+    /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
     /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on plain hulls, else 3]
@@ -212,8 +212,8 @@ fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f
     stream::data(&fair_page(job, outputs, &arguments.files.folder(&arguments.input, false).display().to_string()))
 }
 
-/// Runs again when a file changes, until the program is ended; what goes wrong is said and does not end it, but for a first
-/// run that could not write.
+/// Runs again when a file changes, until the program is ended; what goes wrong is said and does not end it, but for a
+/// first run that could not write.
 fn watch(
     arguments: &Arguments,
     job: Option<FairJob>,

@@ -19,7 +19,8 @@ pub(super) struct Arguments {
     /// Folder for curve.csv, fairing.json and the picture
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// How far the curve may pass a point that has no tolerance of its own; without it three times the noise that is found
+    /// How far the curve may pass a point that has no tolerance of its own; without it three times the noise that is
+    /// found
     #[arg(long, value_parser = length, value_name = "LENGTH")]
     tolerance: Option<f64>,
     /// Abscissae of points that must not move

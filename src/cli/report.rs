@@ -27,7 +27,8 @@ pub(super) struct Arguments {
     /// buttock 1.5, diagonal 3"
     #[arg(long, value_name = "LINES", default_value = "", hide_default_value = true)]
     combs: String,
-    /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the same bytes
+    /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the
+    /// same bytes
     #[arg(long, value_parser = date, value_name = "TEXT")]
     date: Option<String>,
     /// Overwrite files that are there already, and remove what an earlier report wrote and this one does not

@@ -91,8 +91,8 @@ impl Design {
         }
     }
 
-    /// The message of a family about some of its keys, with the place of the first of them that the file has; of the preset,
-    /// or of the table, when it has none of them. An error names the keys that the file does not have.
+    /// The message of a family about some of its keys, with the place of the first of them that the file has; of the
+    /// preset, or of the table, when it has none of them. An error names the keys that the file does not have.
     #[must_use]
     pub fn diagnose(&self, severity: Severity, code: &'static str, keys: &[&str], message: &str) -> Diagnostic {
         let preset = self.places.iter().find(|p| p.path == "project.preset");
@@ -121,8 +121,8 @@ impl Design {
         }
     }
 
-    /// Every reason why the family refuses, with its place in the file. A reason that is about defaults alone follows from
-    /// what the file says, and is left out beside reasons about that.
+    /// Every reason why the family refuses, with its place in the file. A reason that is about defaults alone follows
+    /// from what the file says, and is left out beside reasons about that.
     #[must_use]
     pub fn diagnose_all(&self, reasons: &[Infeasible]) -> Vec<Diagnostic> {
         let written = |reason: &&Infeasible| reason.keys.iter().any(|key| self.place(key).is_some());
@@ -170,7 +170,8 @@ pub fn read(file: &str, text: &str) -> Result<Design, Vec<Diagnostic>> {
     Err(document.problems)
 }
 
-/// Why the family refuses what could be read of a file with other problems; nothing where those problems may be the cause.
+/// Why the family refuses what could be read of a file with other problems; nothing where those problems may be the
+/// cause.
 fn refusals(design: &Design, problems: &[Diagnostic]) -> Vec<Diagnostic> {
     // Without its required numbers a family cannot say anything.
     let required = match &design.family {

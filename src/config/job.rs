@@ -268,7 +268,8 @@ pub fn read_job(file: &str, text: &str) -> Result<JobFile, Vec<Diagnostic>> {
     Err(document.problems)
 }
 
-/// What an option of a command says, in the words of the job file: `key` is the path of a key, `value` the text of its value.
+/// What an option of a command says, in the words of the job file: `key` is the path of a key, `value` the text of its
+/// value.
 ///
 /// # Errors
 /// Every problem of the value; the option stands for the file in the messages.
@@ -385,7 +386,8 @@ impl JobFile {
     /// The job for a table whose L_PP is `length` \[m\], and for water of the density of the file or of 1.025 t/m^3.
     ///
     /// # Errors
-    /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG; all of them.
+    /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG; all of
+    /// them.
     pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
         let mut job = Job::default();
         job.energy.order = self.order;

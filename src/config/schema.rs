@@ -1,4 +1,5 @@
-//! The JSON Schema of the design file, of the method file and of the job file (draft 2020-12), made from their lists of keys.
+//! The JSON Schema of the design file, of the method file and of the job file (draft 2020-12), made from their lists of
+//! keys.
 //!
 //! Keys are case-insensitive for the program; an editor sees them in their house spelling.
 

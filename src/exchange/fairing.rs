@@ -20,7 +20,8 @@ pub struct RoundingEffect {
     pub largest: f64,
     /// Root of the mean square of all changes \[m\].
     pub root_mean_square: f64,
-    /// Volume of the surface through the written table less that through the exact one \[m^3\]; none when either is not there.
+    /// Volume of the surface through the written table less that through the exact one \[m^3\]; none when either is not
+    /// there.
     pub volume: Option<f64>,
     /// The same over the volume.
     pub volume_share: Option<f64>,
@@ -98,8 +99,8 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
     .collect()
 }
 
-/// Why the wishes cannot all be had: the least factor on the tolerances, and for each constraint alone what the others leave it,
-/// in the unit of its quantity.
+/// Why the wishes cannot all be had: the least factor on the tolerances, and for each constraint alone what the others
+/// leave it, in the unit of its quantity.
 fn diagnosis(outcome: &Outcome) -> Value {
     let Some(found) = &outcome.faired.diagnosis else { return Value::Null };
     let reaches: Vec<Value> = found

@@ -1,11 +1,12 @@
 //! `.hgf` and `.huf`: the parameters of the raw cosh generator as one CSV record under one header.
 //!
-//! Two layouts are in use. In the first the columns are `Name, LOA, BOA, D, ..., HullData, ...`, and `HullData` is a list
-//! of numbers with spaces between them, of which the program reads, counted from 1: 1 to 9 the parameters ms, bow, transom,
-//! deck, tb, td, acu, kf, sa, and 20 and 21 the draughts forward and aft. In the second every parameter is a column of its
-//! own, `shipname, loa_val, boa_val, depth_val, ms_val, bow_val, tr_val` (or `tr_stern_val`)`, deck_val, tb_val, td_val,
-//! acu_val, kf_val, sa_val, tf_val, ta_val`. Decks, bulkheads and the rest are not read. The design draught is the mean of
-//! the two draughts: the generator has none of its own. Lengths are metres, the slope is in radians.
+//! Two layouts are in use. In the first the columns are `Name, LOA, BOA, D, ..., HullData, ...`, and `HullData` is a
+//! list of numbers with spaces between them, of which the program reads, counted from 1: 1 to 9 the parameters ms, bow,
+//! transom, deck, tb, td, acu, kf, sa, and 20 and 21 the draughts forward and aft. In the second every parameter is a
+//! column of its own, `shipname, loa_val, boa_val, depth_val, ms_val, bow_val, tr_val` (or `tr_stern_val`)`, deck_val,
+//! tb_val, td_val, acu_val, kf_val, sa_val, tf_val, ta_val`. Decks, bulkheads and the rest are not read. The design
+//! draught is the mean of the two draughts: the generator has none of its own. Lengths are metres, the slope is in
+//! radians.
 
 use crate::parametric::ucl_cosh::Parameters;
 

@@ -39,8 +39,8 @@ pub fn offsets_csv(table: &OffsetTable, notation: Notation, endings: bool) -> St
     text
 }
 
-/// Heights at the buttocks; then keel (lowest point on the centreplane), half-breadth of the flat of bottom, height of the
-/// deck at side and half-breadth there.
+/// Heights at the buttocks; then keel (lowest point on the centreplane), half-breadth of the flat of bottom, height of
+/// the deck at side and half-breadth there.
 #[must_use]
 pub fn heights_csv(table: &OffsetTable, notation: Notation) -> String {
     let one = |value: f64| place(notation, value);

@@ -1,4 +1,5 @@
-//! Tables of a report: offsets on diagonals and areas of sections as CSV, hydrostatics as a workbook with its conventions.
+//! Tables of a report: offsets on diagonals and areas of sections as CSV, hydrostatics as a workbook with its
+//! conventions.
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 
@@ -7,8 +8,8 @@ use crate::hull::{Hull, OffsetStation, diagonal_offset};
 use crate::hydrostatics::{CurvesOfForm, QUANTITIES};
 use crate::units::Notation;
 
-/// Distances along diagonals of `angle` \[rad\] below the horizontal that start at `heights` \[m\] on the centreplane: one row a
-/// station, empty where a diagonal does not meet the side.
+/// Distances along diagonals of `angle` \[rad\] below the horizontal that start at `heights` \[m\] on the centreplane:
+/// one row a station, empty where a diagonal does not meet the side.
 #[must_use]
 pub fn diagonals_csv(
     hull: &Hull,

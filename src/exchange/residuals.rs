@@ -3,9 +3,9 @@
 use super::number::{cell, line};
 use crate::hull::{Entry, Fitted, OffsetTable};
 
-/// One row a cell: station, x, height of its waterline, half-breadth of the table (empty where it is to be predicted), of the
-/// surface, and surface minus table, all in metres. Points of sections ([`Fitted::points`]) follow in the same columns with
-/// their own heights.
+/// One row a cell: station, x, height of its waterline, half-breadth of the table (empty where it is to be predicted),
+/// of the surface, and surface minus table, all in metres. Points of sections ([`Fitted::points`]) follow in the same
+/// columns with their own heights.
 #[must_use]
 pub fn residuals_csv(table: &OffsetTable, fitted: &Fitted) -> String {
     let head = ["station", "x [m]", "waterline [m]", "table [m]", "surface [m]", "residual [m]"];

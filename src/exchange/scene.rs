@@ -1,4 +1,5 @@
-//! The scene of the viewer of a report: sides of hulls as grids with curvature, curves of planes, combs; as one JSON object.
+//! The scene of the viewer of a report: sides of hulls as grids with curvature, curves of planes, combs; as one JSON
+//! object.
 //!
 //! Port side alone; lengths in metres to a tenth of a millimetre, curvatures to four digits. `midship` is L_PP/2;
 //! `full` the Gaussian and mean curvature of the full colours; `hulls` are in the order they were given; each has

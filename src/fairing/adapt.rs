@@ -156,7 +156,8 @@ mod tests {
         energy.apply(&y).iter().zip(&y).map(|(e, y)| e * y).sum()
     }
 
-    /// y = 1e-4 (u^3 + v^3), whose slopes are small: the energy is the same everywhere, the weights are 1, and nothing is changed.
+    /// y = 1e-4 (u^3 + v^3), whose slopes are small: the energy is the same everywhere, the weights are 1, and nothing
+    /// is changed.
     #[test]
     fn an_even_surface_has_the_even_energy() {
         let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 4).unwrap());
@@ -173,7 +174,8 @@ mod tests {
         assert!((adapted / plain - 1.0).abs() < 1e-6, "{adapted} for {plain}");
     }
 
-    /// A net that is broken in curvature along a line: nothing is charged for a parabola; a kink of curvature is charged ten times.
+    /// A net that is broken in curvature along a line: nothing is charged for a parabola; a kink of curvature is
+    /// charged ten times.
     #[test]
     fn jumps_of_curvature_are_charged() {
         let u = KnotVector::uniform(3, 4).unwrap();

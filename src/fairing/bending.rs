@@ -11,8 +11,8 @@
 //! t are linear in the half-breadths; Gauss sums over the cells of the net, with as many nodes in either direction as
 //! its degree plus one.
 //!
-//! The second derivatives of the integrand by p to t are exact and are taken without their negative part: F is not convex, its
-//! quadratic model is.
+//! The second derivatives of the integrand by p to t are exact and are taken without their negative part: F is not
+//! convex, its quadratic model is.
 
 use super::cells::{Cells, Place};
 use crate::numeric::SymmetricBand;

@@ -1,5 +1,5 @@
-//! Curvature of stations and waterlines as linear forms of the half-breadths, and the guard that no line bends more often after
-//! than before.
+//! Curvature of stations and waterlines as linear forms of the half-breadths, and the guard that no line bends more
+//! often after than before.
 //!
 //! A station is the line x(u, v) = X of the chart. With dv = 1, du = a = -x_v / x_u and u'' = a a_u + a_v along it,
 //!
@@ -19,7 +19,8 @@ use super::surface::{FairSurface, basis_row};
 use crate::hull::Cut;
 use crate::spline::{BsplineSurface, KnotVector};
 
-/// Points of a line in a span of the knots across it: the second derivative of a cubic is straight there, so that its ends count.
+/// Points of a line in a span of the knots across it: the second derivative of a cubic is straight there, so that its
+/// ends count.
 const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
 
 /// Curvature below this part of the largest of the line is none.
@@ -72,7 +73,8 @@ pub struct Bend {
 #[must_use]
 pub fn bend(surface: &BsplineSurface<3>, at: [f64; 2], station: bool) -> Option<Bend> {
     let d = surface.derivatives::<3>(at[0], at[1]);
-    // (s, t): the parameter that follows and the one that runs; held and along: the coordinate that stays and the one that runs.
+    // (s, t): the parameter that follows and the one that runs; held and along: the coordinate that stays and the one
+    // that runs.
     let (held, along) = if station { (0, 2) } else { (2, 0) };
     let order = |s: usize, t: usize| if station { [s, t] } else { [t, s] };
     let c = |axis: usize, s: usize, t: usize| {
@@ -252,7 +254,8 @@ pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Lim
     limits
 }
 
-/// Length of the part of a line with these bends, from the middle of the gap before it to the middle of the gap after \[m\].
+/// Length of the part of a line with these bends, from the middle of the gap before it to the middle of the gap after
+/// \[m\].
 fn length(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
     let end = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
     let (low, high) = (end(from.saturating_sub(1), from), end(to - 1, to.min(bends.len() - 1)));
@@ -261,7 +264,8 @@ fn length(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
     (high - low).abs() * mean
 }
 
-/// Whether each bend lies in a lobe of the signs whose greatest curvature kappa and length l come to kappa l^2 / 8 < 2 `seen`.
+/// Whether each bend lies in a lobe of the signs whose greatest curvature kappa and length l come to kappa l^2 / 8 < 2
+/// `seen`.
 fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
     let mut small = vec![false; bends.len()];
     let mut from = 0;

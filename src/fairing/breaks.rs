@@ -1,8 +1,8 @@
 //! Straight parts of a table: parallel bodies, flats of side and bottom, straight floors, found from the offsets, and
 //! how the curves leave them.
 //!
-//! The lines that run one way (all waterlines, or all stations) are straight between two offsets when the straight lines of
-//! least squares leave no more than the noise,
+//! The lines that run one way (all waterlines, or all stations) are straight between two offsets when the straight
+//! lines of least squares leave no more than the noise,
 //!
 //! ```text
 //! RSS <= sigma^2 (f + 3 sqrt(2 f)),   f = (sites - 2) lines.
@@ -19,9 +19,9 @@
 //! GCV = M RSS / (M - gamma L sum h)^2,   M readings on L lines, gamma = 1.2.
 //! ```
 //!
-//! Parts that do not lower its least value are dropped. Tried without success: breaks anywhere, taken one by one while the
-//! criterion falls (the two shoulders of a parallel body show together only, and a tangent line of a bilge is taken for two breaks
-//! beside it).
+//! Parts that do not lower its least value are dropped. Tried without success: breaks anywhere, taken one by one while
+//! the criterion falls (the two shoulders of a parallel body show together only, and a tangent line of a bilge is taken
+//! for two breaks beside it).
 
 use super::smoothing::GAMMA;
 use crate::numeric::SymmetricBand;
@@ -406,7 +406,8 @@ mod tests {
         (0..n).map(|k| k as f64 / (n - 1) as f64).collect()
     }
 
-    /// A parallel body from 0.36 to 0.64 between cubic ends; none where the waterlines are parabolas or most lines have gaps.
+    /// A parallel body from 0.36 to 0.64 between cubic ends; none where the waterlines are parabolas or most lines have
+    /// gaps.
     #[test]
     fn a_parallel_body_and_none() {
         let body = |t: f64, b: f64| 8.0 * b * (1.0 - (((t - 0.5).abs() - 0.14).max(0.0) / 0.36).powi(3));

@@ -1,5 +1,5 @@
-//! The program without signs; where it has no answer, the best compromise: every other wish, with tolerances as wide as they must
-//! be, and why.
+//! The program without signs; where it has no answer, the best compromise: every other wish, with tolerances as wide as
+//! they must be, and why.
 //!
 //! Limits that would hardly ever matter, of half-breadths far from 0 and B/2 and of what the surface moves between the
 //! offsets, are asked for where an answer breaks them, until it breaks none. What contradicts itself goes on doing so
@@ -21,8 +21,8 @@ const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
 /// What an answer may break a limit of half-breadths by, over the greatest one.
 const LIMIT_SLACK: f64 = 1e-6;
 
-/// What the surface may move between the offsets beyond the tolerance, over the greatest half-breadth: room for the swings of a
-/// table's own surface, none for a displacement that is had by waves.
+/// What the surface may move between the offsets beyond the tolerance, over the greatest half-breadth: room for the
+/// swings of a table's own surface, none for a displacement that is had by waves.
 const ROOM_BETWEEN: f64 = 0.02;
 
 /// Most times that limits are added that an answer breaks.
@@ -64,7 +64,8 @@ impl Widening {
         self.least.max(1.0) * (1.0 + ROOMS[self.room])
     }
 
-    /// The next that is tried, whose least is known now: more room where more limits do not ask for more; none when there is none.
+    /// The next that is tried, whose least is known now: more room where more limits do not ask for more; none when
+    /// there is none.
     fn next(before: Option<&Self>, least: f64) -> Option<Self> {
         let room = before.filter(|before| least <= before.least * (1.0 + ROOMS[0])).map_or(0, |before| before.room + 1);
         (room < ROOMS.len()).then_some(Self { least, room })

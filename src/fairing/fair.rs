@@ -1,8 +1,8 @@
-//! The whole job of fairing a surface: smooth, find what is noise in the signs, solve one convex program with the wishes, and take
-//! no pattern without its price.
+//! The whole job of fairing a surface: smooth, find what is noise in the signs, solve one convex program with the
+//! wishes, and take no pattern without its price.
 //!
-//! 1. The weight: on a net of its own by generalised cross-validation, not below what the rounding of the table alone asks for, and
-//!    sigma from it; on the net of a fit by Mallows' criterion for the noise of the table.
+//! 1. The weight: on a net of its own by generalised cross-validation, not below what the rounding of the table alone
+//!    asks for, and sigma from it; on the net of a fit by Mallows' criterion for the noise of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
 //! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) /
 //!    sigma^2. Above [`PRICE`] the lobe with the greatest sum of multiplier times raw violation gets its own sign back,
@@ -35,7 +35,8 @@ pub const PRICE: f64 = 12.0;
 /// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
 pub const MISFIT: f64 = 1.75;
 
-/// Noise of a table, over the greatest that is assumed for roughness, from which it is taken as it is: the tolerance itself.
+/// Noise of a table, over the greatest that is assumed for roughness, from which it is taken as it is: the tolerance
+/// itself.
 const ROUGH: f64 = 3.0;
 
 /// Most programs of the price guard.
@@ -52,7 +53,8 @@ pub struct FairSettings {
     pub weight: Option<f64>,
     /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
     pub table_noise: Option<f64>,
-    /// Greatest noise level that is taken for roughness of a drawing on the net of a fit \[m\]: a third of a designer's tolerance.
+    /// Greatest noise level that is taken for roughness of a drawing on the net of a fit \[m\]: a third of a designer's
+    /// tolerance.
     pub most_noise: f64,
     /// Least noise level that is assumed \[m\]: rounding of the table.
     pub least_noise: f64,
@@ -140,8 +142,8 @@ pub struct Faired {
     pub bent: Option<LeastBending>,
     /// Rows of the rules, with the index of the rule.
     pub rules: Vec<(usize, Limit)>,
-    /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each; none where
-    /// everything that is held is linear.
+    /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each;
+    /// none where everything that is held is linear.
     pub settled: Option<Vec<f64>>,
     /// The smoothing problem, for further questions.
     pub smoother: Smoother,
@@ -190,8 +192,8 @@ impl Prepared {
         Self::searched(surface, settings, smoother, search, sigma)
     }
 
-    /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is known, the
-    /// weight rises until what is smoothed out is no less than the rounding of the table.
+    /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is
+    /// known, the weight rises until what is smoothed out is no less than the rounding of the table.
     ///
     /// # Errors
     /// [`FairError`] when the readings leave a control value open.
@@ -310,8 +312,9 @@ pub fn fair_prepared(
             price = 0.0;
         }
     }
-    // On a net of its own the pattern is all: asking its lines for their least inflections on top of it made S-shaped hulls with
-    // 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained nothing elsewhere.
+    // On a net of its own the pattern is all: asking its lines for their least inflections on top of it made S-shaped
+    // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
+    // nothing elsewhere.
     let mut guarded = None;
     if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
         let question = Question {

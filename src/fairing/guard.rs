@@ -1,5 +1,5 @@
-//! The lines of the table on a net that follows its features: asked for their least inflections at a price, and never allowed to
-//! bend more often than they did.
+//! The lines of the table on a net that follows its features: asked for their least inflections at a price, and never
+//! allowed to bend more often than they did.
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
 //!    Where its curve is straight between bends of one sign it is asked for that sign as well.

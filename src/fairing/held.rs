@@ -35,7 +35,8 @@ pub struct HeldRule {
     pub rows: usize,
     /// Rows that bind.
     pub binding: usize,
-    /// Largest violation of one of its rows: \[m\] of half-breadth, a slope, or for signs of curvature a part of the row's size.
+    /// Largest violation of one of its rows: \[m\] of half-breadth, a slope, or for signs of curvature a part of the
+    /// row's size.
     pub violation: f64,
     /// Largest multiplier of its rows \[m^2 per unit of the row\].
     pub multiplier: f64,
@@ -105,7 +106,8 @@ impl Faired {
             .map_or(0.0, |solved| self.moved(model, &self.net) - self.moved(model, &solved.net))
     }
 
-    /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after the other.
+    /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after
+    /// the other.
     #[must_use]
     pub fn prices_of_constraints(&self, model: &Model, count: usize, solver: &mut RepeatedSolver<'_>) -> Vec<f64> {
         let price = |k: usize| {

@@ -3,8 +3,8 @@
 //! * The least factor s on all tolerances for which every other wish can be had: min s subject to |a_k c - d_k| <= s
 //!   delta_k (and s delta_k besides the room between the offsets), and the rest.
 //! * For each rule of lines and regions alone: the least slack of all its rows with which the rest can be had.
-//! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave, min and max
-//!   of its row. The distance from its target to that interval is what it would have to give.
+//! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave,
+//!   min and max of its row. The distance from its target to that interval is what it would have to give.
 
 use super::program::{Program, RowName};
 use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, SparseRows, Status};
@@ -28,7 +28,8 @@ pub struct Diagnosis {
     pub widening: Option<f64>,
     /// Each constraint alone.
     pub reaches: Vec<Reach>,
-    /// Each rule alone: its index, and by how much all its rows would have to give, in their unit; none when no giving of it helps.
+    /// Each rule alone: its index, and by how much all its rows would have to give, in their unit; none when no giving
+    /// of it helps.
     pub rules: Vec<(usize, Option<f64>)>,
 }
 
@@ -139,7 +140,8 @@ impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
     }
 }
 
-/// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can be had.
+/// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can
+/// be had.
 fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result<Option<f64>, ProblemError> {
     least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))
 }

@@ -1,7 +1,7 @@
 //! From a table of offsets and wishes to a fair hull with everything that proves it.
 //!
-//! The table is searched for suspects, which are left out unless they are kept; it is fitted (the hull before); the model of
-//! [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
+//! The table is searched for suspects, which are left out unless they are kept; it is fitted (the hull before); the
+//! model of [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
 use super::constraint::{Constraint, Rule};
@@ -180,8 +180,8 @@ pub struct Turns {
     pub before: usize,
     /// Inflections of the fair surface.
     pub after: usize,
-    /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved; none on lines
-    /// that the table does not have.
+    /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved;
+    /// none on lines that the table does not have.
     pub minimum: Option<(usize, bool)>,
 }
 
@@ -400,7 +400,8 @@ impl Job {
     /// Tolerances that the job names, one a reading.
     fn tolerances(&self, surface: &FairSurface) -> Vec<Option<f64>> {
         let of = |list: &[(usize, f64)], index: usize| list.iter().rev().find(|(i, _)| *i == index).map(|(_, t)| *t);
-        // Less than rounding leaves nothing to solve in, more than the breadth says nothing; what must not move at all is locked.
+        // Less than rounding leaves nothing to solve in, more than the breadth says nothing; what must not move at all
+        // is locked.
         let breadth = surface.hull.particulars().breadth;
         let sensible = |named: f64| named.clamp(LEAST_TOLERANCE * breadth, breadth);
         surface
@@ -424,7 +425,8 @@ impl Job {
 }
 
 impl Outcome {
-    /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a drawing.
+    /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a
+    /// drawing.
     #[must_use]
     pub fn waterlines(&self) -> Vec<f64> {
         let heights = self.turns.iter().filter_map(|turns| match turns.cut {
@@ -440,8 +442,9 @@ impl Outcome {
         moves(&self.changes)
     }
 
-    /// The least and the greatest value of a constraint's quantity within the tolerances and the other constraints; none when these
-    /// cannot be had. Rows are relative: to the target for sizes, to L_PP or T for centres, to B T for areas of sections.
+    /// The least and the greatest value of a constraint's quantity within the tolerances and the other constraints;
+    /// none when these cannot be had. Rows are relative: to the target for sizes, to L_PP or T for centres, to B T for
+    /// areas of sections.
     #[must_use]
     pub fn reached_values(&self, reach: &Reach) -> Option<[f64; 2]> {
         let constraint = self.held.get(reach.constraint)?.constraint;

@@ -1,9 +1,9 @@
 //! Least inflections on the lines of a table, as signs that the surface is asked to have.
 //!
 //! For each station and waterline the offsets with their tolerances have a proved least number of inflections
-//! ([`super::inflections`]), and a curve that has it. Where a line of the surface bends more often, it is asked for the signs of
-//! that curve; the inflections are free within the intervals in which they can lie. Lines are taken together into one program,
-//! so that they can contradict each other. The price of a line is
+//! ([`super::inflections`]), and a curve that has it. Where a line of the surface bends more often, it is asked for the
+//! signs of that curve; the inflections are free within the intervals in which they can lie. Lines are taken together
+//! into one program, so that they can contradict each other. The price of a line is
 //!
 //! ```text
 //! sum_k |z_k| v_k / sigma^2
@@ -95,7 +95,8 @@ impl TableLine {
         self.least.as_ref().is_some_and(|least| least.curve.is_some() && least.count <= most)
     }
 
-    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`; `between` its bends as well.
+    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`; `between` its
+    /// bends as well.
     #[must_use]
     pub fn wished(&self, start: &[f64], between: bool) -> Vec<Limit> {
         let Some((least, curve)) = self.least.as_ref().and_then(|least| Some((least, least.curve.as_ref()?))) else {

@@ -1,15 +1,16 @@
 //! Knuckles and tangent lines that a table has and does not declare, along its waterlines and stations.
 //!
-//! On each crossing line a window of offsets about the place in question is described by two rivals of five coefficients, one
-//! smooth and one with a break at the place t = 0 (least squares):
+//! On each crossing line a window of offsets about the place in question is described by two rivals of five
+//! coefficients, one smooth and one with a break at the place t = 0 (least squares):
 //!
 //! * smooth: 1, t, t², t³, t⁴,
 //! * knuckle: 1, t, t², t₊, t₊² (value continuous, slope broken),
 //! * tangent line: 1, t, t², t³, t₊² (slope continuous, curvature broken).
 //!
-//! A smooth line is followed better by the smooth rival, however much it is curved, and noise prefers neither. A line is
-//! proposed where, over a run of neighbouring crossing lines, the break explains what the smooth rival leaves, by more than the
-//! noise of the table and down to that noise. The gain is the root of the ratio of the sums of squares that the rivals leave.
+//! A smooth line is followed better by the smooth rival, however much it is curved, and noise prefers neither. A line
+//! is proposed where, over a run of neighbouring crossing lines, the break explains what the smooth rival leaves, by
+//! more than the noise of the table and down to that noise. The gain is the root of the ratio of the sums of squares
+//! that the rivals leave.
 
 use super::suspects::{Along, Grid, Suspects};
 use crate::hull::OffsetTable;
@@ -28,12 +29,13 @@ const LEAST_GAIN: f64 = 2.5;
 const LEAST_FALL: f64 = 6.0;
 /// Least fall of the sum of squares over all crossing lines of a proposal, for each of them, in noise variances.
 const LEAST_MEAN_FALL: f64 = 20.0;
-/// Most that the rival with the break leaves, in standard deviations of the noise; of no account from a gain of [`CLEAR_GAIN`].
+/// Most that the rival with the break leaves, in standard deviations of the noise; of no account from a gain of
+/// [`CLEAR_GAIN`].
 const MOST_LEFT: f64 = 2.0;
 /// Gain from which a break is clear although the curve on its sides is no parabola.
 const CLEAR_GAIN: f64 = 5.0;
-/// Share of the gain of a knuckle at the same place from which a tangent line is proposed instead: beside an arc the knuckle's
-/// rival, a parabola on each side, may be the closer one although the slope does not break.
+/// Share of the gain of a knuckle at the same place from which a tangent line is proposed instead: beside an arc the
+/// knuckle's rival, a parabola on each side, may be the closer one although the slope does not break.
 const GENTLER: f64 = 0.4;
 /// Proposals of one kind of place nearer than this many half steps hide the weaker.
 const HIDDEN: usize = 4;
@@ -144,8 +146,8 @@ fn compare(t: &[f64], y: &[f64; MOST]) -> Left {
     Left { smooth, broken: [knuckle, tangent], freedom: (n - COEFFICIENTS) as f64 }
 }
 
-/// The rivals on a crossing line `run` (cells in order along it) at the coordinate `at`; none where too few offsets of the run
-/// lie on one of the sides.
+/// The rivals on a crossing line `run` (cells in order along it) at the coordinate `at`; none where too few offsets of
+/// the run lie on one of the sides.
 fn on_line(grid: &Grid, values: &[f64], along: Along, run: &[usize], at: f64, between: bool) -> Option<Left> {
     let above = run.partition_point(|&cell| grid.coordinate(along, cell) < at);
     let side = SIDE[usize::from(between)];
@@ -239,8 +241,8 @@ fn proposals(grid: &Grid, values: &[f64], along: Along, noise2: f64) -> Vec<Prop
     kept.into_iter().map(|(_, line)| line).collect()
 }
 
-/// Lines along waterlines and stations that the offsets of a table speak for, the greatest gain first. Suspects count with
-/// what their neighbours predict.
+/// Lines along waterlines and stations that the offsets of a table speak for, the greatest gain first. Suspects count
+/// with what their neighbours predict.
 #[must_use]
 pub fn proposed_lines(table: &OffsetTable, suspects: &Suspects) -> Vec<ProposedLine> {
     let grid = Grid::new(table);

@@ -1,6 +1,7 @@
 //! Energies of true curvature with a frozen metric: quadratic forms that are exact at the net at which they were frozen.
 //!
-//! Along a waterline or a station with arc length s, and Q = x'^2 + y'^2 (z' for x' on stations) taken at the present net,
+//! Along a waterline or a station with arc length s, and Q = x'^2 + y'^2 (z' for x' on stations) taken at the present
+//! net,
 //!
 //! ```text
 //! N = x' y'' - x'' y',   kappa = N Q^(-3/2),   dkappa/ds = (N' Q^(-3/2) - 3/2 N Q' Q^(-5/2)) Q^(-1/2),   and once more
@@ -114,7 +115,8 @@ impl Line {
         all
     }
 
-    /// (H d/ds)^k of the derivative of y of order `across` by the other parameter, k = 1 or 2; none where the line stands still.
+    /// (H d/ds)^k of the derivative of y of order `across` by the other parameter, k = 1 or 2; none where the line
+    /// stands still.
     fn mixed(&self, k: usize, across: usize, height: f64) -> Option<Combination> {
         let [q, dq, _] = self.square_of_speed();
         let rate = height / q.sqrt();
@@ -123,7 +125,8 @@ impl Line {
         rate.is_finite().then(|| self.combination(&factors, across))
     }
 
-    /// d^(order-2) kappa / ds^(order-2) and the weight of its square per area of the parameters; none where the line stands still.
+    /// d^(order-2) kappa / ds^(order-2) and the weight of its square per area of the parameters; none where the line
+    /// stands still.
     fn curvature(&self, order: usize) -> Option<(Combination, f64)> {
         if order == 4 && self.turn.iter().any(|rate| *rate != 0.0) {
             return None;
@@ -331,12 +334,13 @@ mod tests {
         assert!((found / expected - 1.0).abs() < 1e-10, "{found:e} for {expected:e}");
     }
 
-    /// y = ((x + 3 z) / 40)^3 on a plumb and on a raked chart: the stations are the same curves, and so is their energy, where
-    /// the raked chart is cut by other lines of the net.
+    /// y = ((x + 3 z) / 40)^3 on a plumb and on a raked chart: the stations are the same curves, and so is their
+    /// energy, where the raked chart is cut by other lines of the net.
     #[test]
     fn stations_of_a_raked_chart() {
         let cube = |skew: f64| {
-            // A cubic is in the space of either chart; its control values by the blossom of ((100 u + skew v + 30 v) / 40)^3.
+            // A cubic is in the space of either chart; its control values by the blossom of ((100 u + skew v + 30 v) /
+            // 40)^3.
             let (u, v) = (KnotVector::uniform(3, 1).unwrap(), KnotVector::uniform(3, 1).unwrap());
             let mut points = Vec::new();
             for i in 0..4_u32 {

@@ -1,5 +1,5 @@
-//! What is unfair or wrong in a table or a hull: suspects among the offsets, lines that break, inflections and energies of its
-//! curves.
+//! What is unfair or wrong in a table or a hull: suspects among the offsets, lines that break, inflections and energies
+//! of its curves.
 
 mod adapt;
 pub mod bending;

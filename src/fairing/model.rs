@@ -44,7 +44,8 @@ pub struct Model {
     pub readings: Vec<Reading>,
     /// Control values that are known \[m\].
     pub known: Vec<Option<f64>>,
-    /// What straight parts ask: c'S c in the size of one reading of weight 1, whatever the smoothing; known values there are 0.
+    /// What straight parts ask: c'S c in the size of one reading of weight 1, whatever the smoothing; known values
+    /// there are 0.
     pub straight: Option<SymmetricBand>,
     /// Control values to stay near where nothing else is said \[m\].
     pub start: Option<Vec<f64>>,

@@ -71,8 +71,8 @@ fn differences(surface: &FairSurface, along_u: bool) -> SignForms {
     let count = if along_u { rows } else { columns };
     let mut lines: Vec<[f64; 3]> = Vec::new();
     for i in 0..count.saturating_sub(2) {
-        // c'_i = p (c_i+1 - c_i) / (t_i+p+1 - t_i+1); once more with degree p - 1 over the inner knots.
-        // Nothing where the support is a point: across a knuckle there is no slope, across a tangent line no second derivative.
+        // c'_i = p (c_i+1 - c_i) / (t_i+p+1 - t_i+1); once more with degree p - 1 over the inner knots. Nothing where
+        // the support is a point: across a knuckle there is no slope, across a tangent line no second derivative.
         let over = |factor: usize, support: f64| if support > 0.0 { factor as f64 / support } else { 0.0 };
         let first = |k: usize| over(p, t[k + p + 1] - t[k + 1]);
         let second = over(p - 1, t[i + p + 1] - t[i + 2]);

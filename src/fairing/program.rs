@@ -1,8 +1,8 @@
 //! From model, limits and signs to one convex quadratic program, and back with prices.
 //!
-//! minimise (1/2) c'(2 N) c - 2 b'c over the free control values, N = A'WA + lambda E, subject to the limits of the constraints,
-//! the tolerance of every reading, the signs of curvature and the limits of every control value. The objective is the
-//! weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
+//! minimise (1/2) c'(2 N) c - 2 b'c over the free control values, N = A'WA + lambda E, subject to the limits of the
+//! constraints, the tolerance of every reading, the signs of curvature and the limits of every control value. The
+//! objective is the weighted sum of squares plus lambda times the energy, in square metres, up to a constant.
 
 use super::determined::Determined;
 use super::model::{Limit, Model, Reduced, Row};
@@ -37,7 +37,8 @@ pub struct Wishes {
     pub constraints: Vec<Limit>,
     /// Limits of half-breadths.
     pub breadths: Vec<Limit>,
-    /// Limits of what the surface moves between the offsets: with the tolerance that widens \[m\] and the room that does not \[m\].
+    /// Limits of what the surface moves between the offsets: with the tolerance that widens \[m\] and the room that
+    /// does not \[m\].
     pub between: Vec<Between>,
     /// Signs of curvature that single lines keep.
     pub bends: Vec<Limit>,

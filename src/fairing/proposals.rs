@@ -50,8 +50,8 @@ pub struct Proposal {
     pub number: usize,
     /// The line.
     pub line: ProposedLine,
-    /// Root of the mean square of what the offsets depart from the smoothed surface without and with the line \[m\]; none where the
-    /// chart has no such line.
+    /// Root of the mean square of what the offsets depart from the smoothed surface without and with the line \[m\];
+    /// none where the chart has no such line.
     pub rms: Option<[f64; 2]>,
     /// What the objective falls by with the line, in squares of the noise.
     pub gain: Option<f64>,
@@ -112,7 +112,8 @@ pub(super) fn declared(proposals: &[Proposal], hull: &Hull, table: &OffsetTable)
         .collect()
 }
 
-/// The same surface with a line of the parameters along which its slope or its curvature may break: a p-fold or a (p-1)-fold knot.
+/// The same surface with a line of the parameters along which its slope or its curvature may break: a p-fold or a
+/// (p-1)-fold knot.
 pub(super) fn broken(hull: &Hull, course: LineCourse, mut t: f64, kind: LineKind) -> Result<Hull, HullError> {
     let surface = hull.surface();
     let knots = if course == LineCourse::Waterline { surface.v() } else { surface.u() };
@@ -152,7 +153,8 @@ pub fn proposals(
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
     let of = |hull: &Hull, weight: Option<f64>| -> Result<[f64; 3], FairError> {
         let surface = FairSurface::new(table, hull, energy, None)?;
-        // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way there.
+        // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way
+        // there.
         let net = surface.hull.surface();
         let plain = plain_energy(net.u(), net.v(), surface.order, energy.anisotropy);
         let smoother = Smoother::new(&Model { start: None, energy: plain, ..surface.model.clone() });

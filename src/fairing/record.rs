@@ -1,5 +1,5 @@
-//! What drawings and reports need of a faired table, without the program that made it: the hulls before and after, the lines of
-//! the table, every offset with its move, the noise and the search for the smoothing weight.
+//! What drawings and reports need of a faired table, without the program that made it: the hulls before and after, the
+//! lines of the table, every offset with its move, the noise and the search for the smoothing weight.
 
 use super::job::{Change, Outcome};
 use super::lines::{self as proposed, LineCourse};

@@ -1,9 +1,10 @@
 //! From the energy of the parameters, or of the start's metric, to that of true curvature: the metric is frozen at the
 //! net, the program solved, and again.
 //!
-//! F(c) = sum w r^2 + mu E_true(c; c), where the first step chooses mu so that the energy weighs at the answer what the first
-//! one weighed. A step is accepted while F falls by more than `FALL`; the tolerances and the signs of the program bound it. Every
-//! step is a convex program with its certificate; where the first step does not lower F the convex answer stands.
+//! F(c) = sum w r^2 + mu E_true(c; c), where the first step chooses mu so that the energy weighs at the answer what the
+//! first one weighed. A step is accepted while F falls by more than `FALL`; the tolerances and the signs of the program
+//! bound it. Every step is a convex program with its certificate; where the first step does not lower F the convex
+//! answer stands.
 
 use super::model::Model;
 use super::program::{Program, Solved};

@@ -1,5 +1,5 @@
-//! On the net of a fit, the fairing again with the signs of the start for every curve that was seen to bend more often after than
-//! before: stations and waterlines, and buttocks and diagonals, which no offset tells of.
+//! On the net of a fit, the fairing again with the signs of the start for every curve that was seen to bend more often
+//! after than before: stations and waterlines, and buttocks and diagonals, which no offset tells of.
 
 use super::bends::Line;
 use super::fair::{FairSettings, Faired, Prepared, fair_prepared};

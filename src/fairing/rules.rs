@@ -53,11 +53,11 @@ pub(super) struct Turned {
     pub(super) solved: Solved,
 }
 
-/// Asks lines that bend more often than their rule allows for signs, `solve` being the program with rows for them; none where no
-/// line does. The last program may have no solution: then the wishes cannot all be had.
+/// Asks lines that bend more often than their rule allows for signs, `solve` being the program with rows for them; none
+/// where no line does. The last program may have no solution: then the wishes cannot all be had.
 ///
-/// The signs are those nearest to the net; where these cannot be had and the offsets of the line allow a curve with so few
-/// inflections, the signs of that curve.
+/// The signs are those nearest to the net; where these cannot be had and the offsets of the line allow a curve with so
+/// few inflections, the signs of that curve.
 pub(super) fn turned(
     surface: &FairSurface,
     rules: &[Rule],

@@ -8,9 +8,9 @@
 //! sigma^2 = RSS / (m - edf)
 //! ```
 //!
-//! over the m readings of positive weight. All leverages come from the part of N^-1 inside the band, so that one weight costs a
-//! factor and an inverse of a banded matrix, O(n w^2), without any eigenproblem. The search is a scan of 25 powers followed by
-//! Brent's method on log lambda.
+//! over the m readings of positive weight. All leverages come from the part of N^-1 inside the band, so that one weight
+//! costs a factor and an inverse of a banded matrix, O(n w^2), without any eigenproblem. The search is a scan of 25
+//! powers followed by Brent's method on log lambda.
 
 use super::model::{Model, Reduced};
 use crate::numeric::{BandedCholesky, SingularMatrix, SymmetricBand, median};
@@ -26,8 +26,9 @@ const SCAN: [f64; 2] = [-11.0, 6.0];
 /// Least power of ten of the weight that is taken for a given noise.
 const LEAST: f64 = -7.0;
 
-/// Weight of the start, over the mean of the diagonal of A'WA. It decides where the offsets say little: between them a net that
-/// only smooths them swings by more than it takes out (1e-5 instead: 9.8 mm for 3.4 mm on an S-175 with 2 mm of noise).
+/// Weight of the start, over the mean of the diagonal of A'WA. It decides where the offsets say little: between them a
+/// net that only smooths them swings by more than it takes out (1e-5 instead: 9.8 mm for 3.4 mm on an S-175 with 2 mm
+/// of noise).
 const PRIOR: f64 = 0.3;
 
 /// Steps of the scan.
@@ -250,7 +251,8 @@ impl Smoother {
         energy + self.reduced.constant
     }
 
-    /// What the search wants to know of a weight; edf is the trace of A'WA N^-1, without the leverages of single readings.
+    /// What the search wants to know of a weight; edf is the trace of A'WA N^-1, without the leverages of single
+    /// readings.
     fn trial(&self, lambda: f64) -> Option<Trial> {
         let (free, factor) = self.solved(lambda).ok()?;
         let edf = self.told.trace_of_product(&factor.inverse_band());

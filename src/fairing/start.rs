@@ -34,7 +34,8 @@ pub(super) struct Started {
     pub(super) surface: FairSurface,
     /// The search for the weight, on a net of its own.
     pub(super) search: Option<Search>,
-    /// Half the mean distance \[m\] of such a net from the surface through the table, of what their displaced volumes differ by.
+    /// Half the mean distance \[m\] of such a net from the surface through the table, of what their displaced volumes
+    /// differ by.
     pub(super) gap: f64,
     /// Cells that are left out.
     pub(super) excluded: Vec<Cell>,
@@ -81,7 +82,8 @@ impl Started {
         for suspect in found.suspects.iter().filter(|suspect| job.exclude_suspects && suspect.probability > 0.5) {
             cleaned.leave_out((suspect.station, suspect.waterline), suspect.verdict.expected);
         }
-        // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in its place.
+        // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in
+        // its place.
         let mut doubtful = 0;
         if table.stations.iter().any(|station| !station.outlines.is_empty()) {
             let points = point_suspects(table);
@@ -110,7 +112,8 @@ impl Started {
         let mut gap = 0.0;
         if modelled.surface.own {
             gap = modelled.gap()?;
-            // Offsets that tell the hull better than its displacement between them is known are not moved for the difference.
+            // Offsets that tell the hull better than its displacement between them is known are not moved for the
+            // difference.
             let dear = gap > noise && !matches!(job.holding, Holding::Given(_));
             if dear || !modelled.follows(noise) || modelled.swings(&cleaned.clean) {
                 modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;

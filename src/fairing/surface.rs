@@ -38,8 +38,8 @@ const DENSITY: [f64; 2] = [0.8, 0.9];
 /// Weight of a doubtful offset.
 const DOUBTFUL: f64 = 0.01;
 
-/// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges they are
-/// the edges.
+/// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges
+/// they are the edges.
 const BESIDE: f64 = 1e-3;
 
 /// Which energy.
@@ -154,7 +154,8 @@ pub struct FairSurface {
     pub plain: bool,
 }
 
-/// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one reading.
+/// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one
+/// reading.
 fn straightness(surface: &BsplineSurface<3>, courses: &[Course; 2]) -> Option<SymmetricBand> {
     let knots = [surface.u(), surface.v()];
     let [rows, columns] = surface.shape();
@@ -187,7 +188,8 @@ fn is_plain(hull: &Hull) -> bool {
         && (0..columns).all(|j| linear(surface.u(), &(0..rows).map(|i| surface.point(i, j)[0]).collect::<Vec<_>>()))
 }
 
-/// Whether a level hull has plumb ends and simple knots: it stands over a rectangle and has no lines along which it breaks.
+/// Whether a level hull has plumb ends and simple knots: it stands over a rectangle and has no lines along which it
+/// breaks.
 fn is_rectangular(hull: &Hull) -> bool {
     let surface = hull.surface();
     let [rows, columns] = surface.shape();
@@ -203,9 +205,9 @@ fn is_simple(knots: &KnotVector, lines: usize) -> bool {
     breaks[1..breaks.len() - 1].iter().filter(|&&t| knots.multiplicity(t) > 1).count() <= lines
 }
 
-/// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with the
-/// breaks that the table declares; none where the hull does not stand over a rectangle or a declared line is neither
-/// level nor plumb.
+/// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with
+/// the breaks that the table declares; none where the hull does not stand over a rectangle or a declared line is
+/// neither level nor plumb.
 struct OverRectangle {
     lines: [Lines; 2],
     given: [Vec<Break>; 2],
@@ -309,7 +311,8 @@ impl FairSurface {
         self.model.readings.iter_mut().for_each(|reading| reading.tolerance = reading.tolerance.map(|t| t * factor));
     }
 
-    /// From a fit of the table to a model of it; `own` asks for a quintic net of its own, where the hull stands over a rectangle.
+    /// From a fit of the table to a model of it; `own` asks for a quintic net of its own, where the hull stands over a
+    /// rectangle.
     ///
     /// # Errors
     /// [`HullError`] when the net makes no hull.
@@ -407,7 +410,8 @@ impl FairSurface {
     }
 }
 
-/// Half-breadths of `fitted` at the Greville points of another net over the same rectangle: control values to second order.
+/// Half-breadths of `fitted` at the Greville points of another net over the same rectangle: control values to second
+/// order.
 fn greville_values(fitted: &Hull, hull: &Hull) -> Vec<f64> {
     hull.surface().points().iter().map(|p| fitted.half_breadth(p[0], p[2]).unwrap_or(0.0)).collect()
 }

@@ -1,13 +1,13 @@
 //! Section areas and the sectional-area curve.
 //!
-//! The area of the section at X is 2 int y(u(X, v), v) (dz/dv) dv, where u(X, v) solves x(u, v) = X and dz/dv, taken along the
-//! station, is J / x_u: z_v on level and on upright hulls. The integral is cut in v at
-//! the knots, at every point where the station crosses a knot line in u, and where it leaves the hull over the stern or
-//! the stem profile: these points are roots of x(u_k, v) = X, of which all are found, profiles that turn back included, by
-//! subdividing Bernstein polynomials with Descartes' rule of signs (Lane & Riesenfeld 1981). In between the integrand is
-//! analytic, and a polynomial where x does not depend on v; Gauss-Legendre rules are refined until the row over the net is
-//! settled, so that rows and areas are exact to rounding. Next to a profile the variable is
-//! changed to v = a + (b - a) t^2 (3 - 2t), which takes out the square root that a round stem or stern brings.
+//! The area of the section at X is 2 int y(u(X, v), v) (dz/dv) dv, where u(X, v) solves x(u, v) = X and dz/dv, taken
+//! along the station, is J / x_u: z_v on level and on upright hulls. The integral is cut in v at the knots, at every
+//! point where the station crosses a knot line in u, and where it leaves the hull over the stern or the stem profile:
+//! these points are roots of x(u_k, v) = X, of which all are found, profiles that turn back included, by subdividing
+//! Bernstein polynomials with Descartes' rule of signs (Lane & Riesenfeld 1981). In between the integrand is analytic,
+//! and a polynomial where x does not depend on v; Gauss-Legendre rules are refined until the row over the net is
+//! settled, so that rows and areas are exact to rounding. Next to a profile the variable is changed to v = a + (b - a)
+//! t^2 (3 - 2t), which takes out the square root that a round stem or stern brings.
 
 use super::form::Hull;
 use super::immersion::Immersion;
@@ -20,8 +20,8 @@ const NODES: usize = 7;
 /// Halvings of a piece at most.
 const HALVINGS: usize = 12;
 
-/// Change of a row by halving, relative to the height of the section, at which a piece is settled. The halved rule that is kept is
-/// better than the change by a factor of about 2^14.
+/// Change of a row by halving, relative to the height of the section, at which a piece is settled. The halved rule that
+/// is kept is better than the change by a factor of about 2^14.
 const SETTLED: f64 = 1e-11;
 
 /// Areas of the immersed sections along the hull at one draught.
@@ -206,15 +206,16 @@ impl Cell<'_> {
     }
 }
 
-/// Enumerates the weights of the area of the section at `station` below `draught`: `sink(i, j, w)` adds w_k to the weight of
-/// the point (i, j + k).
+/// Enumerates the weights of the area of the section at `station` below `draught`: `sink(i, j, w)` adds w_k to the
+/// weight of the point (i, j + k).
 pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     let cut = Cut::new(&immersion, station);
     pieces(hull, &KnotLines::new(hull), station, &[cut], |_, i, j, weights| sink(i, j, weights));
 }
 
-/// The same for several draughts, whose cuts rise: `sink` is told the number of the lowest cut above each part of the section.
+/// The same for several draughts, whose cuts rise: `sink` is told the number of the lowest cut above each part of the
+/// section.
 fn pieces(
     hull: &Hull,
     lines: &KnotLines,
@@ -369,8 +370,8 @@ impl KnotLines {
     }
 }
 
-/// The polar form of a spline of degree q on span `span`, at the arguments `argument(0)`, ..., `argument(q - 1)`, from the
-/// control values span - q ..= span (Ramshaw 1989).
+/// The polar form of a spline of degree q on span `span`, at the arguments `argument(0)`, ..., `argument(q - 1)`, from
+/// the control values span - q ..= span (Ramshaw 1989).
 fn blossom(knots: &[f64], values: &[f64], span: usize, q: usize, argument: impl Fn(usize) -> f64) -> f64 {
     let mut d = [0.0; MAX_DEGREE + 1];
     d[..=q].copy_from_slice(values);

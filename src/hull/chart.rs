@@ -1,8 +1,8 @@
 //! The chart of the profile, (u, v) -> (x(u, v), z(u, v)): its extremes, its inverse, and whether it folds.
 //!
-//! Inverse: on the line x(u, v) = X, continued along the stern and the stem profile where the line leaves the surface, z
-//! rises with v, dz/dv = J / x_u inside and z_v on the profiles. So v is the root of an increasing function of one variable,
-//! whose every value asks for the root u of another one: Newton's method in brackets, to rounding.
+//! Inverse: on the line x(u, v) = X, continued along the stern and the stem profile where the line leaves the surface,
+//! z rises with v, dz/dv = J / x_u inside and z_v on the profiles. So v is the root of an increasing function of one
+//! variable, whose every value asks for the root u of another one: Newton's method in brackets, to rounding.
 
 use super::form::{Hull, HullError, solve_increasing};
 use super::section::curve_sign_changes;

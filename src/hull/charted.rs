@@ -1,8 +1,8 @@
 //! Weights of volumes and waterplanes on hulls that are not level.
 //!
-//! With J = x_u z_v - x_v z_u, volume = 2 int int y J dv du, and on the waterline z(u, v) = T, dx = (J / z_v) du. Rules in v are
-//! exact for the polynomials of each span, rules in u run over the pieces of `immersion`: exact to rounding where all of the
-//! lines u = constant is immersed, else of a relative error of about 1e-10.
+//! With J = x_u z_v - x_v z_u, volume = 2 int int y J dv du, and on the waterline z(u, v) = T, dx = (J / z_v) du. Rules
+//! in v are exact for the polynomials of each span, rules in u run over the pieces of `immersion`: exact to rounding
+//! where all of the lines u = constant is immersed, else of a relative error of about 1e-10.
 
 use super::form::Hull;
 use super::functional::{Arm, Moment};
@@ -37,7 +37,8 @@ fn sum(columns: &[[f64; 5]], basis: &[f64]) -> [f64; 5] {
     total
 }
 
-/// Enumerates the weights of the volume or a moment of it: `sink(i, j, w)` adds w_k to the weight of the point (i, j + k).
+/// Enumerates the weights of the volume or a moment of it: `sink(i, j, w)` adds w_k to the weight of the point (i, j +
+/// k).
 pub(super) fn volume_weights(hull: &Hull, draught: f64, moment: Moment, sink: &mut dyn FnMut(usize, usize, &[f64])) {
     let Some(immersion) = Immersion::new(hull, draught) else { return };
     let surface = hull.surface();

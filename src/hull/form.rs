@@ -1,16 +1,16 @@
 //! The hull: a half-breadth surface over the centreplane.
 //!
-//! S(u, v) = (x(u, v), y(u, v), z(u, v)), a tensor-product B-spline with one knot vector in u (aft to forward) and one in v
-//! (bottom to top). x and z are fixed functions of the parameters, the chart of the profile; y is the shape. The chart does
-//! not fold: x rises with u, z with v, and J = x_u z_v - x_v z_u is positive inside, so that (x, z) determines (u, v). Two
-//! pure charts, and anything between:
+//! S(u, v) = (x(u, v), y(u, v), z(u, v)), a tensor-product B-spline with one knot vector in u (aft to forward) and one
+//! in v (bottom to top). x and z are fixed functions of the parameters, the chart of the profile; y is the shape. The
+//! chart does not fold: x rises with u, z with v, and J = x_u z_v - x_v z_u is positive inside, so that (x, z)
+//! determines (u, v). Two pure charts, and anything between:
 //! * level, z = z(v): the lines v = constant are waterlines. Stern and stem may rake and bulge;
 //! * upright, x = x(u): the lines u = constant are stations. Keel, chines and sheer may be lines v = constant.
 //!
 //! The body is {(x, y, z): |y| <= y(x, z)} over the domain of the surface, so that what closes it is implied and plane or
 //! ruled:
-//! * the bottom, across the keel line v = v_min where y > 0 there: the flat of bottom of a level hull, else a ruled strip that
-//!   follows the height of the keel line;
+//! * the bottom, across the keel line v = v_min where y > 0 there: the flat of bottom of a level hull, else a ruled
+//!   strip that follows the height of the keel line;
 //! * the transom, over the stern profile u = u_min, and a flat bow over the stem profile u = u_max, where y > 0 there;
 //! * the deck, at the height of the deck at side; the surface reaches up to the highest point of the deck and the body
 //!   ends at the deck. Where the upper edge v = v_max is lower than the deck, or is the deck, the body ends there.
@@ -118,8 +118,9 @@ impl Hull {
     /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z does not rise with v
-    /// or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
+    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z does not rise
+    /// with v or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the
+    /// surface.
     pub fn new(
         name: &str,
         particulars: PrincipalParticulars,
@@ -253,8 +254,8 @@ impl Hull {
         self.top
     }
 
-    /// The parameter v of the waterline at height `z` of a level hull, to rounding; none outside the heights of the surface
-    /// and on hulls that are not level.
+    /// The parameter v of the waterline at height `z` of a level hull, to rounding; none outside the heights of the
+    /// surface and on hulls that are not level.
     #[must_use]
     pub fn height_parameter(&self, z: f64) -> Option<f64> {
         let heights = self.heights.as_ref()?;
@@ -309,8 +310,8 @@ impl Hull {
         Some([self.length_parameter(x, v)?, v])
     }
 
-    /// Ends of the waterline at height `z`: its aftmost and its foremost x \[m\]; none outside the surface. Where a hump of the
-    /// keel or a dip of the sheer parts the waterline, they are the ends of the whole.
+    /// Ends of the waterline at height `z`: its aftmost and its foremost x \[m\]; none outside the surface. Where a
+    /// hump of the keel or a dip of the sheer parts the waterline, they are the ends of the whole.
     #[must_use]
     pub fn endings(&self, z: f64) -> Option<[f64; 2]> {
         if !self.is_level() {

@@ -5,12 +5,12 @@
 //! volume = 2 int int y J dv du, moments the same with x or z in the integrand, waterplane area = 2 int y dx on the line
 //! z(u, v) = T, section area = 2 int y dz on the line x(u, v) = X.
 //!
-//! On a level hull, z = z(v), J is x_u z_v, the waterline v = v_T, and
-//! the integrands of volume, waterplane and their moments are piecewise polynomials in (u, v): Gauss-Legendre rules that are
-//! exact for their degree are used on every span and on the part of the last span below the waterline, so that these rows
-//! are exact to rounding. The integrand of a section area is algebraic; see `area`. Where the deck at side is immersed the
-//! body ends at the deck, the integrands in u are smooth but no polynomials, and the relative error is about 1e-10. So it is on
-//! hulls that are not level where the waterline crosses them; see `charted`.
+//! On a level hull, z = z(v), J is x_u z_v, the waterline v = v_T, and the integrands of volume, waterplane and their
+//! moments are piecewise polynomials in (u, v): Gauss-Legendre rules that are exact for their degree are used on every
+//! span and on the part of the last span below the waterline, so that these rows are exact to rounding. The integrand
+//! of a section area is algebraic; see `area`. Where the deck at side is immersed the body ends at the deck, the
+//! integrands in u are smooth but no polynomials, and the relative error is about 1e-10. So it is on hulls that are not
+//! level where the waterline crosses them; see `charted`.
 //!
 //! Rows and values come from one enumeration of weights, [`Functional::row`] storing what [`Functional::value`] sums up.
 
@@ -47,8 +47,9 @@ pub enum Functional {
 impl Functional {
     /// The row r over the net with value = sum_ij r_ij y_ij, `u` slowest, for the body below `draught` \[m\].
     ///
-    /// The row is zero below the lowest line of the hull and for a draught that is not a number. Above the deck it is that of
-    /// the whole body closed at the deck, without a waterplane; at the lowest line the waterplane is the flat of bottom.
+    /// The row is zero below the lowest line of the hull and for a draught that is not a number. Above the deck it is
+    /// that of the whole body closed at the deck, without a waterplane; at the lowest line the waterplane is the flat
+    /// of bottom.
     #[must_use]
     pub fn row(&self, hull: &Hull, draught: f64) -> Vec<f64> {
         let columns = hull.surface().shape()[1];

@@ -1,14 +1,17 @@
-//! The immersed part of the parameter plane below a draught: v from v_min up to the waterline or, where it is lower, the deck.
+//! The immersed part of the parameter plane below a draught: v from v_min up to the waterline or, where it is lower,
+//! the deck.
 //!
-//! On the line u = constant the body ends at v_end(u) = min(v_T(u), v_deck(u)), v_T(u) being the v at which z(u, v) is the
-//! draught (v_max where all of the line is immersed) and v_deck(u) the lowest v at which z is the deck height at x(u, v).
+//! On the line u = constant the body ends at v_end(u) = min(v_T(u), v_deck(u)), v_T(u) being the v at which z(u, v) is
+//! the draught (v_max where all of the line is immersed) and v_deck(u) the lowest v at which z is the deck height at
+//! x(u, v).
 //!
-//! Level hulls: while the deck is dry everywhere, v_end is v_T for every u. Where it is immersed, the plane is split in u
-//! where the deck meets the waterline, a knot line v_k or a knot of the deck, so that v_end(u) is smooth within each piece.
+//! Level hulls: while the deck is dry everywhere, v_end is v_T for every u. Where it is immersed, the plane is split in
+//! u where the deck meets the waterline, a knot line v_k or a knot of the deck, so that v_end(u) is smooth within each
+//! piece.
 //!
 //! Other hulls: the plane is split as well where the waterline crosses a knot line v_k, leaves through the keel line or
-//! meets the upper edge, and there are no pieces where nothing is immersed. Where the waterline leaves through the keel line of
-//! a graded chart, v_T(u) is like a square root; rules on such pieces run in t of u = a + (b - a) t^2 (3 - 2t).
+//! meets the upper edge, and there are no pieces where nothing is immersed. Where the waterline leaves through the keel
+//! line of a graded chart, v_T(u) is like a square root; rules on such pieces run in t of u = a + (b - a) t^2 (3 - 2t).
 
 use std::sync::OnceLock;
 
@@ -110,7 +113,8 @@ impl<'a> Immersion<'a> {
         self.draught
     }
 
-    /// v_T of a level hull, or the upper end of the domain when the draught is above the surface; the upper end of other hulls.
+    /// v_T of a level hull, or the upper end of the domain when the draught is above the surface; the upper end of
+    /// other hulls.
     pub(crate) fn waterline(&self) -> f64 {
         self.waterline
     }
@@ -302,7 +306,8 @@ impl<'a> Immersion<'a> {
     }
 }
 
-/// The roots of `function` between `from` and `to` that [`SAMPLES`] equal intervals show; where it is not a number there is none.
+/// The roots of `function` between `from` and `to` that [`SAMPLES`] equal intervals show; where it is not a number
+/// there is none.
 fn crossings(function: impl Fn(f64) -> f64, from: f64, to: f64) -> Vec<f64> {
     let at = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
     let values: Vec<f64> = (0..=SAMPLES).map(|k| function(at(k))).collect();

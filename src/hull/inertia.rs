@@ -1,4 +1,5 @@
-//! The transverse second moment of the waterplane, I_T = (2/3) int y^3 dx, and its gradient over the net of half-breadths.
+//! The transverse second moment of the waterplane, I_T = (2/3) int y^3 dx, and its gradient over the net of
+//! half-breadths.
 //!
 //! dI_T/dy_k = 2 int y^2 N_k dx, on a fixed chart a row like that of the waterplane area with y^2 in the integrand; I_T
 //! is a cubic form, so that I_T = (1/3) sum_k y_k dI_T/dy_k (Euler). Exact to rounding on level hulls, to about 1e-10

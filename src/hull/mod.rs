@@ -1,4 +1,5 @@
-//! The naval nouns: frame, particulars, the hull as a half-breadth surface, its sections, areas, offsets and linear functionals.
+//! The naval nouns: frame, particulars, the hull as a half-breadth surface, its sections, areas, offsets and linear
+//! functionals.
 //!
 //! Frame (right-handed): x forward from the aft perpendicular AP, y to port, z up from the moulded base line; metres.
 

@@ -60,8 +60,8 @@ pub struct StationOffsets {
     pub deck_half_breadth: Option<f64>,
     /// Height of the deck on the centreline \[m\].
     pub deck_centre_height: Option<f64>,
-    /// The section as points from keel to deck, for tables that give sections instead of a grid; one list a branch (a bulb
-    /// and the flare above it are two).
+    /// The section as points from keel to deck, for tables that give sections instead of a grid; one list a branch (a
+    /// bulb and the flare above it are two).
     pub outlines: Vec<Vec<OutlinePoint>>,
 }
 
@@ -84,7 +84,8 @@ impl StationOffsets {
     }
 }
 
-/// Offsets of a hull. Lengths from AP forward, heights above the base line, half-breadths from the centreplane, in metres.
+/// Offsets of a hull. Lengths from AP forward, heights above the base line, half-breadths from the centreplane, in
+/// metres.
 ///
 /// Stations rise in x, waterlines in z, buttocks in y, whatever the order they were written in; `form` remembers that.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -99,8 +100,8 @@ pub struct OffsetTable {
     pub buttocks: Vec<f64>,
     /// The stations with their offsets.
     pub stations: Vec<StationOffsets>,
-    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none where the table does not give them, outside
-    /// the surface and above the deck there. As many as waterlines.
+    /// Ends of each waterline: x at the stern and at the stem profile \[m\]; none where the table does not give them,
+    /// outside the surface and above the deck there. As many as waterlines.
     pub endings: Vec<[Option<f64>; 2]>,
     /// Knuckles and tangent lines.
     pub lines: Vec<FeatureLine>,
@@ -269,8 +270,8 @@ fn nice_step(value: f64) -> f64 {
     [5.0, 2.5, 2.0].into_iter().find(|m| m * decade <= value * (1.0 + 1e-9)).unwrap_or(1.0) * decade
 }
 
-/// Default stations: 0 (AP) to 20 (FP) in equal spaces, half stations in the two spaces at each end, and the extreme ends of
-/// the hull where they overhang.
+/// Default stations: 0 (AP) to 20 (FP) in equal spaces, half stations in the two spaces at each end, and the extreme
+/// ends of the hull where they overhang.
 #[must_use]
 pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
     let length = hull.particulars().length_between_perpendiculars;
@@ -299,9 +300,9 @@ pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
     stations
 }
 
-/// Default waterlines \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design draught, up
-/// to the highest point of the deck; half the step in the first space; the bottom and the design draught itself (other
-/// lines nearer to it than a fifth of the step are left out).
+/// Default waterlines \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design
+/// draught, up to the highest point of the deck; half the step in the first space; the bottom and the design draught
+/// itself (other lines nearer to it than a fifth of the step are left out).
 #[must_use]
 pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     let draught = hull.particulars().draught;
@@ -326,7 +327,8 @@ pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     lines
 }
 
-/// Default buttocks \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least four.
+/// Default buttocks \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least
+/// four.
 #[must_use]
 pub fn default_buttocks(hull: &Hull) -> Vec<f64> {
     let half = 0.5 * hull.particulars().breadth;

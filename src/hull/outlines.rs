@@ -38,9 +38,9 @@ pub fn section_stations(hull: &Hull) -> Vec<OffsetStation> {
 }
 
 impl OffsetTable {
-    /// The sections at the given stations as points from the centreplane below to the deck at side, so dense that the lines between
-    /// them leave the sections by at most `deviation` \[m\]; a branch for each piece that does not hang together. Stations at which
-    /// the hull has no breadth are left out.
+    /// The sections at the given stations as points from the centreplane below to the deck at side, so dense that the
+    /// lines between them leave the sections by at most `deviation` \[m\]; a branch for each piece that does not hang
+    /// together. Stations at which the hull has no breadth are left out.
     #[must_use]
     pub fn of_sections(hull: &Hull, stations: &[OffsetStation], deviation: f64) -> Self {
         let p = hull.particulars();

@@ -14,7 +14,8 @@
 //! V = 2 sum of the integrals of y n_y over the panels,
 //! ```
 //!
-//! to which neither the waterplane nor the centreplane contributes. With panels of size h it and the area are off by O(h^2).
+//! to which neither the waterplane nor the centreplane contributes. With panels of size h it and the area are off by
+//! O(h^2).
 
 use super::form::Hull;
 use super::immersion::{Immersion, UpperEnd};
@@ -75,7 +76,8 @@ pub struct PanelSettings {
     pub draught: f64,
     /// Length of the sides of panels, at most about \[m\].
     pub size: f64,
-    /// What corners of a quadrilateral leave their mean plane by at most, over its longer diagonal; 0: they are in it to rounding.
+    /// What corners of a quadrilateral leave their mean plane by at most, over its longer diagonal; 0: they are in it
+    /// to rounding.
     pub flatness: f64,
 }
 

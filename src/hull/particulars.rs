@@ -1,6 +1,7 @@
 //! Principal particulars.
 
-/// Moulded main dimensions \[m\]. The aft perpendicular is at x = 0, the forward one at x = `length_between_perpendiculars`.
+/// Moulded main dimensions \[m\]. The aft perpendicular is at x = 0, the forward one at x =
+/// `length_between_perpendiculars`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalParticulars {
     /// L_PP \[m\]

@@ -83,9 +83,9 @@ pub struct Section {
 }
 
 impl Branch {
-    /// Points on the curve, so dense that the chords between them stay within `deviation` \[m\] of it; the first and the last
-    /// are its ends, and no span of the curve is skipped. Arcs are halved until their control points lie within the
-    /// deviation of the chord (the curve stays in their convex hull), at most 20 times.
+    /// Points on the curve, so dense that the chords between them stay within `deviation` \[m\] of it; the first and
+    /// the last are its ends, and no span of the curve is skipped. Arcs are halved until their control points lie
+    /// within the deviation of the chord (the curve stays in their convex hull), at most 20 times.
     #[must_use]
     pub fn polyline(&self, deviation: f64) -> Vec<[f64; 3]> {
         let (from, to) = self.curve.knots().domain();
@@ -159,8 +159,8 @@ impl Hull {
     /// surface and from the plane at most `tolerance` \[m\], which is taken as 1e-11 m at least. No branch when the plane
     /// misses the hull or is no plane.
     ///
-    /// * A waterline of a level hull and a station of an upright one are the isoparametric curves themselves, of the degree of the
-    ///   surface. Other branches on the side are chains of quintics. Branches on flats are exact.
+    /// * A waterline of a level hull and a station of an upright one are the isoparametric curves themselves, of the
+    ///   degree of the surface. Other branches on the side are chains of quintics. Branches on flats are exact.
     /// * Where the surface lies in the plane, the branch is the boundary of that part of the surface. The edges of the
     ///   surface count as such: the station at the end of a hull with a transom across is the outline of the transom, the
     ///   buttock at y = 0 the profile.

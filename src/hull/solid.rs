@@ -59,7 +59,8 @@ pub struct Solid {
     pub edges: Vec<Edge>,
     /// Faces.
     pub faces: Vec<SolidFace>,
-    /// What the sides leave the surface of the hull by \[m\]: 0, or what was measured where the deck or the centreplane cuts it.
+    /// What the sides leave the surface of the hull by \[m\]: 0, or what was measured where the deck or the centreplane
+    /// cuts it.
     pub deviation: f64,
 }
 
@@ -164,7 +165,8 @@ impl Builder {
                 loops[0].extend(starboard_edge.map(turned));
                 loops[1].extend(port_edge.map(turned));
                 let Some(region) = region.filter(|_| !flat) else { continue };
-                // The face between runs so that its normal points out: bottom and bow against the curve, transom and deck along it.
+                // The face between runs so that its normal points out: bottom and bow against the curve, transom and
+                // deck along it.
                 let along = matches!(region, Region::Transom | Region::Deck);
                 let (left, right) = if along { (left, right) } else { (left.reversed(), right.reversed()) };
                 let knots = left.knots().clone();

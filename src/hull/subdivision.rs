@@ -262,7 +262,8 @@ impl Level {
 }
 
 impl SubdivisionNet {
-    /// Triangles over the body after as many steps as make at most `most` faces, and after one step less: the coarser first.
+    /// Triangles over the body after as many steps as make at most `most` faces, and after one step less: the coarser
+    /// first.
     ///
     /// Layers that displace no water are left out, unless no other has faces.
     #[must_use]

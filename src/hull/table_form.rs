@@ -1,5 +1,5 @@
-//! How a table of offsets was written: its layout, orders, units and header texts, so that it can be written back the same
-//! way.
+//! How a table of offsets was written: its layout, orders, units and header texts, so that it can be written back the
+//! same way.
 
 use crate::units::{CellRules, Notation};
 
@@ -222,7 +222,8 @@ impl Default for TableForm {
 }
 
 impl TableForm {
-    /// The step between two offsets that can be told apart in this writing \[m\]; none when there is none (computed tables).
+    /// The step between two offsets that can be told apart in this writing \[m\]; none when there is none (computed
+    /// tables).
     #[must_use]
     pub fn quantum(&self) -> Option<f64> {
         let step = self.notation.quantum(self.decimals)?;

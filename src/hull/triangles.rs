@@ -34,8 +34,8 @@ pub struct MeshLine {
 }
 
 impl TriangleMesh {
-    /// A mesh of triangles given by their corners; equal corners are one vertex, triangles with two of them are left out, and
-    /// so are corners that are not finite.
+    /// A mesh of triangles given by their corners; equal corners are one vertex, triangles with two of them are left
+    /// out, and so are corners that are not finite.
     #[must_use]
     pub fn from_corners(corners: impl Iterator<Item = [[f64; 3]; 3]>) -> Self {
         let mut mesh = Self::default();
@@ -82,8 +82,8 @@ impl TriangleMesh {
         edges().filter(|&[p, q]| uses.get(&(p.min(q), p.max(q))) == Some(&1)).collect()
     }
 
-    /// The mesh with every triangle turned so that neighbours run through their common edge in opposite directions, and the parts
-    /// that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
+    /// The mesh with every triangle turned so that neighbours run through their common edge in opposite directions, and
+    /// the parts that hang together enclose a positive volume, int y n_y; and how many triangles were turned.
     #[must_use]
     pub fn oriented(mut self) -> (Self, usize) {
         // Sorted, the two triangles of an edge stand beside each other; where three and more meet nothing follows.

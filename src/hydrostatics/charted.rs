@@ -6,8 +6,9 @@
 //! exact to rounding where all of the lines u = constant is immersed; else the relative error of volume and waterplane
 //! is about 1e-10 and that of areas of surfaces about 1e-8.
 //!
-//! The volume aft of midship is that aft of a line u_0 near midship and, where x depends on v, 2 int int y J (u_m(v) - u_0)
-//! ds dv on the lines u = u_0 + s (u_m(v) - u_0), x(u_m(v), v) being L_PP / 2; its relative error is about 1e-8 there.
+//! The volume aft of midship is that aft of a line u_0 near midship and, where x depends on v, 2 int int y J (u_m(v) -
+//! u_0) ds dv on the lines u = u_0 + s (u_m(v) - u_0), x(u_m(v), v) being L_PP / 2; its relative error is about 1e-8
+//! there.
 //!
 //! Cells of the knots that lie below the waterline as a whole are integrated once for all draughts; a draught costs the
 //! cells that its waterline passes through: O(cells) in all and O(spans_u + spans_v) a draught.
@@ -43,7 +44,8 @@ struct Pass<'a, const N: usize> {
 /// Volume, its moments, profile and its moments, side: what adds up over the parameter plane.
 type Sums = [f64; 7];
 
-/// A span in u, or a part of it, with the sums over its cells up to each knot line in v; as many cells as any draught may immerse.
+/// A span in u, or a part of it, with the sums over its cells up to each knot line in v; as many cells as any draught
+/// may immerse.
 struct Strip {
     from: f64,
     to: f64,
@@ -217,7 +219,8 @@ impl<'a, const N: usize> Pass<'a, N> {
         let pieces = self.parted(immersion.pieces());
         for strip in &self.strips {
             let own: Vec<&Piece> = pieces.iter().filter(|p| p.from >= strip.from && p.to <= strip.to).collect();
-            // The waterline stays within one span in v on each piece; where it leaves the strip nothing is immersed as a whole.
+            // The waterline stays within one span in v on each piece; where it leaves the strip nothing is immersed as
+            // a whole.
             let middle = |p: &Piece| immersion.end(0.5 * (p.from + p.to));
             let covered = own.iter().map(|p| p.to - p.from).sum::<f64>() >= (1.0 - 1e-12) * (strip.to - strip.from);
             let least = own.iter().map(|p| self.whole_below(middle(p))).min().filter(|_| covered).unwrap_or(0);

@@ -1,7 +1,7 @@
 //! Draughts of a table when none are asked for.
 
-/// Draughts \[m\] from 0.2 T to the depth D at a round step (1, 2, 2.5 or 5 times a power of ten), the widest that gives at
-/// least 20 rows; T and D always belong to the list, which never has more than 50 rows. Rising.
+/// Draughts \[m\] from 0.2 T to the depth D at a round step (1, 2, 2.5 or 5 times a power of ten), the widest that
+/// gives at least 20 rows; T and D always belong to the list, which never has more than 50 rows. Rising.
 ///
 /// Steps next to each other differ by a factor of at most 2, so that the widest step with 20 multiples in the range has
 /// fewer than 2 x 20 + 2 of them. Nothing when a dimension is not a positive number; D below T counts as T.

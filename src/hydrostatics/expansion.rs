@@ -1,4 +1,5 @@
-//! Expansions of integrands along a station in Legendre polynomials, whose integrals up to any height cost a few products.
+//! Expansions of integrands along a station in Legendre polynomials, whose integrals up to any height cost a few
+//! products.
 
 use super::station::Piece;
 use crate::numeric::gauss_legendre;

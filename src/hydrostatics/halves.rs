@@ -1,16 +1,16 @@
 //! The part of the volume between a knot line in u and the midship plane, at each of many draughts.
 //!
-//! The volume aft of midship is that aft of a knot line u_0 near midship, which the pass over the surface gives, and
-//! 2 int z_v int_(u_0)^(u_m(v)) y x_u du dv with x(u_m(v), v) = L_PP / 2. The inner integral is exact span by span, the outer
-//! one an expansion along the station at midship, exact to rounding.
+//! The volume aft of midship is that aft of a knot line u_0 near midship, which the pass over the surface gives, and 2
+//! int z_v int_(u_0)^(u_m(v)) y x_u du dv with x(u_m(v), v) = L_PP / 2. The inner integral is exact span by span, the
+//! outer one an expansion along the station at midship, exact to rounding.
 
 use super::station::{Place, Stations};
 use crate::hull::{Hull, Immersion};
 use crate::numeric::gauss_legendre;
 use crate::spline::MAX_DEGREE;
 
-/// The volume between the start of the span `span` in u and x = `midship` (negative when midship is aft of it), both sides,
-/// below each immersion; none where the deck is immersed.
+/// The volume between the start of the span `span` in u and x = `midship` (negative when midship is aft of it), both
+/// sides, below each immersion; none where the deck is immersed.
 pub(super) fn volumes_to_midship<const N: usize>(
     stations: &Stations<N>,
     immersions: &[Option<Immersion>],

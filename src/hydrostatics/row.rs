@@ -1,7 +1,7 @@
 //! A row of a table of hydrostatics.
 
-/// Hydrostatics of one draught. A field is `None` where the quantity is not defined (a coefficient at zero volume, GM without
-/// a centre of gravity, a waterplane above the deck).
+/// Hydrostatics of one draught. A field is `None` where the quantity is not defined (a coefficient at zero volume, GM
+/// without a centre of gravity, a waterplane above the deck).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hydrostatics {
     /// Draught above the base line \[m\].

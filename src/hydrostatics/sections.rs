@@ -1,15 +1,16 @@
 //! Midship section, largest section and parallel middle body at each of many draughts.
 //!
-//! Areas A(x) below every draught, and their slopes dA/dx = 2 int (y_u z_v - y_v z_u) / x_u dv (where z = z(v), 2 int (y_u / x_u)
-//! z_v dv), are taken at stations shared by all
-//! draughts: the knots in u on the highest line, midship, the ends of the hull, and both sides of every corner that a transom or
-//! a flat bow gives to A(x). Between stations A(x) is Hermite's cubic; where it may rise above the largest area so
-//! found, the root of dA/dx is found from exact areas and slopes.
+//! Areas A(x) below every draught, and their slopes dA/dx = 2 int (y_u z_v - y_v z_u) / x_u dv (where z = z(v), 2 int
+//! (y_u / x_u) z_v dv), are taken at stations shared by all draughts: the knots in u on the highest line, midship, the
+//! ends of the hull, and both sides of every corner that a transom or a flat bow gives to A(x). Between stations A(x)
+//! is Hermite's cubic; where it may rise above the largest area so found, the root of dA/dx is found from exact areas
+//! and slopes.
 //!
-//! Accuracy: A_M and A_X are exact to rounding (relative 1e-12) where A(x) is smooth. The place of the largest section is
-//! known to 1e-7 of L_PP where A(x) has a smooth maximum with a curvature of at least A / L_PP^2, to 1e-6 where the deck is
-//! immersed, and exactly at ends. The ends of the parallel middle body are the places where A(x) passes (1 - 1e-6) A_X, known
-//! to 1e-6 of L_PP. A second maximum between two stations that neither slopes nor cubics show is not seen.
+//! Accuracy: A_M and A_X are exact to rounding (relative 1e-12) where A(x) is smooth. The place of the largest section
+//! is known to 1e-7 of L_PP where A(x) has a smooth maximum with a curvature of at least A / L_PP^2, to 1e-6 where the
+//! deck is immersed, and exactly at ends. The ends of the parallel middle body are the places where A(x) passes (1 -
+//! 1e-6) A_X, known to 1e-6 of L_PP. A second maximum between two stations that neither slopes nor cubics show is not
+//! seen.
 
 use super::expansion::Expansion;
 use super::station::{Place, Stations};
@@ -253,8 +254,8 @@ impl<'a, const N: usize> Table<'a, N> {
         Some(a.area.max(b.area).max(a.area + a.slope * width * reach))
     }
 
-    /// The maximum between samples where the slope passes zero from above: Newton's method on the slope with curvatures from
-    /// the cubic and then from secants, inside a bracket that bisection keeps.
+    /// The maximum between samples where the slope passes zero from above: Newton's method on the slope with curvatures
+    /// from the cubic and then from secants, inside a bracket that bisection keeps.
     fn climb(&self, a: Sample, b: Sample, immersion: &Immersion) -> Sample {
         let cubic = Cubic::new(&a, &b);
         let whole = b.x - a.x;

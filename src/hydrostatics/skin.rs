@@ -7,7 +7,8 @@
 //! dS/dy_k = 2 int int ((n_x z_v - n_z x_v) dN_k/du + (n_z x_u - n_x z_u) dN_k/dv) / |n| dv du + 2 int N_k ds on these lines,
 //! ```
 //!
-//! n_x = y_u z_v - z_u y_v, n_z = x_u y_v - y_u x_v; ds is the length in the profile. Gauss rules as for the surface itself.
+//! n_x = y_u z_v - z_u y_v, n_z = x_u y_v - y_u x_v; ds is the length in the profile. Gauss rules as for the surface
+//! itself.
 
 use super::conventions::Conventions;
 use super::table::CurvesOfForm;

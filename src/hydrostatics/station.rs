@@ -1,13 +1,13 @@
-//! Passes along a station x = X: integrals over v of functions of the point (u(X, v), v) with x(u(X, v), v) = X, up to any of
-//! many heights.
+//! Passes along a station x = X: integrals over v of functions of the point (u(X, v), v) with x(u(X, v), v) = X, up to
+//! any of many heights.
 //!
-//! The station is cut at the knots in v and where it crosses a knot line in u or leaves the hull over a profile; on the pieces in
-//! between the integrands are analytic, and polynomials where x does not depend on v. u(X, v) is found by Newton's method on
-//! the polynomial of the cell in u. Integrals up to one height are Gauss sums ([`Stations::integral`]). For many heights
-//! each piece is expanded in Legendre polynomials, whose integrals up to any height cost a few products
-//! ([`Stations::expansion`]): O(spans_v + heights) for a station. Pieces are halved until the last coefficients have died away,
-//! so that both are exact to rounding (relative 1e-13). Next to a profile v = a + (b - a) t^2 (3 - 2t) takes out the square root
-//! that a round stem or stern brings.
+//! The station is cut at the knots in v and where it crosses a knot line in u or leaves the hull over a profile; on the
+//! pieces in between the integrands are analytic, and polynomials where x does not depend on v. u(X, v) is found by
+//! Newton's method on the polynomial of the cell in u. Integrals up to one height are Gauss sums
+//! ([`Stations::integral`]). For many heights each piece is expanded in Legendre polynomials, whose integrals up to any
+//! height cost a few products ([`Stations::expansion`]): O(spans_v + heights) for a station. Pieces are halved until
+//! the last coefficients have died away, so that both are exact to rounding (relative 1e-13). Next to a profile v = a +
+//! (b - a) t^2 (3 - 2t) takes out the square root that a round stem or stern brings.
 
 use super::expansion::{Expansion, Series, Transform};
 use super::volume::{Node, node_at};
@@ -18,11 +18,13 @@ use crate::spline::MAX_DEGREE;
 /// Nodes at most on a piece.
 const MOST: usize = 2 * MAX_DEGREE + 2;
 
-/// Nodes of Gauss sums, whose error is about the square of the last coefficients, and of expansions, where x depends on v.
+/// Nodes of Gauss sums, whose error is about the square of the last coefficients, and of expansions, where x depends on
+/// v.
 const SUMMED: usize = 8;
 const EXPANDED: usize = 12;
 
-/// Size of the last coefficients, relative to the largest integrand of the piece, at which sums and expansions are settled.
+/// Size of the last coefficients, relative to the largest integrand of the piece, at which sums and expansions are
+/// settled.
 const SETTLED_SUM: f64 = 1e-7;
 const SETTLED_EXPANSION: f64 = 1e-13;
 
@@ -308,7 +310,8 @@ impl<'a, const N: usize> Stations<'a, N> {
         (Place::Inside(low), 2.0 * share - 1.0)
     }
 
-    /// The point of the station at `x` on the line of a node, searched from the local parameter `start`, which is moved there.
+    /// The point of the station at `x` on the line of a node, searched from the local parameter `start`, which is moved
+    /// there.
     pub(super) fn point(&self, x: f64, piece: &Piece, node: &Node<N>, start: &mut f64) -> Point {
         let Place::Inside(k) = piece.place else { return Point::NONE };
         let number = k * self.spans_v.len() + piece.across;
@@ -410,8 +413,8 @@ impl<'a, const N: usize> Stations<'a, N> {
         total
     }
 
-    /// The integrals of `integrand` times dv from the lowest line up to any height, in which what is below 1e-14 of `size` is
-    /// neglected. `analytic`: the integrand is no polynomial where x does not depend on v either.
+    /// The integrals of `integrand` times dv from the lowest line up to any height, in which what is below 1e-14 of
+    /// `size` is neglected. `analytic`: the integrand is no polynomial where x does not depend on v either.
     pub(super) fn expansion<const K: usize>(
         &self,
         pieces: &[Piece],
@@ -449,8 +452,8 @@ impl<'a, const N: usize> Stations<'a, N> {
         Expansion { series, total }
     }
 
-    /// What the slope of the keel line, and of the upper edge where `end` is there, adds to dA/dx at `x`, both sides; nothing on
-    /// level hulls.
+    /// What the slope of the keel line, and of the upper edge where `end` is there, adds to dA/dx at `x`, both sides;
+    /// nothing on level hulls.
     pub(super) fn edges(&self, x: f64, end: f64) -> f64 {
         let surface = self.hull.surface();
         let (low, high) = surface.v().domain();

@@ -20,12 +20,13 @@ pub struct CurvesOfForm {
 }
 
 impl CurvesOfForm {
-    /// One row for each of `draughts` [m above the base line], in any order, at a cost of O(spans_u (spans_v + draughts)).
+    /// One row for each of `draughts` [m above the base line], in any order, at a cost of O(spans_u (spans_v +
+    /// draughts)).
     ///
-    /// Every draught gets a row of finite numbers. Below the lowest line it is zero; at the lowest line it is the limit from
-    /// above (no volume, the waterplane is the flat of bottom); where the deck at side is immersed the body ends at the
-    /// deck; above it the row is that of the whole body without a waterplane. Such rows carry a remark, and what is not
-    /// defined is `None`. A draught that is not a finite number gives an empty row with a remark and draught 0.
+    /// Every draught gets a row of finite numbers. Below the lowest line it is zero; at the lowest line it is the limit
+    /// from above (no volume, the waterplane is the flat of bottom); where the deck at side is immersed the body ends
+    /// at the deck; above it the row is that of the whole body without a waterplane. Such rows carry a remark, and what
+    /// is not defined is `None`. A draught that is not a finite number gives an empty row with a remark and draught 0.
     #[must_use]
     pub fn new(hull: &Hull, draughts: &[f64], conventions: &Conventions) -> Self {
         let immersions: Vec<Option<Immersion>> = draughts

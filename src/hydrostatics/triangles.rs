@@ -1,7 +1,7 @@
 //! Hydrostatics of a body of triangles at all draughts in one pass.
 //!
-//! Integrals over the body become integrals over its skin below the waterline (divergence theorem), of quantities that neither the
-//! waterplane nor a transom or a deck contributes to:
+//! Integrals over the body become integrals over its skin below the waterline (divergence theorem), of quantities that
+//! neither the waterplane nor a transom or a deck contributes to:
 //!
 //! ```text
 //! V = int y n_y dS,   M_x = int x y n_y dS,   M_z = int z y n_y dS,
@@ -303,12 +303,13 @@ impl Sums {
 }
 
 impl CurvesOfForm {
-    /// One row for each of `draughts` [m above the base line], in any order, of a body of triangles that are turned outward, both
-    /// sides of it (see the head of the module). Angles of the waterline's ends and the parallel body are not defined. A draught
-    /// that is not a finite number gives an empty row with a remark and draught 0; one at the highest point is just below it.
+    /// One row for each of `draughts` [m above the base line], in any order, of a body of triangles that are turned
+    /// outward, both sides of it (see the head of the module). Angles of the waterline's ends and the parallel body are
+    /// not defined. A draught that is not a finite number gives an empty row with a remark and draught 0; one at the
+    /// highest point is just below it.
     ///
-    /// `finer` is a mesh of the same surfaces with every edge halved, where there is one: what is of second order in both is then
-    /// extrapolated.
+    /// `finer` is a mesh of the same surfaces with every edge halved, where there is one: what is of second order in
+    /// both is then extrapolated.
     #[must_use]
     pub fn of_triangles(
         mesh: &TriangleMesh,

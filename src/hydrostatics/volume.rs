@@ -1,12 +1,14 @@
-//! Volume, its moments, wetted surface, lateral plane and ends below each of many draughts, from one pass over the surface.
+//! Volume, its moments, wetted surface, lateral plane and ends below each of many draughts, from one pass over the
+//! surface.
 //!
-//! For every Gauss node in u the net is collapsed in u once; the products are then summed at fixed nodes in v: the nodes of
-//! each span, and for each draught the nodes of the part of its last span below the waterline. Sums up to the knots in v are
-//! kept, so that a draught costs its part of one span: O(spans_u (spans_v + draughts)) in all. Sums run in a fixed order.
+//! For every Gauss node in u the net is collapsed in u once; the products are then summed at fixed nodes in v: the
+//! nodes of each span, and for each draught the nodes of the part of its last span below the waterline. Sums up to the
+//! knots in v are kept, so that a draught costs its part of one span: O(spans_u (spans_v + draughts)) in all. Sums run
+//! in a fixed order.
 //!
 //! Volume and moments are exact to rounding, the rules being exact for the piecewise polynomial integrands. The wetted
-//! surface 2 int int |S_u x S_v| dv du is not polynomial; its relative error is below 1e-8 where the surface is smooth within
-//! its spans. Draughts that immerse the deck at side are integrated one by one, u-line by u-line up to the deck.
+//! surface 2 int int |S_u x S_v| dv du is not polynomial; its relative error is below 1e-8 where the surface is smooth
+//! within its spans. Draughts that immerse the deck at side are integrated one by one, u-line by u-line up to the deck.
 
 use super::halves::volumes_to_midship;
 use super::station::Stations;
@@ -20,8 +22,8 @@ const DECK_NODES: usize = 16;
 const NODES_ALONG: usize = 48;
 const NODES_UP: usize = 24;
 
-/// Nodes a span in v beyond those that make the moments exact: off a flat of bottom, where dz/dv starts from 0, the wetted
-/// surface of a bulk carrier is wrong by 1.4e-8 without and by 1.4e-9 with them.
+/// Nodes a span in v beyond those that make the moments exact: off a flat of bottom, where dz/dv starts from 0, the
+/// wetted surface of a bulk carrier is wrong by 1.4e-8 without and by 1.4e-9 with them.
 const SKIN_NODES: usize = 3;
 
 /// Integrals over the body below one draught, both sides.
@@ -41,7 +43,8 @@ pub(super) struct Body {
     pub(super) ends: f64,
     /// Area of the transom projected along x [m^2].
     pub(super) transom: f64,
-    /// Area of the bottom across the keel line [m^2]; set apart on level hulls, whose bottom is the same at every draught.
+    /// Area of the bottom across the keel line [m^2]; set apart on level hulls, whose bottom is the same at every
+    /// draught.
     pub(super) bottom: f64,
     /// Area of the profile [m^2].
     pub(super) lateral: f64,
@@ -150,8 +153,8 @@ const LEVEL_STRIP: f64 = 1e-6;
 
 /// x, y, x_u, y_u and the norm of S_u x S_v at a node.
 ///
-/// On a strip without height (dz/dv below `level`), over which a profile jumps along a level keel, it is the signed area: the lines
-/// of the strip pass over one another, and what counts is the waterline above less that below.
+/// On a strip without height (dz/dv below `level`), over which a profile jumps along a level keel, it is the signed
+/// area: the lines of the strip pass over one another, and what counts is the waterline above less that below.
 fn point<const N: usize>(node: &Node<N>, columns: &[[f64; 4]], level: f64) -> ([f64; 4], f64) {
     let (mut at, mut up) = ([0.0; 4], [0.0; 2]);
     for ((column, value), slope) in columns[node.first..node.first + N].iter().zip(&node.value).zip(&node.slope) {

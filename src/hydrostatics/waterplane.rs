@@ -2,7 +2,8 @@
 //!
 //! Area 2 int y dx, its moments 2 int x y dx and 2 int x^2 y dx and the transverse second moment (2/3) int y^3 dx are
 //! integrals of piecewise polynomials in u, exact to rounding. Length and breadth are extents of the part where y > 0.
-//! The half angles of entrance and run are atan(|y_u| / |x_u|) at the ends; at a transom or a flat bow that of the side there.
+//! The half angles of entrance and run are atan(|y_u| / |x_u|) at the ends; at a transom or a flat bow that of the side
+//! there.
 
 use crate::hull::{Hull, Immersion, Piece, UpperEnd};
 use crate::numeric::gauss_legendre;
@@ -180,7 +181,8 @@ pub(super) fn largest(y: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, from: 
     best
 }
 
-/// Angle between the waterline and the centreplane at its end \[deg\]; where the first derivative vanishes, from the second.
+/// Angle between the waterline and the centreplane at its end \[deg\]; where the first derivative vanishes, from the
+/// second.
 fn half_angle(line: &BsplineCurve<3>, (span, u): (usize, f64)) -> Option<f64> {
     let p = line.knots().degree();
     let rows = line.knots().basis_derivatives::<3>(span, u);

@@ -1,8 +1,8 @@
 //! Cholesky factor of a banded symmetric positive definite matrix, and the part of its inverse inside the band.
 //!
-//! For n rows and w diagonals below the main one: storage O(n w), factor and inverse O(n w^2) in products of dense blocks, a solve
-//! O(n w). Rounding: the
-//! residual of a solve is at unit roundoff times the size of matrix and solution (Golub & Van Loan 2013, section 4.3).
+//! For n rows and w diagonals below the main one: storage O(n w), factor and inverse O(n w^2) in products of dense
+//! blocks, a solve O(n w). Rounding: the residual of a solve is at unit roundoff times the size of matrix and solution
+//! (Golub & Van Loan 2013, section 4.3).
 
 use super::SingularMatrix;
 use faer::linalg::matmul::matmul;
@@ -189,8 +189,8 @@ impl SymmetricBand {
     }
 }
 
-/// A lower banded triangle in panels of columns, each a dense block with the columns one after the other: from its own diagonal
-/// block down to the last row that a column of it reaches.
+/// A lower banded triangle in panels of columns, each a dense block with the columns one after the other: from its own
+/// diagonal block down to the last row that a column of it reaches.
 #[derive(Debug, Clone)]
 struct Panels {
     size: usize,
@@ -290,8 +290,8 @@ impl BandedCholesky {
         }
     }
 
-    /// The entries of M^-1 inside the band (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975), a panel J at a time from the last
-    /// one on: with S the rows below that J reaches and Y = L_SJ L_JJ^-1,
+    /// The entries of M^-1 inside the band (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975), a panel J at a time
+    /// from the last one on: with S the rows below that J reaches and Y = L_SJ L_JJ^-1,
     ///
     /// ```text
     /// Z_SJ = -Z_SS Y,   Z_JJ = (L_JJ L_JJ')^-1 - Y'Z_SJ.

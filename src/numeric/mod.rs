@@ -1,4 +1,5 @@
-//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median, two threads.
+//! Mathematics that knows no geometry: quadrature, bracketed roots, banded systems, least squares, the median, two
+//! threads.
 
 mod banded;
 mod cholesky;

@@ -1,7 +1,7 @@
 //! Analytic test bodies: Wigley hull, box, ellipsoid.
 //!
-//! The Wigley hull and the box are polynomials and are represented exactly; the ellipsoid is graded by its angles,
-//! z = T (1 - cos theta), x = L/2 (1 + sin theta sin phi), y = B/2 sin theta cos phi, and interpolated with degree 7, which
+//! The Wigley hull and the box are polynomials and are represented exactly; the ellipsoid is graded by its angles, z =
+//! T (1 - cos theta), x = L/2 (1 + sin theta sin phi), y = B/2 sin theta cos phi, and interpolated with degree 7, which
 //! leaves it within 1e-14 B of the body (tested).
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,15 +1,15 @@
 //! Waterline kernels on the unit square: the hyperbolic-cosine curve J and its companion S with zero shoulder curvature.
 //!
-//! With the entire functions c_n(w) = sum_k w^k / (2k + n)! (so that c_0(a^2) = cosh a, c_1(a^2) = sinh a / a; for w < 0 the
-//! cosine and the sine), every formula holds for the shape number mu = a^2 of either sign:
+//! With the entire functions c_n(w) = sum_k w^k / (2k + n)! (so that c_0(a^2) = cosh a, c_1(a^2) = sinh a / a; for w <
+//! 0 the cosine and the sine), every formula holds for the shape number mu = a^2 of either sign:
 //!
 //! * J_mu(t) = 1 - t^2 c_2(mu t^2) / c_2(mu) = 1 - (cosh(a t) - 1) / (cosh a - 1),  mu > -pi^2
 //! * S_mu(t) = 1 - t^3 c_3(mu t^2) / c_3(mu) = 1 - (sinh(a t) - a t) / (sinh a - a),  mu > -4 pi^2
 //!
 //! t = 0 is the shoulder (value 1, slope 0), t = 1 the end (value 0). J with m = a / pi is the curve of the UCL design
-//! building block generator (Calleya, Pawling & Greig 2015); S has the same range of fullness and joins a parallel body with
-//! continuous curvature. Both increase with mu at every t; J is concave for mu >= -pi^2/4, S for mu >= -pi^2, otherwise they
-//! have one inflection each.
+//! building block generator (Calleya, Pawling & Greig 2015); S has the same range of fullness and joins a parallel body
+//! with continuous curvature. Both increase with mu at every t; J is concave for mu >= -pi^2/4, S for mu >= -pi^2,
+//! otherwise they have one inflection each.
 //!
 //! Accuracy: values and moments to 2e-14 for mu up to 4900 (tested against published values and quadrature).
 

@@ -1,8 +1,9 @@
 //! The midship section: flat keel, floor with rise, one circular bilge, vertical side.
 //!
-//! With half-breadth h = B/2, half width of the keel k, w = h - k, rise of floor beta, d = pi/2 - beta and bilge radius R, the
-//! area missing from the rectangle is (1 - Cm) h T = w^2 tan(beta) / 2 + R^2 (tan(d/2) - d/2); for beta = 0 this is Watson
-//! (1998) eq. 8.1, R = sqrt(2.33 (1 - Cm) B T). The bilge fits while R tan(d/2) <= min(w / cos(beta), T - w tan(beta)).
+//! With half-breadth h = B/2, half width of the keel k, w = h - k, rise of floor beta, d = pi/2 - beta and bilge radius
+//! R, the area missing from the rectangle is (1 - Cm) h T = w^2 tan(beta) / 2 + R^2 (tan(d/2) - d/2); for beta = 0 this
+//! is Watson (1998) eq. 8.1, R = sqrt(2.33 (1 - Cm) B T). The bilge fits while R tan(d/2) <= min(w / cos(beta), T - w
+//! tan(beta)).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -46,7 +47,8 @@ fn largest_radius(w: f64, draught: f64, deadrise: f64) -> f64 {
 
 impl MidshipSection {
     /// The section of coefficient `coefficient` = area / (h T); a rise of floor or a radius that is given is kept. When
-    /// neither is given the floor is flat if the bilge fits, otherwise the rise lies 15 % up the feasible interval (a round bilge).
+    /// neither is given the floor is flat if the bilge fits, otherwise the rise lies 15 % up the feasible interval (a
+    /// round bilge).
     pub(super) fn solve(
         half_breadth: f64,
         draught: f64,

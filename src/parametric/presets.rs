@@ -84,8 +84,8 @@ impl ShipType {
         }
     }
 
-    /// The preset. Ratios and coefficients lie inside the bands of users of each type (Kristensen & Luetzen 2012 for Cm of
-    /// merchant ships); profiles are those of ordinary ships of the type.
+    /// The preset. Ratios and coefficients lie inside the bands of users of each type (Kristensen & Luetzen 2012 for Cm
+    /// of merchant ships); profiles are those of ordinary ships of the type.
     #[must_use]
     pub fn preset(self) -> Preset {
         let common = Preset {

@@ -137,8 +137,8 @@ fn draw_flat_end(canvas: &mut Canvas, grid: &LinesGrid, view: &View, half: Half)
     Some(view.draw(canvas, edge, &OUTLINE))
 }
 
-/// The lines in which the planes of a diagonal stand edgewise, from the centre line out, as far as the grid goes: outboard to
-/// its edge or down to its foot.
+/// The lines in which the planes of a diagonal stand edgewise, from the centre line out, as far as the grid goes:
+/// outboard to its edge or down to its foot.
 fn diagonal_lines(grid: &LinesGrid, view: &View, frame: &Rectangle, plane: &GridPlane) -> [[[f64; 2]; 2]; 2] {
     let (sine, cosine) = grid.diagonal_angle.sin_cos();
     let reach = (0.5 * frame.width() / view.scale / cosine).min((plane.at - grid.height[0]) / sine);

@@ -353,7 +353,8 @@ pub(super) const DESIGN: Pen = Pen::new(0.25, "#000000").dashed(&[5.0, 1.0, 0.7,
 /// The draught at which the deck edge goes under.
 pub(super) const EDGE: Pen = Pen::new(0.35, "#5a5a5a").dashed(&[1.2, 0.8]);
 
-/// A line across `frame`, `at` millimetres down the sheet, its name at that end, above or below, where it meets fewest curves.
+/// A line across `frame`, `at` millimetres down the sheet, its name at that end, above or below, where it meets fewest
+/// curves.
 pub(super) fn draw_level(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
@@ -374,7 +375,8 @@ pub(super) fn draw_level(
     placer.add_curve(&[[frame.left, y], [frame.right, y]]);
 }
 
-/// Colours of curves: those of Okabe and Ito (2008), which the colour-blind tell apart, darkened until they can be read on white.
+/// Colours of curves: those of Okabe and Ito (2008), which the colour-blind tell apart, darkened until they can be read
+/// on white.
 pub(super) mod colour {
     pub(in crate::plot) const BLACK: [u8; 3] = [0, 0, 0];
     pub(in crate::plot) const BLUE: [u8; 3] = [0, 114, 178];
@@ -399,7 +401,8 @@ fn dark(colour: [u8; 3]) -> &'static str {
 mod tests {
     use super::*;
 
-    /// The axis holds its range, has two ticks at least and not many more than are wanted, and writes what the powers are of.
+    /// The axis holds its range, has two ticks at least and not many more than are wanted, and writes what the powers
+    /// are of.
     #[test]
     fn axes_of_powers() {
         for (low, high) in [

@@ -1,13 +1,12 @@
 //! The diagram sheet: the classic sheet of hydrostatic curves, read with a scale rule.
 //!
-//! A frame of 240 mm x 200 mm, or as high as the draughts need at their scale, with the draught upwards and three axes: AP at 0,
-//! midship (L_PP / 2) at 120 mm, FP at 240 mm.
-//! Areas, volumes, inertias and heights are measured forward from AP, centres and the moment to trim from midship, form
-//! coefficients aft from FP (1 mm = 0.025). The scale of a curve is its largest value over its target length, rounded up
-//! to 1, 2, 2.5, 4, 5 or 10 times a power of ten; LCB and LCF are scaled by their largest distance from midship. KM_L and
-//! KM_T grow without bound as the draught goes to zero: they are scaled by their value at the lowest draught of 0.2 T or
-//! more, and to a smaller scale where they would otherwise leave the frame above it (KM_T may rise with the draught). Further
-//! down they may run out of the frame.
+//! A frame of 240 mm x 200 mm, or as high as the draughts need at their scale, with the draught upwards and three axes:
+//! AP at 0, midship (L_PP / 2) at 120 mm, FP at 240 mm. Areas, volumes, inertias and heights are measured forward from
+//! AP, centres and the moment to trim from midship, form coefficients aft from FP (1 mm = 0.025). The scale of a curve
+//! is its largest value over its target length, rounded up to 1, 2, 2.5, 4, 5 or 10 times a power of ten; LCB and LCF
+//! are scaled by their largest distance from midship. KM_L and KM_T grow without bound as the draught goes to zero:
+//! they are scaled by their value at the lowest draught of 0.2 T or more, and to a smaller scale where they would
+//! otherwise leave the frame above it (KM_T may rise with the draught). Further down they may run out of the frame.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{DESIGN, EDGE, Level, draw_level};
@@ -47,8 +46,8 @@ enum Axis {
 enum ScaledBy {
     /// The largest value.
     Largest,
-    /// The value at the lowest draught that is no less than [`SHALLOW`] of the design draught; above it the curve stays in
-    /// the frame.
+    /// The value at the lowest draught that is no less than [`SHALLOW`] of the design draught; above it the curve stays
+    /// in the frame.
     LowestDraught,
 }
 

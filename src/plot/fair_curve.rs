@@ -1,8 +1,8 @@
-//! A curve before and after fairing: combs of curvature at one scale with the inflections ringed, and the move of every point
-//! within its tolerance.
+//! A curve before and after fairing: combs of curvature at one scale with the inflections ringed, and the move of every
+//! point within its tolerance.
 //!
-//! Curvature is that of the true curve; the sheet may stretch ordinates, and teeth stand normal to the line as it is drawn, on
-//! its convex side. Teeth that would leave the panel are cut off at its edge: the scale is the same for both.
+//! Curvature is that of the true curve; the sheet may stretch ordinates, and teeth stand normal to the line as it is
+//! drawn, on its convex side. Teeth that would leave the panel are cut off at its edge: the scale is the same for both.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step, sheet_scale};

@@ -1,8 +1,8 @@
 //! A hull before and after fairing: body plan and half-breadth plan with combs.
 //!
-//! Before is grey, after is black and blue; the combs of both have one scale, inflections are ringed. Stations and waterlines are
-//! those of the table. The half-breadth plan is stretched athwartships by a whole number, which is printed; curvatures are
-//! those of the ship.
+//! Before is grey, after is black and blue; the combs of both have one scale, inflections are ringed. Stations and
+//! waterlines are those of the table. The half-breadth plan is stretched athwartships by a whole number, which is
+//! printed; curvatures are those of the ship.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale, LONGEST};
@@ -105,7 +105,8 @@ fn widest<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> f64 {
 /// Half-breadth of the foot of a section that ends away from the centre line, in breadths of the hull.
 const OPEN: f64 = 1e-3;
 
-/// The end of the surface beside the station at `x`, from the centre line at the keel to the deck; none where no end is near.
+/// The end of the surface beside the station at `x`, from the centre line at the keel to the deck; none where no end is
+/// near.
 fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
     const POINTS: usize = 400;
     let surface = hull.surface();
@@ -134,7 +135,8 @@ fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
 const END: f64 = 0.01;
 const INSIDE: f64 = 1e-4;
 
-/// The plane of a station; at an end of the hull, where it may go in and out of the side, a hair inside if that is in fewer pieces.
+/// The plane of a station; at an end of the hull, where it may go in and out of the side, a hair inside if that is in
+/// fewer pieces.
 pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
     let hull = &record.after;
     let xs = || hull.surface().points().iter().map(|p| p[0]);
@@ -282,7 +284,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
     let mut placer = drawn.placer();
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
-    let style = TextStyle::new(LETTERS, Anchor::Middle);
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     for station in &record.lines.stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();

@@ -11,14 +11,16 @@ use crate::numeric::at_once;
 
 /// Teeth of a comb; its tips are joined.
 pub(super) const TEETH: usize = 241;
-/// Most stations and most waterlines that bear combs where none are asked for: evenly among all, the first and the last not.
+/// Most stations and most waterlines that bear combs where none are asked for: evenly among all, the first and the last
+/// not.
 const MOST: [usize; 2] = [8, 7];
 
 /// Part of the teeth of stations, and of all other lines, that are short on a plan; the ends of these turn sharply.
 const SHORT: [f64; 2] = [0.9, 0.75];
 /// Length of a short tooth on a plan, as a part of the longest.
 const USUAL: f64 = 0.5;
-/// Part of the teeth that have room on the sheets with a panel for each station or waterline, and with a strip for each other line.
+/// Part of the teeth that have room on the sheets with a panel for each station or waterline, and with a strip for each
+/// other line.
 const MOST_TEETH: [f64; 2] = [0.9, 0.96];
 /// What the lines of a scale are called.
 const KINDS: [&str; 4] = ["stations", "waterlines", "buttocks", "diagonals"];
@@ -68,7 +70,8 @@ pub struct FairingCombs {
 }
 
 impl FairingCombs {
-    /// The combs of the lines `chosen`; where none are, of some stations and waterlines and of all buttocks and diagonals.
+    /// The combs of the lines `chosen`; where none are, of some stations and waterlines and of all buttocks and
+    /// diagonals.
     #[must_use]
     pub fn new(record: &FairRecord, chosen: &[CombLine]) -> Self {
         let planes = Planes::with_defaults(&record.after);

@@ -78,7 +78,8 @@ impl Unit {
 }
 
 impl Map {
-    /// The cell of an offset; the deck at side is the row above the waterlines, points of a section follow each other upwards.
+    /// The cell of an offset; the deck at side is the row above the waterlines, points of a section follow each other
+    /// upwards.
     fn place(&self, change: &Change) -> Rectangle {
         let row = match change.origin {
             Origin::HalfBreadth { waterline, .. } => waterline,

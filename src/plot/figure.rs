@@ -174,8 +174,8 @@ impl Figure {
         }
     }
 
-    /// Resolution at which the picture of the figure is read well on a screen: about 3300 pixels across for the lines plan,
-    /// 1800 to 2000 for the others.
+    /// Resolution at which the picture of the figure is read well on a screen: about 3300 pixels across for the lines
+    /// plan, 1800 to 2000 for the others.
     #[must_use]
     pub fn dots_per_inch(self) -> f64 {
         match self {

@@ -151,8 +151,8 @@ impl LabelPlacer {
             && !self.leaders.iter().any(|&[a, b]| crosses(place, a, b))
     }
 
-    /// Writes `name` off every curve and text inside `window`, with a leader of `pen` to curve number `curve`; the shortest
-    /// leader that crosses fewest curves. False when there is no place.
+    /// Writes `name` off every curve and text inside `window`, with a leader of `pen` to curve number `curve`; the
+    /// shortest leader that crosses fewest curves. False when there is no place.
     pub(super) fn name_by_leader(
         &mut self,
         canvas: &mut Canvas,

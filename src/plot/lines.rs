@@ -62,8 +62,9 @@ impl Extents {
         if style.diagonals { self.diagonals } else { 0.0 }
     }
 
-    /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that neither
-    /// grows at the cost of the other; a third of it when the table does not fit, and the same when there are no diagonals.
+    /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that
+    /// neither grows at the cost of the other; a third of it when the table does not fit, and the same when there are
+    /// no diagonals.
     fn merit(&self, layout: &Layout) -> f64 {
         let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
         let table =
@@ -157,8 +158,8 @@ fn beside(extents: &Extents, long: &Long, inner: &Rectangle) -> Option<Layout> {
     Some(Layout { scale, style, body_scale, profile: upper, half_breadths: lower, body, table })
 }
 
-/// The long views one under the other, the body plan under them, table and title block to its right: at the largest scale of
-/// the body plan, and at smaller ones that may leave more room to the table.
+/// The long views one under the other, the body plan under them, table and title block to its right: at the largest
+/// scale of the body plan, and at smaller ones that may leave more room to the table.
 fn below(extents: &Extents, long: &Long, inner: &Rectangle) -> Vec<Layout> {
     let Long { scale, style, views: [width, profile, half] } = *long;
     let body_height = inner.height() - profile - half - 2.0 * GAP;

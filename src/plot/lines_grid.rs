@@ -87,7 +87,8 @@ fn station_numbers(aft: f64, fore: f64) -> Vec<i32> {
         .collect()
 }
 
-/// A station at an end of the hull that is a plane at its waterlines alone goes in and out of that plane: its longest piece stays.
+/// A station at an end of the hull that is a plane at its waterlines alone goes in and out of that plane: its longest
+/// piece stays.
 fn in_one_piece(mut plane: GridPlane) -> GridPlane {
     if plane.on_side > 1 {
         let length =

@@ -78,7 +78,8 @@ impl Read<'_> {
         both_fit && has_room_for_caption(sheet, &joint_caption([self, below]))
     }
 
-    /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of it.
+    /// The frame of `sheet` with its upper left corner at `corner` \[mm\] of the paper, and the figure in the middle of
+    /// it.
     fn draw_framed(
         &self,
         surface: &mut Surface<'_>,

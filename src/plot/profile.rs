@@ -96,7 +96,8 @@ fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View
         let perpendicular = plane.at.abs() < 1e-9 * length || (plane.at - length).abs() < 1e-9 * length;
         canvas.line([x, frame.top], [x, frame.bottom], if perpendicular { &BASE } else { &GRID });
     }
-    // Whole stations first, so that halves give way where it is narrow; of them every one, or every second, fifth or tenth.
+    // Whole stations first, so that halves give way where it is narrow; of them every one, or every second, fifth or
+    // tenth.
     let (halves, whole): (Vec<&GridPlane>, Vec<&GridPlane>) =
         grid.stations.iter().partition(|plane| plane.name.ends_with('½'));
     let widest =

@@ -16,8 +16,8 @@ pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
     drawing_scales().find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9)).unwrap_or(1_000_000)
 }
 
-/// The largest scale at which the lengths of a contracted profile fit: the scales of drawings, and those of rules with 1:75
-/// and 1:125. It is no scale of a drawing, for heights have another one.
+/// The largest scale at which the lengths of a contracted profile fit: the scales of drawings, and those of rules with
+/// 1:75 and 1:125. It is no scale of a drawing, for heights have another one.
 pub(super) fn contracted_scale(extent: f64, room: f64) -> u32 {
     let between = [75, 125, 750, 1250, 7500, 12_500].into_iter();
     let fits = |scale: &u32| f64::from(*scale) >= 1000.0 * extent / room * (1.0 - 1e-9);

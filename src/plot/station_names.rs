@@ -8,7 +8,8 @@ use super::sheet::LETTERS;
 use super::view::THREAD;
 use crate::fairing::record::FairRecord;
 
-/// How far below the foot of a view along the ship its names of stations stand, as many rows as it takes for all of them \[mm\].
+/// How far below the foot of a view along the ship its names of stations stand, as many rows as it takes for all of
+/// them \[mm\].
 pub(super) const ROWS: [f64; 4] = [3.0, 6.6, 10.2, 13.8];
 /// Sections whose upper ends are nearer to each other than this bear one name \[mm\].
 const BESIDE: f64 = 2.4;

@@ -35,7 +35,8 @@ const FLAT: f64 = 1e-9;
 const HEIGHT: f64 = 78.0;
 /// Height of a chart with its head and axis \[mm\].
 const PITCH: f64 = 104.0;
-/// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step of colour.
+/// Part of the full size that a curvature reaches on both sides of a line of zero that is drawn: that of the first step
+/// of colour.
 const ZERO: f64 = 0.25 / (STEPS * STEPS) as f64;
 /// Size of the text \[mm\].
 pub(super) const TEXT: f64 = 3.1;
@@ -112,7 +113,8 @@ impl SurfaceMapKind {
         }
     }
 
-    /// What is painted one over the other: a colour with the ranges of values, of those between `low` and `high`, that have it.
+    /// What is painted one over the other: a colour with the ranges of values, of those between `low` and `high`, that
+    /// have it.
     fn layers(self, full: f64) -> Vec<(String, Ranges)> {
         let all: Ranges = Box::new(|_, _| vec![[f64::NEG_INFINITY, f64::INFINITY]]);
         if self == Self::Zebra {

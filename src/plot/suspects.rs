@@ -1,6 +1,6 @@
 //! Suspect cells of a table of offsets: a map of the scores by station and waterline, and the section and the waterline
-//! through each suspect. Heights at buttocks are drawn the same way, with the buttock in place of the waterline; points of
-//! sections each in its section ([`points`]).
+//! through each suspect. Heights at buttocks are drawn the same way, with the buttock in place of the waterline; points
+//! of sections each in its section ([`points`]).
 //!
 //! Marks of the map are told apart by their shape as well as by their colour: an upright cross is a value above its
 //! prediction, a bar one below; their size is the score.
@@ -243,7 +243,8 @@ fn circle(at: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// An upright cross for a value above its prediction, a bar for one below; half its length is `largest` at the full score.
+/// An upright cross for a value above its prediction, a bar for one below; half its length is `largest` at the full
+/// score.
 fn draw_mark(canvas: &mut Canvas, at: [f64; 2], score: f64, largest: f64) {
     let reach = largest * (score.abs() / FULL_SCORE).min(1.0);
     if reach < 0.04 * largest {

@@ -16,7 +16,8 @@ const GAP: f64 = 2.0;
 const HEAD: f64 = 21.0;
 const FOOT: f64 = 10.0;
 
-/// Words over a table, the heads of its columns, its rows; the first `words` columns are text. Rows become lower and text
+/// Words over a table, the heads of its columns, its rows; the first `words` columns are text. A row whose first cell is
+/// set in by a space goes on with the one above: no rule parts them. Rows become lower and text
 /// smaller until all of it stands on the sheet.
 #[must_use]
 pub fn table_figure(title: &str, note: &str, heads: &[&str], words: usize, rows: &[Vec<String>]) -> Svg {
@@ -52,9 +53,11 @@ pub fn table_figure(title: &str, note: &str, heads: &[&str], words: usize, rows:
         }
         x += column_width;
     }
-    for row in 1..=rows.len() {
-        let y = HEAD + height * row as f64;
-        canvas.line([left, y], [left + width, y], &rule);
+    for (row, cells) in rows.iter().enumerate() {
+        if cells.first().is_none_or(|cell| !cell.starts_with(' ')) {
+            let y = HEAD + height * (row + 1) as f64;
+            canvas.line([left, y], [left + width, y], &rule);
+        }
     }
     canvas.rectangle(&Rectangle::new(left, HEAD, left + width, bottom), &Pen::new(0.35, "#000000"));
     canvas.text([ROOM[0] - 6.0, bottom + FOOT - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));

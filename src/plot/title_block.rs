@@ -98,7 +98,8 @@ fn diagonals(grid: &LinesGrid) -> String {
     format!("{} m on CL", heights.join(", "))
 }
 
-/// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free for it.
+/// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free
+/// for it.
 pub(super) fn draw_number(canvas: &mut Canvas, text: &str, corner: [f64; 2]) {
     let at = [corner[0] - SIZE[0] + 3.0, corner[1] - SIZE[1] + 13.7 + 6.0 * ROW_OF_TEXT];
     canvas.text(at, text, &TextStyle::new(LETTERS, Anchor::Start));

@@ -18,7 +18,8 @@ const SHORT: f64 = 12.0;
 /// Two points of the map with a crossing between them, the lower index first.
 type Side = (usize, usize);
 
-/// The lines of zero of curvature `which` (0 Gaussian, 1 mean) where it reaches `least`; `place` takes x and girth to the sheet.
+/// The lines of zero of curvature `which` (0 Gaussian, 1 mean) where it reaches `least`; `place` takes x and girth to
+/// the sheet.
 pub(super) fn zero_lines(
     map: &SurfaceMap,
     which: usize,

@@ -28,7 +28,8 @@ pub struct Certificate {
 }
 
 impl Problem {
-    /// Judges x and multipliers z; `reach` bounds how far any minimiser can lie from x in any component (0 takes the largest |x|).
+    /// Judges x and multipliers z; `reach` bounds how far any minimiser can lie from x in any component (0 takes the
+    /// largest |x|).
     ///
     /// Multipliers that pull at a limit which does not exist are set to 0 first.
     #[must_use]

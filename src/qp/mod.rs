@@ -5,9 +5,9 @@
 //! subject to  l <= A x <= u
 //! ```
 //!
-//! with P positive semidefinite and sparse, rows of A sparse but for a few dense ones, and equalities as rows with l = u. What a
-//! solver says of its answer is not believed: [`Problem::certificate`] computes a lower bound of the optimum, the residuals
-//! and the violations from x and the multipliers alone. Knows no ship.
+//! with P positive semidefinite and sparse, rows of A sparse but for a few dense ones, and equalities as rows with l =
+//! u. What a solver says of its answer is not believed: [`Problem::certificate`] computes a lower bound of the optimum,
+//! the residuals and the violations from x and the multipliers alone. Knows no ship.
 
 mod certificate;
 mod clarabel;

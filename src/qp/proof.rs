@@ -1,8 +1,9 @@
 //! Proofs that a problem has no solution, checked without the solver.
 //!
-//! *Farkas.* For every z, every x with l <= Ax <= u has z'Ax <= h(z) = sum_k (u_k z_k^+ - l_k z_k^-). If h(z) < 0 and r = A'z, then
-//! r'x <= h(z) < 0, so |x|_inf >= -h(z) / |r|_1: no feasible point lies nearer than that. With r = 0 there is none at all
-//! (Boyd & Vandenberghe 2004, section 5.8); with r at rounding level the radius says how far away one would have to be.
+//! *Farkas.* For every z, every x with l <= Ax <= u has z'Ax <= h(z) = sum_k (u_k z_k^+ - l_k z_k^-). If h(z) < 0 and
+//! r = A'z, then r'x <= h(z) < 0, so |x|_inf >= -h(z) / |r|_1: no feasible point lies nearer than that. With r = 0 there
+//! is none at all (Boyd & Vandenberghe 2004, section 5.8); with r at rounding level the radius says how far away one
+//! would have to be.
 //!
 //! *Rays.* With P d = 0, q'd < 0 and A d in the recession cone of [l, u], x + t d stays feasible and falls without end.
 
@@ -28,8 +29,8 @@ impl Problem {
         }
     }
 
-    /// How badly d is a direction of endless fall: the largest of |P d| and of the way A d (rows of unit size) leads out of
-    /// the limits, over the fall -q'd, for |q| = |P| = 1; infinite if the objective does not fall.
+    /// How badly d is a direction of endless fall: the largest of |P d| and of the way A d (rows of unit size) leads
+    /// out of the limits, over the fall -q'd, for |q| = |P| = 1; infinite if the objective does not fall.
     #[must_use]
     pub fn ray_defect(&self, d: &[f64]) -> f64 {
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -3,8 +3,8 @@
 use super::problem::{Engine, Problem, ProblemError, Settings, Solution};
 use super::structured::Solver;
 
-/// Solves problems; orderings, the symbolic factorisation and an early iterate of one serve the next as long as the pattern is the
-/// same.
+/// Solves problems; orderings, the symbolic factorisation and an early iterate of one serve the next as long as the
+/// pattern is the same.
 pub struct RepeatedSolver<'a> {
     settings: &'a Settings,
     kept: Option<Solver>,

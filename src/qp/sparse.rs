@@ -16,8 +16,8 @@ impl SparseRows {
         Self { columns, starts: vec![0], indices: Vec::new(), values: Vec::new() }
     }
 
-    /// The symmetric or general matrix with these entries (row, column, value); entries that name the same place are added.
-    /// Columns of a row come out in rising order.
+    /// The symmetric or general matrix with these entries (row, column, value); entries that name the same place are
+    /// added. Columns of a row come out in rising order.
     #[must_use]
     pub fn from_entries(rows: usize, columns: usize, entries: &[(usize, usize, f64)]) -> Self {
         let mut starts = vec![0_usize; rows + 1];
@@ -140,8 +140,8 @@ impl SparseRows {
         self.row(row).1.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
     }
 
-    /// The same matrix with other places: row r is row `rows[r]` of this one, column c becomes `columns[c]`; the columns of a
-    /// row rise. Also where each value comes from, in the order of [`SparseRows::values`].
+    /// The same matrix with other places: row r is row `rows[r]` of this one, column c becomes `columns[c]`; the
+    /// columns of a row rise. Also where each value comes from, in the order of [`SparseRows::values`].
     pub(super) fn moved(&self, rows: impl Iterator<Item = usize>, columns: &[usize]) -> (Self, Vec<usize>) {
         let mut matrix = Self::new(self.columns);
         let mut origins = Vec::with_capacity(self.values.len());

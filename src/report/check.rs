@@ -63,8 +63,8 @@ pub struct Check {
 pub fn check_table(path: &Path) -> Result<Check, Failure> {
     match read_table_file(path) {
         Ok((table, notes)) => {
-            // A warning about a cell is a problem; that profiles are missing, or a column not used, is none of a table that is
-            // only checked.
+            // A warning about a cell is a problem; that profiles are missing, or a column not used, is none of a table
+            // that is only checked.
             let (located, general): (Vec<_>, Vec<_>) = notes.into_iter().partition(|note| {
                 note.severity == exchange::Severity::Warning
                     && note.row.is_some()

@@ -27,8 +27,8 @@ pub struct Converted {
 /// Reads the table of a file and writes it in the notation and layout that are asked for, its own where none is.
 ///
 /// # Errors
-/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table; [`Failure::Usage`] when the layout that is asked
-/// for cannot hold the table.
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table; [`Failure::Usage`] when the layout that
+/// is asked for cannot hold the table.
 pub fn convert_table(path: &Path, said: &Said, writing: TableWriting) -> Result<Converted, Failure> {
     let (table, notes) = read_table_file_with(path, said)?;
     let sections = only_sections(&table);
@@ -72,7 +72,8 @@ fn is_hull(path: &Path) -> bool {
     path.is_dir() || matches!(extension.as_str(), "json" | "toml" | "hgf" | "huf")
 }
 
-/// The writer of tables in a format, where one takes tables that are nothing but `sections` or other tables; none of other formats.
+/// The writer of tables in a format, where one takes tables that are nothing but `sections` or other tables; none of
+/// other formats.
 fn of_table_in(format: ExportFormat, sections: bool) -> Option<fn(&OffsetTable) -> String> {
     Some(match format {
         ExportFormat::Ghs => write_ghs,

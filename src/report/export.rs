@@ -145,7 +145,8 @@ impl ExportFormat {
         }
     }
 
-    /// The format that the ending of a name of a file says, where only one has it; tables (`.csv`, `.xlsx`) are not among them.
+    /// The format that the ending of a name of a file says, where only one has it; tables (`.csv`, `.xlsx`) are not
+    /// among them.
     #[must_use]
     pub fn from_ending(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
@@ -177,7 +178,8 @@ pub struct ExportSettings {
     pub dxf: DxfVersion,
     /// What a mesh, or a polyline of a DXF file, leaves the surface by at most \[m\]; none: 1e-3 of the breadth.
     pub deviation: Option<f64>,
-    /// Edges of a mesh across deck, bottom and transom where these are broadest, about; the least angle may ask for others.
+    /// Edges of a mesh across deck, bottom and transom where these are broadest, about; the least angle may ask for
+    /// others.
     pub across: usize,
     /// Height that is z = 0 in the files, above the base line \[m\]; in panels it is the waterline.
     pub datum: f64,
@@ -186,7 +188,8 @@ pub struct ExportSettings {
     /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a
     /// quarter of that, until the volume of the panels is within half a per cent of the hull's.
     pub panel: Option<f64>,
-    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal; 0: all panels are planar.
+    /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal; 0: all panels
+    /// are planar.
     pub flatness: f64,
 }
 

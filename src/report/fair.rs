@@ -1,4 +1,5 @@
-//! The job of `fair`: a table of offsets or a job file in, the fair hull with its certificate out. Nothing is written here.
+//! The job of `fair`: a table of offsets or a job file in, the fair hull with its certificate out. Nothing is written
+//! here.
 
 use std::path::{Path, PathBuf};
 
@@ -80,8 +81,8 @@ fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Reads what `fair` starts from: a table of offsets, or a job file (`.toml`) that names one. `options` stand over the job file:
-/// name of the option, path of the key, text of the value.
+/// Reads what `fair` starts from: a table of offsets, or a job file (`.toml`) that names one. `options` stand over the
+/// job file: name of the option, path of the key, text of the value.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options.
@@ -168,7 +169,8 @@ impl FairJob {
     }
 }
 
-/// Name of the file of the fair table: `offsets.csv`, or with the extension of the other program's format it is written in.
+/// Name of the file of the fair table: `offsets.csv`, or with the extension of the other program's format it is written
+/// in.
 fn offsets_name(job: &FairJob) -> String {
     let extension = job.table_file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match (job.table.form.layout, job.table.form.program, extension) {
@@ -193,7 +195,8 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
     table
 }
 
-/// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the job says.
+/// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the
+/// job says.
 fn conventions_beside(job: &FairJob) -> Option<String> {
     let beside = job.beside.as_ref().map(|(_, text)| text.clone());
     let Some((_, said)) = Said::dimensions(&job.stated).file() else { return beside };

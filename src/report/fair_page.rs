@@ -42,7 +42,8 @@ pub(super) fn millimetres(length: f64) -> String {
     fixed(value, decimals)
 }
 
-/// What counts as the accuracy of the table \[m\], and what it is: two steps of its writing, or twice its noise where that is more.
+/// What counts as the accuracy of the table \[m\], and what it is: two steps of its writing, or twice its noise where
+/// that is more.
 fn accuracy(job: &FairJob, outcome: &Outcome) -> (f64, &'static str) {
     let steps = 2.0 * job.table.form.quantum().unwrap_or(0.0);
     let noise = 2.0 * outcome.faired.sigma;

@@ -65,8 +65,8 @@ pub fn write_run(folder: &Path, files: &[OutputFile], force: bool) -> Result<(),
     Ok(())
 }
 
-/// Writes `files` into `folder`, which is made when it is not there. Without `force` nothing is written when one of the files
-/// is there already. Each file is written under another name beside its place and then renamed.
+/// Writes `files` into `folder`, which is made when it is not there. Without `force` nothing is written when one of the
+/// files is there already. Each file is written under another name beside its place and then renamed.
 ///
 /// # Errors
 /// [`Failure::Exists`], [`Failure::FileSystem`].

@@ -225,8 +225,8 @@ fn summary(
 /// Fits the table and makes every file about the hull; `figures` are drawn.
 ///
 /// # Errors
-/// [`Failure::Input`] when the table and the method make no hull, with every reason; [`Failure::Internal`] when a table or a
-/// figure cannot be made.
+/// [`Failure::Input`] when the table and the method make no hull, with every reason; [`Failure::Internal`] when a table
+/// or a figure cannot be made.
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
     let assumed = Assumed::of(&job.table.stated);

@@ -63,8 +63,8 @@ fn stations(design: &Design, hull: &Hull) -> Vec<OffsetStation> {
     numbers.into_iter().map(|number| named(decimal(length * number / spaces), format!("{number}"))).collect()
 }
 
-/// Generates the hull of a design, its tables and its figures. `input` is the file name and the bytes of the design, for the
-/// manifest; `figures` are drawn.
+/// Generates the hull of a design, its tables and its figures. `input` is the file name and the bytes of the design,
+/// for the manifest; `figures` are drawn.
 ///
 /// # Errors
 /// [`Failure::Infeasible`] with every reason; [`Failure::Internal`] when a table or a figure cannot be made.

@@ -36,8 +36,9 @@ fn plain(cut: &Cut) -> String {
     named(cut).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The curve of a kind that holds more than RULING of the kind's sum of squared curvature, among RULED curves at least, and its
-/// share: a tight turn, as at the edge of a narrow flat near the ends, says more about such a sum than all other curves do.
+/// The curve of a kind that holds more than RULING of the kind's sum of squared curvature, among RULED curves at least,
+/// and its share: a tight turn, as at the edge of a narrow flat near the ends, says more about such a sum than all
+/// other curves do.
 fn ruling<'i>(inspection: &'i Inspection, word: &str) -> Option<(&'i CurveReport, f64)> {
     let curves = || inspection.curves.iter().filter(|curve| kind(&curve.cut) == word);
     let sum: f64 = curves().map(|curve| curve.bending).sum();

@@ -1,4 +1,5 @@
-//! The figures of a report: what is drawn of a result, in the order of its pages, with captions that say what to look for.
+//! The figures of a report: what is drawn of a result, in the order of its pages, with captions that say what to look
+//! for.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};

@@ -233,7 +233,8 @@ pub(super) fn constraints(fairing: &Value) -> Table {
     table
 }
 
-/// What is missed of a target of the size `scale`, in words where it is rounding; the digits of that are in `fairing.json`.
+/// What is missed of a target of the size `scale`, in words where it is rounding; the digits of that are in
+/// `fairing.json`.
 fn residual(value: &Value, scale: f64) -> String {
     const ROUNDING: f64 = 1e-12;
     let within = |missed: &f64| missed.abs() <= ROUNDING * scale;

@@ -1,7 +1,7 @@
 //! Whether a fitted surface stays within what its table says: warnings, each with the place.
 //!
-//! The surface is sampled on 201 x 61 parameters, below the deck. A half-breadth below -B/1000, or above the greatest given
-//! one by more than 2 %, is told; so is a coefficient above one at the design draught. Cost: 12 thousand points.
+//! The surface is sampled on 201 x 61 parameters, below the deck. A half-breadth below -B/1000, or above the greatest
+//! given one by more than 2 %, is told; so is a coefficient above one at the design draught. Cost: 12 thousand points.
 
 use crate::hull::{Hull, OffsetTable};
 use crate::hydrostatics::{Hydrostatics, QUANTITIES};
@@ -22,7 +22,8 @@ fn greatest(table: &OffsetTable) -> f64 {
     cells.chain(decks).chain(points).chain(stated).filter(|y| y.is_finite()).fold(0.0, f64::max)
 }
 
-/// What is wrong with `hull`, the fit of `table`; `design` is its row of hydrostatics at the design draught. Empty when nothing is.
+/// What is wrong with `hull`, the fit of `table`; `design` is its row of hydrostatics at the design draught. Empty when
+/// nothing is.
 pub(super) fn warnings(table: &OffsetTable, hull: &Hull, design: &Hydrostatics) -> Vec<String> {
     let surface = hull.surface();
     let (along, around) = (surface.u().domain(), surface.v().domain());

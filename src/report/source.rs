@@ -218,8 +218,8 @@ pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, 
     Ok(list)
 }
 
-/// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the same
-/// name beside it, when there is one.
+/// The table of offsets of a file, with what should be known about it. Conventions are taken from the TOML file of the
+/// same name beside it, when there is one.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
@@ -235,7 +235,8 @@ pub fn read_table_file_with(path: &Path, said: &Said) -> Result<(OffsetTable, Ve
     table_of(path, &read_bytes(path)?, said)
 }
 
-/// The same, with main dimensions over those that the table states: numbered stations and ratios stand where these put them.
+/// The same, with main dimensions over those that the table states: numbered stations and ratios stand where these put
+/// them.
 ///
 /// # Errors
 /// Those of [`read_table_file`].

@@ -1,8 +1,8 @@
 //! Curvature of curves and surfaces (do Carmo 1976, chapters 1 and 3; Farin 2002, chapter 19).
 //!
-//! Signs: a planar curve that turns to the left has positive curvature. The normal of a surface is that of S_u x S_v, and a
-//! normal curvature is positive where the surface bends towards the normal: with the normal outward, a sphere of radius R
-//! has the principal and mean curvature -1/R and the Gaussian curvature 1/R^2.
+//! Signs: a planar curve that turns to the left has positive curvature. The normal of a surface is that of S_u x S_v,
+//! and a normal curvature is positive where the surface bends towards the normal: with the normal outward, a sphere of
+//! radius R has the principal and mean curvature -1/R and the Gaussian curvature 1/R^2.
 
 use super::curve::BsplineCurve;
 use super::evaluate::SurfaceJet;
@@ -22,8 +22,8 @@ pub struct SurfaceCurvature {
 }
 
 impl BsplineCurve<2> {
-    /// Signed curvature (x' y'' - y' x'') / |C'|^3 at `t` \[1/length\], positive where the curve turns to the left; none where
-    /// the curve stands still.
+    /// Signed curvature (x' y'' - y' x'') / |C'|^3 at `t` \[1/length\], positive where the curve turns to the left;
+    /// none where the curve stands still.
     #[must_use]
     pub fn curvature(&self, t: f64) -> Option<f64> {
         let [_, first, second] = self.derivatives::<3>(t);
@@ -53,8 +53,9 @@ impl SurfaceJet<3> {
             return None;
         }
         let normal = along.map(|c| c / area);
-        // S_u = a e_1 and S_v = b e_1 + c e_2 with e_1, e_2 orthonormal in the tangent plane: the second fundamental form in
-        // that frame is the symmetric matrix of the shape operator, whose eigenvalues lose no digits at umbilics.
+        // S_u = a e_1 and S_v = b e_1 + c e_2 with e_1, e_2 orthonormal in the tangent plane: the second fundamental
+        // form in that frame is the symmetric matrix of the shape operator, whose eigenvalues lose no digits at
+        // umbilics.
         let a = dot(self.du, self.du).sqrt();
         let (b, c) = (dot(self.du, self.dv) / a, area / a);
         let [l, m, n] = [self.duu, self.duv, self.dvv].map(|d| dot(d, normal));

@@ -4,8 +4,8 @@
 //!
 //! > int w(t) (f^(m)(t))^2 dt + sum_k (B_k c - y_k)^2 / s_k,    subject to B_k c = y_k where s_k = 0.
 //!
-//! B_k c is the value or a derivative at a site; there may be fewer conditions than coefficients (the rule) and any number
-//! of them in one span, as long as the exact ones are independent. The conditions of optimality,
+//! B_k c is the value or a derivative at a site; there may be fewer conditions than coefficients (the rule) and any
+//! number of them in one span, as long as the exact ones are independent. The conditions of optimality,
 //!
 //! > H c + B'p = 0,    B c - s p = y,
 //!
@@ -14,8 +14,8 @@
 //! is scaled, factored once with pivoting and refined: conditions are met to a few 1e-15 of the size of the data. Cost:
 //! O((n + k) (degree + k/n)^2) for n coefficients and k conditions, once, and O((n + k) (degree + k/n)) a set of data.
 //!
-//! Limits: the energy is that of derivatives in the parameter. The polynomials of degree below m are free, so that at least
-//! m conditions are needed.
+//! Limits: the energy is that of derivatives in the parameter. The polynomials of degree below m are free, so that at
+//! least m conditions are needed.
 
 use super::fit::Condition;
 use super::gram::Gram;
@@ -129,8 +129,8 @@ impl Energy {
         self.smoothing(conditions, &vec![0.0; conditions.len()])
     }
 
-    /// The spline that minimises the energy plus the sum of (B_k c - y_k)^2 / s_k; conditions with `slacks` s_k = 0 are met
-    /// exactly. Penalised least squares, sum w_k (B_k c - y_k)^2 + lambda c'Hc, is s_k = lambda / w_k.
+    /// The spline that minimises the energy plus the sum of (B_k c - y_k)^2 / s_k; conditions with `slacks` s_k = 0 are
+    /// met exactly. Penalised least squares, sum w_k (B_k c - y_k)^2 + lambda c'Hc, is s_k = lambda / w_k.
     ///
     /// # Errors
     /// As [`Self::interpolation`]; [`SplineError::PointCount`] when there are not as many slacks as conditions,
@@ -374,7 +374,8 @@ mod tests {
         let slack = 0.7;
         let problem = Energy::new(&knots, 2).smoothing(&values(&[0.0, 1.0, 2.0]), &[slack; 3]).unwrap();
         let f = curve(&knots, &problem.solve(&[0.0, 1.0, 0.0]));
-        // The fitted bend b = f1 - (f0 + f2)/2 has energy 6 b^2 and data misfit (2/3)(b - 1)^2 / s: 6 b = (2/3)(1 - b) / s.
+        // The fitted bend b = f1 - (f0 + f2)/2 has energy 6 b^2 and data misfit (2/3)(b - 1)^2 / s: 6 b = (2/3)(1 -
+        // b) / s.
         let bend = (2.0 / 3.0 / slack) / (6.0 + 2.0 / 3.0 / slack);
         let found = f.eval(1.0)[0] - 0.5 * (f.eval(0.0)[0] + f.eval(2.0)[0]);
         assert!((found - bend).abs() < 1e-14, "{found} {bend}");

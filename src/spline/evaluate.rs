@@ -101,7 +101,8 @@ impl<const D: usize> BsplineSurface<D> {
         })
     }
 
-    /// The point at (u, v) as [`Self::jet`] has it: for many points of a bicubic surface, whose polynomials the first call makes.
+    /// The point at (u, v) as [`Self::jet`] has it: for many points of a bicubic surface, whose polynomials the first
+    /// call makes.
     #[must_use]
     #[inline]
     pub fn point_of_many(&self, u: f64, v: f64) -> [f64; D] {

@@ -24,8 +24,9 @@ impl Collocation {
     /// Values at increasing sites, one a basis function.
     ///
     /// # Errors
-    /// [`SplineError::PointCount`] when their number is not that of the basis functions, [`SplineError::Site`] when they do
-    /// not increase, [`SplineError::Undetermined`] when they do not determine the spline (Schoenberg & Whitney 1953).
+    /// [`SplineError::PointCount`] when their number is not that of the basis functions, [`SplineError::Site`] when
+    /// they do not increase, [`SplineError::Undetermined`] when they do not determine the spline (Schoenberg & Whitney
+    /// 1953).
     pub fn new(knots: &KnotVector, sites: &[f64]) -> Result<Self, SplineError> {
         if sites.len() != knots.basis_count() {
             return Err(SplineError::PointCount { found: sites.len(), expected: knots.basis_count() });

@@ -1,7 +1,7 @@
 //! Exact integrals: Gram matrices of derivatives of basis functions, and moments of basis functions.
 //!
-//! Every integrand is a polynomial between the knots, integrated by a Gauss-Legendre rule of sufficient order; the error is
-//! that of rounding, about 1e-15 of the size of the result (Vermeulen, Bartels & Heppler 1992).
+//! Every integrand is a polynomial between the knots, integrated by a Gauss-Legendre rule of sufficient order; the
+//! error is that of rounding, about 1e-15 of the size of the result (Vermeulen, Bartels & Heppler 1992).
 
 use super::basis::Row;
 use super::knots::{KnotVector, MAX_DEGREE};
@@ -17,8 +17,9 @@ pub struct Gram {
 }
 
 impl Gram {
-    /// The matrix over the whole domain of `rows`, for derivatives of orders `orders[0]` of its functions and `orders[1]` of
-    /// those of `columns`. The two may differ in knots and degree; functions vanish outside their domain.
+    /// The matrix over the whole domain of `rows`, for derivatives of orders `orders[0]` of its functions and
+    /// `orders[1]` of those of `columns`. The two may differ in knots and degree; functions vanish outside their
+    /// domain.
     #[must_use]
     pub fn new(rows: &KnotVector, columns: &KnotVector, orders: [usize; 2]) -> Self {
         let (from, to) = rows.domain();

@@ -5,9 +5,9 @@ use super::parametrize::Parametrization;
 use super::surface::BsplineSurface;
 
 impl<const D: usize> BsplineSurface<D> {
-    /// The surface through a grid of points (`u` slowest, `columns` in v) with as many control points as data: parameters by
-    /// `rule`, averaged over the rows and over the columns, knots by [`KnotVector::between_sites`], the net by solving the
-    /// collocation equations. Of degree `degrees` in u and v, lower where there are too few points.
+    /// The surface through a grid of points (`u` slowest, `columns` in v) with as many control points as data:
+    /// parameters by `rule`, averaged over the rows and over the columns, knots by [`KnotVector::between_sites`], the
+    /// net by solving the collocation equations. Of degree `degrees` in u and v, lower where there are too few points.
     ///
     /// # Errors
     /// [`SplineError::PointCount`] when the points are no grid of two rows and two columns at least,

@@ -76,8 +76,8 @@ impl KnotVector {
     /// Takes the full sequence of knots, `basis functions + degree + 1` of them.
     ///
     /// # Errors
-    /// [`SplineError`] when the degree is outside 1 to [`MAX_DEGREE`], a knot is not finite, the sequence decreases, an end
-    /// is not `degree + 1` fold or an interior knot is more than `degree` fold.
+    /// [`SplineError`] when the degree is outside 1 to [`MAX_DEGREE`], a knot is not finite, the sequence decreases, an
+    /// end is not `degree + 1` fold or an interior knot is more than `degree` fold.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, SplineError> {
         if !(1..=MAX_DEGREE).contains(&degree) {
             return Err(SplineError::Degree(degree));
@@ -252,7 +252,8 @@ impl KnotVector {
 
     /// As [`Self::orders_at`] where the order K, the degree plus 1, is known.
     ///
-    /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the ends).
+    /// Cubics take their polynomials from the table (error about 2e-16 of the greatest value; 0 and 1 exactly at the
+    /// ends).
     #[inline(always)]
     pub(super) fn orders_at_fixed<const K: usize, const N: usize>(&self, t: f64) -> (usize, [[f64; K]; N]) {
         let t = self.clamp(t);

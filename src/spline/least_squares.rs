@@ -137,8 +137,8 @@ impl<const D: usize> BsplineSurface<D> {
     }
 
     /// The surface over `knots` (in u and in v) with the least sum of squared distances to the grid of `points` (`u`
-    /// slowest) at the `sites`. With held ends, the four boundary curves are the fits of the boundary points and the corners are
-    /// met.
+    /// slowest) at the `sites`. With held ends, the four boundary curves are the fits of the boundary points and the
+    /// corners are met.
     ///
     /// # Errors
     /// As [`BsplineCurve::fit`].

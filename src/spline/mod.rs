@@ -1,9 +1,10 @@
 //! B-spline kernel: knots, basis, curves, surfaces, refinement, fitting, exact integrals, curvature. It knows no ship.
 //!
 //! Conventions: degree 1 to [`MAX_DEGREE`], clamped knots (both ends `degree + 1` fold), interior multiplicities up to
-//! `degree` (a multiplicity of `degree` is a corner, `degree - 1` a jump of curvature). Functions are continuous from the
-//! right; the last span is closed. Arguments outside the domain are taken to its nearest end. Nets are stored `u` slowest.
-//! Signs of curvature: a planar curve that turns left is positive; a surface that bends towards S_u x S_v is positive.
+//! `degree` (a multiplicity of `degree` is a corner, `degree - 1` a jump of curvature). Functions are continuous from
+//! the right; the last span is closed. Arguments outside the domain are taken to its nearest end. Nets are stored `u`
+//! slowest. Signs of curvature: a planar curve that turns left is positive; a surface that bends towards S_u x S_v is
+//! positive.
 //!
 //! Evaluation finds its span in constant time; [`BsplineSurface::grid_jets`] is for grids. Refinement
 //! keeps shapes to rounding (1e-13 of their size in the tests), integrals are exact to rounding.

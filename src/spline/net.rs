@@ -53,7 +53,8 @@ pub fn energy(u: &KnotVector, v: &KnotVector, order: usize, anisotropy: f64) -> 
     energy
 }
 
-/// Adds factor times the product of two Gram matrices, one over the rows and one over the columns of a net, to a band over the net.
+/// Adds factor times the product of two Gram matrices, one over the rows and one over the columns of a net, to a band
+/// over the net.
 pub fn add_product(sum: &mut SymmetricBand, [along, across]: [&Gram; 2], factor: f64, [u, v]: [&KnotVector; 2]) {
     let (rows, columns) = (u.basis_count(), v.basis_count());
     let (p, q) = (u.degree().min(rows - 1), v.degree().min(columns - 1));

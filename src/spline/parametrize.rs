@@ -83,8 +83,8 @@ impl KnotVector {
     /// Piegl & Tiller 1997, 9.8), so that the Schoenberg-Whitney condition holds.
     ///
     /// # Errors
-    /// [`SplineError::PointCount`] for fewer than `degree + 1` sites, [`SplineError::Site`] when they do not increase, and as
-    /// [`KnotVector::new`].
+    /// [`SplineError::PointCount`] for fewer than `degree + 1` sites, [`SplineError::Site`] when they do not increase,
+    /// and as [`KnotVector::new`].
     pub fn averaged(degree: usize, sites: &[f64]) -> Result<Self, SplineError> {
         check_sites(sites)?;
         let interior = |p: usize| -> Vec<f64> {
@@ -93,8 +93,8 @@ impl KnotVector {
         Self::clamped_around(degree, sites, sites.len(), interior)
     }
 
-    /// Knots for a least-squares spline with `count` control points through data at `sites`: every span holds at least one
-    /// site (Piegl & Tiller 1997, 9.68 and 9.69).
+    /// Knots for a least-squares spline with `count` control points through data at `sites`: every span holds at least
+    /// one site (Piegl & Tiller 1997, 9.68 and 9.69).
     ///
     /// # Errors
     /// [`SplineError::PointCount`] when `count` is below `degree + 1` or above the number of sites,
@@ -118,10 +118,10 @@ impl KnotVector {
         Self::clamped_around(degree, sites, count, interior)
     }
 
-    /// Knots for interpolation at `sites` between the sites themselves (Silalahi 1999): for n sites t_1 .. t_n and the order
-    /// k = `degree` + 1, the interior knots are x_{k+i} = t_{j+i} + (s/2) (t_{j+i+1} - t_{j+i}), 1 <= i <= n - k, with
-    /// j = k div 2 and s = k mod 2. For even orders they are sites (two at each end left out, for a cubic: the spline has no
-    /// knot there), for odd orders they lie midway between two.
+    /// Knots for interpolation at `sites` between the sites themselves (Silalahi 1999): for n sites t_1 .. t_n and the
+    /// order k = `degree` + 1, the interior knots are x_{k+i} = t_{j+i} + (s/2) (t_{j+i+1} - t_{j+i}), 1 <= i <= n - k,
+    /// with j = k div 2 and s = k mod 2. For even orders they are sites (two at each end left out, for a cubic: the
+    /// spline has no knot there), for odd orders they lie midway between two.
     ///
     /// # Errors
     /// As [`KnotVector::averaged`].

@@ -1,9 +1,9 @@
 //! Interpolation of periodic data.
 //!
-//! A periodic spline of degree p through n points is p - 1 times continuously differentiable across the seam. Knots are the
-//! sites (odd degree) or lie midway between them (even degree). On equal steps the relative error of the interpolant of
-//! exp(i t) in the derivative of order m is about 2 (n - 1)^(m - p - 1) (Golomb 1968). The cyclic matrix becomes a banded
-//! one when the unknowns are taken in the order 0, n - 1, 1, n - 2, ...
+//! A periodic spline of degree p through n points is p - 1 times continuously differentiable across the seam. Knots are
+//! the sites (odd degree) or lie midway between them (even degree). On equal steps the relative error of the
+//! interpolant of exp(i t) in the derivative of order m is about 2 (n - 1)^(m - p - 1) (Golomb 1968). The cyclic matrix
+//! becomes a banded one when the unknowns are taken in the order 0, n - 1, 1, n - 2, ...
 
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, MAX_DEGREE, SplineError};
@@ -29,8 +29,8 @@ impl PeriodicCollocation {
     /// [`sites[0]`, `sites[0] + period`].
     ///
     /// # Errors
-    /// [`SplineError::Degree`], [`SplineError::PointCount`] for fewer than `degree + 1` sites, [`SplineError::Site`] when they do
-    /// not increase or reach beyond a period.
+    /// [`SplineError::Degree`], [`SplineError::PointCount`] for fewer than `degree + 1` sites, [`SplineError::Site`]
+    /// when they do not increase or reach beyond a period.
     pub fn new(degree: usize, sites: &[f64], period: f64) -> Result<Self, SplineError> {
         if !(1..=MAX_DEGREE).contains(&degree) {
             return Err(SplineError::Degree(degree));
@@ -58,7 +58,8 @@ impl PeriodicCollocation {
                 ((i + n - p) % n, super::basis::blossom_row(&unclamped, span, &vec![sites[i]; p]))
             })
             .collect();
-        // Row i meets the functions i - p ..= i; moved by half of that, row and column numbers differ by p / 2 + 1 at most.
+        // Row i meets the functions i - p ..= i; moved by half of that, row and column numbers differ by p / 2 + 1 at
+        // most.
         let shift = p / 2 + 1;
         let entry = |r: usize, c: usize| {
             let (i, j) = (unfold(r, n), (unfold(c, n) + n - shift) % n);

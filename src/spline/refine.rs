@@ -1,9 +1,9 @@
 //! Knot insertion, degree elevation and splitting: new control points of the same shape.
 //!
-//! Every new control point is a blossom of the old spline at successive new knots. Arranged as rows of the Oslo algorithm
-//! (Cohen, Lyche & Riesenfeld 1980; Lyche & Morken 1986) it is a convex combination of at most `degree + 1` old ones, so
-//! that rounding does not grow: shapes are kept to about 1e-15 of their size. Elevation is the mean over the blossoms that
-//! leave out one argument (Ramshaw 1989; Piegl & Tiller 1997, 5.5).
+//! Every new control point is a blossom of the old spline at successive new knots. Arranged as rows of the Oslo
+//! algorithm (Cohen, Lyche & Riesenfeld 1980; Lyche & Morken 1986) it is a convex combination of at most `degree + 1`
+//! old ones, so that rounding does not grow: shapes are kept to about 1e-15 of their size. Elevation is the mean over
+//! the blossoms that leave out one argument (Ramshaw 1989; Piegl & Tiller 1997, 5.5).
 
 use super::basis::{Row, blossom_row};
 use super::curve::BsplineCurve;
@@ -26,7 +26,8 @@ pub(super) struct RefinementRow {
 }
 
 /// Rows that take control points over `old` knots (of `degree`, clamped or not) to control points over the refinement
-/// `new`, which holds each of `old` knots at least as often and whose first and last `degree + 1` knots lie in the domain.
+/// `new`, which holds each of `old` knots at least as often and whose first and last `degree + 1` knots lie in the
+/// domain.
 pub(super) fn refinement_rows(degree: usize, old: &[f64], new: &[f64]) -> Vec<RefinementRow> {
     let count = old.len() - degree - 1;
     (0..new.len() - degree - 1)

@@ -1,14 +1,16 @@
-//! Uniform splines over vertices that may be repeated (Barsky & Greenberg 1980; Bartels, Beatty & Barsky 1987, chapter 8).
+//! Uniform splines over vertices that may be repeated (Barsky & Greenberg 1980; Bartels, Beatty & Barsky 1987, chapter
+//! 8).
 //!
-//! A uniform spline of degree p has one span for every p + 1 successive vertices, on which a cubic is
-//! S(t) = [t^3 t^2 t 1] M_s [V_0 V_1 V_2 V_3]^T, 0 <= t <= 1, with
-//! M_s = 1/6 [[-1, 3, -3, 1], [3, -6, 3, 0], [-3, 0, 3, 0], [1, 4, 1, 0]]. It does not pass through its vertices. A vertex
-//! that stands p times in succession is met, and the tangent may break there: the spans on its two sides have no other
-//! vertex in common, so that they could as well be two splines that share it.
+//! A uniform spline of degree p has one span for every p + 1 successive vertices, on which a cubic is S(t) = [t^3 t^2 t
+//! 1] M_s [V_0 V_1 V_2 V_3]^T, 0 <= t <= 1, with M_s = 1/6 [[-1, 3, -3, 1], [3, -6, 3, 0], [-3, 0, 3, 0], [1, 4, 1,
+//! 0]]. It does not pass through its vertices. A vertex that stands p times in succession is met, and the tangent may
+//! break there: the spans on its two sides have no other vertex in common, so that they could as well be two splines
+//! that share it.
 //!
-//! With both ends repeated p times the spline over the uniform knots is the one over the clamped knots with the same control
-//! points, exactly and without a computation: the control points that clamping changes are affine combinations of equal
-//! ones. The first p - 1 derivatives by the parameter vanish at a repeated vertex; directions exist as limits only.
+//! With both ends repeated p times the spline over the uniform knots is the one over the clamped knots with the same
+//! control points, exactly and without a computation: the control points that clamping changes are affine combinations
+//! of equal ones. The first p - 1 derivatives by the parameter vanish at a repeated vertex; directions exist as limits
+//! only.
 
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, SplineError};
@@ -32,8 +34,8 @@ fn knots(degree: usize, vertices: usize) -> Result<KnotVector, SplineError> {
 }
 
 impl<const D: usize> BsplineCurve<D> {
-    /// The uniform spline of `degree` over the vertices, of which the ends and those with an index in `corners` are met: they
-    /// are repeated `degree` times. The knots are 0, 1, 2 ..
+    /// The uniform spline of `degree` over the vertices, of which the ends and those with an index in `corners` are
+    /// met: they are repeated `degree` times. The knots are 0, 1, 2 ..
     ///
     /// # Errors
     /// [`SplineError::Degree`]; [`SplineError::PointCount`] for fewer than two vertices; [`SplineError::NotFinite`].
@@ -50,7 +52,8 @@ impl<const D: usize> BsplineSurface<D> {
     /// along which two surfaces meet with a common curve and a free tangent.
     ///
     /// # Errors
-    /// As [`BsplineCurve::from_vertices`], in each direction; [`SplineError::PointCount`] also when the vertices are no grid.
+    /// As [`BsplineCurve::from_vertices`], in each direction; [`SplineError::PointCount`] also when the vertices are no
+    /// grid.
     pub fn from_vertices(
         degree: usize,
         columns: usize,

@@ -1,4 +1,5 @@
-//! Lists of lengths: `1:9:1` (from, to, step, both ends), `1,2.5,4`, `0,5,...,30,40,...,90`; every number may carry a unit.
+//! Lists of lengths: `1:9:1` (from, to, step, both ends), `1,2.5,4`, `0,5,...,30,40,...,90`; every number may carry a
+//! unit.
 
 use super::quantity::{UnitError, parse_length};
 
@@ -48,8 +49,8 @@ pub enum ListError {
     TooLong,
 }
 
-/// The multiple of 1e-9 that a sum or product of decimal fractions means, when it is one to 1e-13 of itself; otherwise the
-/// value.
+/// The multiple of 1e-9 that a sum or product of decimal fractions means, when it is one to 1e-13 of itself; otherwise
+/// the value.
 #[must_use]
 pub fn decimal(value: f64) -> f64 {
     let rounded = (value * 1e9).round() / 1e9;

@@ -1,7 +1,7 @@
 //! Lengths in the notations of tables of offsets.
 //!
-//! Factors are exact by definition: 1 in = 0.0254 m, 1 ft = 0.3048 m. Whole units of a metre are divided by powers of ten,
-//! so that 6410 mm is the same double as 6.41 m.
+//! Factors are exact by definition: 1 in = 0.0254 m, 1 ft = 0.3048 m. Whole units of a metre are divided by powers of
+//! ten, so that 6410 mm is the same double as 6.41 m.
 
 /// How a length is written in a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,8 +38,8 @@ impl Notation {
         }
     }
 
-    /// The notation that a word names, on a command line, in a header or in a file of conventions; upper and lower case are
-    /// the same.
+    /// The notation that a word names, on a command line, in a header or in a file of conventions; upper and lower case
+    /// are the same.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Some(match word.trim().to_ascii_lowercase().as_str() {
@@ -85,8 +85,8 @@ impl Notation {
         self.write_to(length, if self == Self::Millimetres { Some(0) } else { None })
     }
 
-    /// `length` \[m\] with so many decimals; the shortest number that reads back as the same length for none. Eighths have no
-    /// decimals.
+    /// `length` \[m\] with so many decimals; the shortest number that reads back as the same length for none. Eighths
+    /// have no decimals.
     #[must_use]
     pub fn write_to(self, length: f64, decimals: Option<usize>) -> String {
         if self == Self::FeetInchesEighths {

@@ -144,7 +144,8 @@ fn number(text: &str) -> Result<f64, UnitError> {
     if value.is_finite() { Ok(value) } else { Err(UnitError::TooLarge(quoted(text))) }
 }
 
-/// `3-4-5`, `3-4-5+`, `-3-4-5-`: feet, inches, eighths, and a sixteenth more or less \[m\]; none when it does not look so.
+/// `3-4-5`, `3-4-5+`, `-3-4-5-`: feet, inches, eighths, and a sixteenth more or less \[m\]; none when it does not look
+/// so.
 fn eighths(text: &str) -> Option<Result<f64, UnitError>> {
     let (sign, body) = match text.strip_prefix('-') {
         Some(rest) => (-1.0, rest),

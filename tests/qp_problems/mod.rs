@@ -14,9 +14,9 @@ const TOLERANCE: f64 = 0.015;
 /// Weight of the mean square deviation from the offsets.
 const DATA: f64 = 1e5;
 
-/// The fairing of `offsets` (stations x waterlines) by a bicubic net y(u, v) of `net` points: min of the thin-plate energy and the
-/// deviation; bands at all offsets, y >= 0, control polygons concave along both directions; displacement and LCB are equalities
-/// (rows 0 and 1).
+/// The fairing of `offsets` (stations x waterlines) by a bicubic net y(u, v) of `net` points: min of the thin-plate
+/// energy and the deviation; bands at all offsets, y >= 0, control polygons concave along both directions; displacement
+/// and LCB are equalities (rows 0 and 1).
 pub(crate) fn fairing(offsets: [usize; 2], net: [usize; 2], seed: u64) -> Problem {
     let mut rng = StdRng::seed_from_u64(seed);
     let knots = net.map(|count| KnotVector::uniform(3, count - 3).unwrap());
@@ -121,8 +121,9 @@ pub(crate) enum Shape {
     Linear,
 }
 
-/// A random program with a feasible point and a bounded optimum: rows of 1 to 4 entries and of different size, equalities, bands,
-/// one-sided rows, rows without limits, doubled rows, bands of no width and, now and then, one dense equality.
+/// A random program with a feasible point and a bounded optimum: rows of 1 to 4 entries and of different size,
+/// equalities, bands, one-sided rows, rows without limits, doubled rows, bands of no width and, now and then, one dense
+/// equality.
 pub(crate) fn random(seed: u64, shape: Shape) -> Problem {
     let mut rng = StdRng::seed_from_u64(seed);
     let n = rng.random_range(1..30_usize);

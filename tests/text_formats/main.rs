@@ -20,8 +20,8 @@ fn list(problems: &[TableProblem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// Area of both sides of a section below `draught`: the integral of y dz along its lines, which counts what a line doubles
-/// back over once \[m^2\].
+/// Area of both sides of a section below `draught`: the integral of y dz along its lines, which counts what a line
+/// doubles back over once \[m^2\].
 fn area(station: &StationOffsets, draught: f64) -> f64 {
     let mut sum = 0.0;
     for pair in station.outlines.iter().flat_map(|line| line.windows(2)) {

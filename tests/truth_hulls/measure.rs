@@ -84,7 +84,8 @@ impl Truth {
     }
 }
 
-/// Distance from the centreplane at `height` down a plane of 45 degrees to the hull; none where it leaves the hull otherwise.
+/// Distance from the centreplane at `height` down a plane of 45 degrees to the hull; none where it leaves the hull
+/// otherwise.
 fn along(height: f64, half: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (mut low, mut high) = (0.0, height);
     let outside = |t: f64| Some(half(height - t)? <= t);

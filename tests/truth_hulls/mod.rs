@@ -1,4 +1,5 @@
-//! Hulls whose true shape is known, tables of offsets with seeded errors sampled from them, and what fairing makes of these.
+//! Hulls whose true shape is known, tables of offsets with seeded errors sampled from them, and what fairing makes of
+//! these.
 //!
 //! Truths, the first five in closed form over the rectangle 0 <= x <= L, 0 <= z <= T with plumb ends:
 //!
@@ -6,12 +7,14 @@
 //! * S-shaped: y = (B/2)(1 - r(a)/r(1))(1 - w^2), a = |s|, r(t) = 1 - cos(sqrt(-m) t), t^2/2 or cosh(sqrt(m) t) - 1 for
 //!   m < 0, = 0, > 0 and m = 12 z/T - 8: hollow waterlines below, full ones above;
 //! * parallel middle body: flat from 0.36 L to 0.64 L, ends 1 - q(t)/q(1) with q(t) = k t - sin(k t) or sinh(k t) - k t;
-//! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a vertical side;
-//! * bulk carrier, container ship, frigate: presets of the generator; Series 60 and S-175: surfaces fitted to the published tables.
+//! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a
+//!   vertical side;
+//! * bulk carrier, container ship, frigate: presets of the generator; Series 60 and S-175: surfaces fitted to the
+//!   published tables.
 //!
-//! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the distance along
-//! the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it is above a hundredth of the
-//! largest of the truth's own line.
+//! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the
+//! distance along the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it
+//! is above a hundredth of the largest of the truth's own line.
 
 #![allow(dead_code, unused_imports, unreachable_pub, reason = "the bench and the test use different parts")]
 

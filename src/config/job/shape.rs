@@ -275,7 +275,8 @@ impl RuleMark {
     /// A message that says what the table has.
     pub fn find(&self, table: &OffsetTable) -> Result<Rule, Box<Diagnostic>> {
         let name = Mark::new(&self.file, &self.key, self.at);
-        // A station by its name or its position, a waterline by its header or its height; both may lie between those of the table.
+        // A station by its name or its position, a waterline by its header or its height; both may lie between those of
+        // the table.
         let x = |text: &str| match name.station(table, text) {
             Ok(index) => Ok(table.stations[index].station.x),
             Err(problem) => parse_length(text).map_err(|_| problem),

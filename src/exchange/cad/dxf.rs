@@ -1,4 +1,5 @@
-//! DXF: polylines on named layers, in space or flat; of AutoCAD R12 (AC1009), which every program that reads DXF takes, or 2000.
+//! DXF: polylines on named layers, in space or flat; of AutoCAD R12 (AC1009), which every program that reads DXF takes,
+//! or 2000.
 
 mod r2000;
 

@@ -1,4 +1,5 @@
-//! IGES 5.3 (US PRO, 1996): the solid as a manifold B-rep, entity 186, its faces untrimmed B-spline surfaces, entities 128.
+//! IGES 5.3 (US PRO, 1996): the solid as a manifold B-rep, entity 186, its faces untrimmed B-spline surfaces, entities
+//! 128.
 //!
 //! Records of 80 columns: text in the first 72, a letter and a number from 73 on.
 

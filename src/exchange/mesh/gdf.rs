@@ -1,5 +1,6 @@
-//! GDF, the low-order panels of WAMIT (WAMIT User Manual, section 6.1): a title, ULEN and GRAV, ISX and ISY, the number of panels,
-//! and for each the coordinates of its four corners, counter-clockwise seen from the water. ISY = 1: y = 0 is a plane of symmetry.
+//! GDF, the low-order panels of WAMIT (WAMIT User Manual, section 6.1): a title, ULEN and GRAV, ISX and ISY, the number
+//! of panels, and for each the coordinates of its four corners, counter-clockwise seen from the water. ISY = 1: y = 0
+//! is a plane of symmetry.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,5 @@
-//! Meshes for other programs: triangles as STL, OBJ, GLB; panels below a draught as GDF, NEMOH, PNL. All of them are read too.
+//! Meshes for other programs: triangles as STL, OBJ, GLB; panels below a draught as GDF, NEMOH, PNL. All of them are
+//! read too.
 
 mod gdf;
 mod glb;

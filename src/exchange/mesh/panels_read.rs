@@ -70,7 +70,8 @@ impl<'a> Words<'a> {
     }
 }
 
-/// The triangles of a panel with corners in turn, from the first of these, as its volume is reckoned on the page of `export`.
+/// The triangles of a panel with corners in turn, from the first of these, as its volume is reckoned on the page of
+/// `export`.
 fn triangles([a, b, c, d]: [[f64; 3]; 4]) -> [[[f64; 3]; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
@@ -139,7 +140,8 @@ fn by_number(numbers: [usize; 4], nodes: &[[f64; 3]], line: usize, faults: &mut 
     Some(panel)
 }
 
-/// Reads a mesh of NEMOH: two numbers, nodes with their numbers up to a line of zeros, four corners of each panel up to another.
+/// Reads a mesh of NEMOH: two numbers, nodes with their numbers up to a line of zeros, four corners of each panel up to
+/// another.
 ///
 /// # Errors
 /// Every fault of the file, up to a number of them.

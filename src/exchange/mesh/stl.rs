@@ -1,7 +1,7 @@
 //! STL (3D Systems, 1988): binary, all regions in one solid; and ASCII, a named solid for each region.
 //!
-//! A file is binary when its length is 84 + 50 n bytes, n being the number in bytes 81 to 84, whatever it begins with. Normals of
-//! files are not read.
+//! A file is binary when its length is 84 + 50 n bytes, n being the number in bytes 81 to 84, whatever it begins with.
+//! Normals of files are not read.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,5 @@
-//! The binary project file, `.fbm`, little-endian: numbers of four bytes, truth of one byte, texts with their length before them.
+//! The binary project file, `.fbm`, little-endian: numbers of four bytes, truth of one byte, texts with their length
+//! before them.
 
 use super::super::fault::{Faults, RecordFault};
 use super::{LARGEST, Records, SubdivisionProject, VERSIONS, Version, project};

@@ -145,8 +145,8 @@ impl<'a> Reader<'a> {
 
     /// The form with the notation and the digits that most offsets have.
     ///
-    /// Whole numbers count where there are no others: a 6 among numbers with two decimals is 6.00. Of two numbers of digits
-    /// that are as frequent the larger is taken.
+    /// Whole numbers count where there are no others: a 6 among numbers with two decimals is 6.00. Of two numbers of
+    /// digits that are as frequent the larger is taken.
     pub(super) fn finish(mut self) -> TableForm {
         let [plain, eighths] = self.writings;
         if eighths > plain {

@@ -81,8 +81,9 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     }
 }
 
-/// Main dimensions of a TOML beside a table: `lpp`, `beam`, `draught`, `depth` (and `L`, `lbp`, `B`, `T`, `draft`, `D`) at its
-/// top or in `[table]`, `[particulars]` or `[dimensions]`; numbers in metres, or texts with a unit. Other keys are not looked at.
+/// Main dimensions of a TOML beside a table: `lpp`, `beam`, `draught`, `depth` (and `L`, `lbp`, `B`, `T`, `draft`, `D`)
+/// at its top or in `[table]`, `[particulars]` or `[dimensions]`; numbers in metres, or texts with a unit. Other keys
+/// are not looked at.
 ///
 /// # Errors
 /// A text that is no TOML, and values that are no lengths, each with its place (E311).

@@ -1,7 +1,7 @@
 //! BRITFAIR offsets (`.bri`): sections of points, each with its count and x and closed by `0`.
 //!
-//! Name; number of hulls; per section `n x x` and n lines `y z`, then `0`; at the end `0 0 0`. A section that gives both sides
-//! is cut at the centreplane and its starboard (y > 0) half is taken. Written with six decimals.
+//! Name; number of hulls; per section `n x x` and n lines `y z`, then `0`; at the end `0 0 0`. A section that gives
+//! both sides is cut at the centreplane and its starboard (y > 0) half is taken. Written with six decimals.
 
 use super::fields::{Line, Separator, lines};
 use super::outline::{line_of, point};

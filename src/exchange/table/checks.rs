@@ -85,8 +85,8 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
 }
 
 /// Stated particulars that contradict the table: a draught above its top, a breadth that differs from twice the largest
-/// half-breadth by more than 5 %, a length between perpendiculars that differs from the extent of the stations by more than a
-/// factor 1.5.
+/// half-breadth by more than 5 %, a length between perpendiculars that differs from the extent of the stations by more
+/// than a factor 1.5.
 pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
     let stated = &table.stated;
     let points = || table.stations.iter().flat_map(|s| s.outlines.iter().flatten());

@@ -25,8 +25,8 @@ const FORMATS: [Format; 10] = [
 
 /// The table in a file of another program; none when it is in none of these formats.
 ///
-/// Bytes that are not UTF-8 stand in names only and are replaced. The TOML beside a file gives the dimensions of a table of
-/// fractions; the other formats need none.
+/// Bytes that are not UTF-8 stand in names only and are replaced. The TOML beside a file gives the dimensions of a
+/// table of fractions; the other formats need none.
 pub(super) fn read(
     name: &str,
     bytes: &[u8],
@@ -68,9 +68,9 @@ fn recognised(name: &str, text: &str, beside: Option<(&str, &str)>) -> Option<Re
     }))
 }
 
-/// The file of a table in the format of a program, when reading it gives the sections of the table: as many, with as many
-/// points. The differences of what is read are the largest and the root mean square of those of the points, and the largest
-/// of the positions \[m\].
+/// The file of a table in the format of a program, when reading it gives the sections of the table: as many, with as
+/// many points. The differences of what is read are the largest and the root mean square of those of the points, and
+/// the largest of the positions \[m\].
 pub(super) fn write(table: &OffsetTable, program: Program) -> Option<super::WrittenTable> {
     let text = match program {
         Program::Ghs => ghs::write(table),

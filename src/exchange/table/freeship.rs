@@ -1,9 +1,9 @@
-//! Text imports of FREE!ship: the precision in the first line, then lines `x y z`, with blank lines between the curves, and
-//! perhaps a line `EOF`.
+//! Text imports of FREE!ship: the precision in the first line, then lines `x y z`, with blank lines between the curves,
+//! and perhaps a line `EOF`.
 //!
-//! Curves of constant x are sections from keel to deck ("round hull"). Otherwise they are chines, keel first and sheer last:
-//! each becomes a knuckle of the table, and sections stand at every x of their points, straight between the chines, the
-//! chines straight between their points. Round hulls are written with five decimals.
+//! Curves of constant x are sections from keel to deck ("round hull"). Otherwise they are chines, keel first and sheer
+//! last: each becomes a knuckle of the table, and sections stand at every x of their points, straight between the
+//! chines, the chines straight between their points. Round hulls are written with five decimals.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::outline::{line_of, point};

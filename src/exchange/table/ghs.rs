@@ -1,9 +1,10 @@
 //! GHS geometry files (`.gf`): shapes of sections, components made of shapes, parts made of components.
 //!
-//! Title, `KEY:value` lines, `*`, shapes, `**`, components, `***`, parts, and `****`. Coordinates are in feet whatever the
-//! display units `P:` say; x grows aft, y to starboard. A component of side 0 is mirrored, one of side 1 or -1 is not. A
-//! section is half of it, or a loop around both sides, which is cut at the centreplane. The table has the sections of the
-//! component of the part HULL that reaches the centreplane on most sections; every other is named in the notes.
+//! Title, `KEY:value` lines, `*`, shapes, `**`, components, `***`, parts, and `****`. Coordinates are in feet whatever
+//! the display units `P:` say; x grows aft, y to starboard. A component of side 0 is mirrored, one of side 1 or -1 is
+//! not. A section is half of it, or a loop around both sides, which is cut at the centreplane. The table has the
+//! sections of the component of the part HULL that reaches the centreplane on most sections; every other is named in
+//! the notes.
 //!
 //! Limits: shell thickness of shapes is not applied. Written are half sections of side 0 in 1e-4 ft (0.03 mm).
 

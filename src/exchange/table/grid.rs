@@ -62,7 +62,8 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
     Some(text)
 }
 
-/// The character between fields: the tab, the semicolon or the bar when most lines have one outside quotes; else the comma.
+/// The character between fields: the tab, the semicolon or the bar when most lines have one outside quotes; else the
+/// comma.
 fn sniff(text: &str) -> char {
     let mut counts = [0usize; 3];
     let mut lines = 0;

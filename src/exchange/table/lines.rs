@@ -1,5 +1,5 @@
-//! The curves of a CAD file without surfaces (IGES, entities 126 and 110) as a table: those at one x are sections; where there are
-//! none, those at one height are waterlines.
+//! The curves of a CAD file without surfaces (IGES, entities 126 and 110) as a table: those at one x are sections;
+//! where there are none, those at one height are waterlines.
 //!
 //! Units, axes and origin are found as those of bodies are. Curves on the side y < 0 are mirrored; curves of both sides
 //! are cut at the centreplane. Several curves at one x are branches of one section. Of waterlines sections are made at

@@ -1,8 +1,8 @@
 //! The layout of matrices: which lines are stations, which are waterlines or buttocks, which stand beside them.
 //!
-//! One block is a header and the rows below it, to an empty line or the end of the file. What the rows are is taken from the
-//! conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends, and does
-//! not taper upwards.
+//! One block is a header and the rows below it, to an empty line or the end of the file. What the rows are is taken
+//! from the conventions, else from the words of the headers, else from the numbers: a hull tapers to both of its ends,
+//! and does not taper upwards.
 
 use super::header::{Axis, Corner, axis_of, side_of};
 use super::problem::{Field, Place, Problems};

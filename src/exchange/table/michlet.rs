@@ -55,7 +55,8 @@ fn blocks<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> impl Iterator<Item = &'b
     })
 }
 
-/// The values under a comment; those of the first hull. Comments with nothing under them, such as the title, are passed over.
+/// The values under a comment; those of the first hull. Comments with nothing under them, such as the title, are passed
+/// over.
 fn under<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> &'b [Line<'a>] {
     blocks(rows, label).find(|block| !block.is_empty()).unwrap_or(&[])
 }

@@ -1,4 +1,5 @@
-//! Tables of offsets in the layouts of many programs, and bodies as sections, read into one [`OffsetTable`], and written back.
+//! Tables of offsets in the layouts of many programs, and bodies as sections, read into one [`OffsetTable`], and
+//! written back.
 //!
 //! Fields (CSV, XLSX) become a layout (matrix, tidy, pairs); positions, units and cells make the table; checks
 //! look at the whole. Everything that is wrong is returned at once, each with its row and column; everything that was
@@ -75,8 +76,8 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
     read_table_with(name, bytes, None)
 }
 
-/// Reads a table of offsets with the conventions of the TOML file beside it, given by its name and its text, and of others, each
-/// over those before it.
+/// Reads a table of offsets with the conventions of the TOML file beside it, given by its name and its text, and of
+/// others, each over those before it.
 ///
 /// # Errors
 /// Every problem of all files at once, in the order of rows and columns.

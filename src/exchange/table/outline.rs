@@ -1,7 +1,8 @@
-//! Sections as lines of points: full loops cut at the centreplane, decks taken off, branches separated; and back to points.
+//! Sections as lines of points: full loops cut at the centreplane, decks taken off, branches separated; and back to
+//! points.
 //!
-//! A half section runs from the centreplane below (or the edge of the bottom) to the deck at side. Where it returns to the
-//! centreplane and leaves it again higher (a bulb and the flare above it) it has two branches.
+//! A half section runs from the centreplane below (or the edge of the bottom) to the deck at side. Where it returns to
+//! the centreplane and leaves it again higher (a bulb and the flare above it) it has two branches.
 
 use crate::hull::{Cell, Marks, OutlinePoint, StationOffsets};
 
@@ -159,8 +160,8 @@ fn distance(p: &OutlinePoint, segment: &[OutlinePoint]) -> f64 {
     (a.y + t * dy - p.y).hypot(a.z + t * dz - p.z)
 }
 
-/// The section of a station as branches of points: its outlines, or, of a grid, keel, half-breadths and deck, a branch for
-/// each run of waterlines with hull.
+/// The section of a station as branches of points: its outlines, or, of a grid, keel, half-breadths and deck, a branch
+/// for each run of waterlines with hull.
 pub(super) fn section_of(station: &StationOffsets, waterlines: &[f64]) -> Vec<Vec<OutlinePoint>> {
     if !station.outlines.is_empty() {
         return station.outlines.clone();

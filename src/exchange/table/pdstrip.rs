@@ -1,9 +1,9 @@
 //! Geometry of PDSTRIP (Soeding, Bertram): sections below the still waterline.
 //!
-//! `sections symmetric draught`; per section `x points gaps ...`, the list of y and the list of z, each from a new line and over
-//! as many as it needs. The waterline end of a section comes last; z is that of the file. Sections of an unsymmetric body
-//! are cut at the centreplane and the half of y > 0 is taken. A gap after a point is where a new branch begins.
-//! Written with four decimals, seven numbers a line.
+//! `sections symmetric draught`; per section `x points gaps ...`, the list of y and the list of z, each from a new line
+//! and over as many as it needs. The waterline end of a section comes last; z is that of the file. Sections of an
+//! unsymmetric body are cut at the centreplane and the half of y > 0 is taken. A gap after a point is where a new
+//! branch begins. Written with four decimals, seven numbers a line.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::outline::{point, section_of};

@@ -1,8 +1,8 @@
 //! PIAS (SARC) hull text: sections of points with a flag.
 //!
-//! Number of sections; per section x, number of points, and lines `y z flag` from keel to deck. Flag 1 is an ordinary point;
-//! any other flag is a knuckle, as far as the public samples (all flags 1) let one tell, and is noted. Written with four
-//! decimals, knuckles with flag 2.
+//! Number of sections; per section x, number of points, and lines `y z flag` from keel to deck. Flag 1 is an ordinary
+//! point; any other flag is a knuckle, as far as the public samples (all flags 1) let one tell, and is noted. Written
+//! with four decimals, knuckles with flag 2.
 
 use super::fields::{Line, Separator, lines};
 use super::outline::line_of;

@@ -1,9 +1,9 @@
 //! Sections as rows of points: CSV with the columns x, y, z and perhaps station, loop and point, and Maxsurf markers
 //! (`Station`, x or longitudinal position, y or offset, z or height, separated by tabs).
 //!
-//! The head names the columns; a unit after a name is mm, m or ft (`y_m`, `Offset m`, `z [mm]`). Rows of one station, or, without
-//! stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the column `point` or,
-//! without one, of the rows, and turned round when a branch begins above its end.
+//! The head names the columns; a unit after a name is mm, m or ft (`y_m`, `Offset m`, `z [mm]`). Rows of one station,
+//! or, without stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the
+//! column `point` or, without one, of the rows, and turned round when a branch begins above its end.
 
 use super::fields::{Line, Separator, finish, lines};
 use super::outline::{point, take_off_deck};

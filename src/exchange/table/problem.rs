@@ -236,7 +236,8 @@ impl Problems {
         self.file = own;
     }
 
-    /// The errors in the order of rows and columns, with what was detected after them; or the remarks when there is no error.
+    /// The errors in the order of rows and columns, with what was detected after them; or the remarks when there is no
+    /// error.
     pub(super) fn finish(mut self) -> Result<Vec<TableProblem>, Vec<TableProblem>> {
         // What was detected helps to understand the errors; it comes after them.
         self.list.sort_by_key(|p| (p.severity, p.row.unwrap_or(0), p.column.unwrap_or(0)));

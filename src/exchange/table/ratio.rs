@@ -10,8 +10,8 @@
 //! # station 0 = FP, 20 = AP
 //! ```
 //!
-//! or, the dimensions, in a TOML beside it. Without a word about station 0 it is FP, as in Series 60 (Todd, DTMB 1712, 1963), and
-//! a note says so.
+//! or, the dimensions, in a TOML beside it. Without a word about station 0 it is FP, as in Series 60 (Todd, DTMB 1712,
+//! 1963), and a note says so.
 
 use super::fields::{Line, Separator, decimals, finish, lines, plain_number};
 use super::problem::{Field, Place, Problems};

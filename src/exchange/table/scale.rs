@@ -133,7 +133,8 @@ fn nearer_in_metres(largest: f64, half_breadth: f64, usual: f64) -> bool {
     !(largest > 0.0 && half_breadth > 0.0) || off(largest) <= off(1e-3 * largest)
 }
 
-/// Whether half-breadths are beyond any ship against its height and, where it is known, its length: they have another unit.
+/// Whether half-breadths are beyond any ship against its height and, where it is known, its length: they have another
+/// unit.
 fn beyond(y: Size, z: Size, x: Size, stations_are_numbers: bool) -> bool {
     y.plain > 0
         && z.largest > 0.0

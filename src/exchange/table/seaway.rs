@@ -1,6 +1,6 @@
-//! Hull files of SEAWAY (Journee): version, title, `draught trim Lpp x` with x the distance of AP from the aftmost section,
-//! number of intervals and intervals, a code, then per section `station n knuckle` and n + 1 pairs `z y`, z first; at the end
-//! three factors for x, y and z and a line of stars.
+//! Hull files of SEAWAY (Journee): version, title, `draught trim Lpp x` with x the distance of AP from the aftmost
+//! section, number of intervals and intervals, a code, then per section `station n knuckle` and n + 1 pairs `z y`, z
+//! first; at the end three factors for x, y and z and a line of stars.
 //!
 //! x is given from AP by the file. Read only: the code and the knuckle of a section are not documented publicly.
 

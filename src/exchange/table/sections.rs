@@ -48,8 +48,8 @@ pub(super) struct Body {
 /// Half-breadths below zero by less than this part of the largest of the section are dust of other programs.
 const DUST: f64 = 1e-4;
 
-/// Refuses negative half-breadths of a half section, all of a section in one message; dust is put on the centreplane, with a
-/// note.
+/// Refuses negative half-breadths of a half section, all of a section in one message; dust is put on the centreplane,
+/// with a note.
 pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: Place, problems: &mut Problems) {
     let largest = points.iter().map(|p| p.y).fold(0.0, f64::max);
     let Some(least) = points.iter().map(|p| p.y).filter(|&y| y < 0.0).min_by(f64::total_cmp) else { return };
@@ -87,7 +87,8 @@ pub(super) fn starboard_of(points: &[OutlinePoint]) -> Option<(Vec<Vec<OutlinePo
     }
 }
 
-/// Says how far the sides of a ship given with both differ; `gaps` are distances \[m\] with x \[m\] as the file counts it.
+/// Says how far the sides of a ship given with both differ; `gaps` are distances \[m\] with x \[m\] as the file counts
+/// it.
 pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
     if let Some((gap, x)) = gaps.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)) {
         let many = gaps.iter().filter(|(gap, _)| *gap > 1e-3).count();
@@ -184,8 +185,9 @@ fn check_order(sections: &mut [Section], problems: &mut Problems) {
 
 /// The distance by which x is moved forward, so that it counts from AP \[m\].
 ///
-/// A file whose aftermost section is within a fifth of the length of its origin counts from AP; one whose foremost is, from
-/// FP; one with its middle there, from amidships. Otherwise, and where no length is stated, AP is at the aftermost section.
+/// A file whose aftermost section is within a fifth of the length of its origin counts from AP; one whose foremost is,
+/// from FP; one with its middle there, from amidships. Otherwise, and where no length is stated, AP is at the aftermost
+/// section.
 fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, problems: &mut Problems) -> f64 {
     let (Some(first), Some(last)) = (sections.first(), sections.last()) else { return 0.0 };
     let (aft, forward) = (first.x, last.x);

@@ -39,9 +39,9 @@
 //! points = [[0.0, 3.1, 0.8], [20.0, 4.0, 0.6]]
 //! ```
 //!
-//! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`, or several: `# Lpp = 20 m, B = 6 m`;
-//! capital and small letters are the same. A comment that is no `key = value`
-//! with a single word before the sign is a comment.
+//! The keys of `[table]` may stand in comment lines of the table too: `# units = mm`, or several: `# Lpp = 20 m, B = 6
+//! m`; capital and small letters are the same. A comment that is no `key = value` with a single word before the sign is
+//! a comment.
 
 use super::header::From;
 use super::problem::{Field, Problems};

@@ -11,9 +11,9 @@
 //! | `DECK` | the height z of the deck at side and the half-breadth y there, either |
 //! | `STERN`, `STEM` | x of the profile at the height z |
 //!
-//! `flag` holds marks: `K`, `T`, `!`, `?`, `()`; they may stand in the cell of y as well. The flag `B` begins a further branch
-//! of a section. Distances along diagonals
-//! (`DG`) have no place in the table and are announced. The order of rows is free.
+//! `flag` holds marks: `K`, `T`, `!`, `?`, `()`; they may stand in the cell of y as well. The flag `B` begins a further
+//! branch of a section. Distances along diagonals (`DG`) have no place in the table and are announced. The order of
+//! rows is free.
 
 use super::assemble::{Reader, SAME};
 use super::grid::{MOST_CELLS, MOST_LINES};

@@ -56,8 +56,8 @@ fn usual_decimals(notation: Notation) -> Option<usize> {
     }
 }
 
-/// Whether a line above a table still holds in another notation: prose, a title, and conventions that say nothing of units,
-/// positions and layout.
+/// Whether a line above a table still holds in another notation: prose, a title, and conventions that say nothing of
+/// units, positions and layout.
 fn stays(line: &str, separator: char) -> bool {
     match line.strip_prefix('#').map(|comment| comment.split_once('=')) {
         Some(Some((key, _))) => {
@@ -106,8 +106,8 @@ fn stated_lines(table: &OffsetTable) -> Vec<String> {
     name.into_iter().chain(values).collect()
 }
 
-/// Writes a table. Sections of points in another program's format are written in that format where it can be, and as a tidy
-/// table otherwise; a matrix, when it is asked for, does not hold them.
+/// Writes a table. Sections of points in another program's format are written in that format where it can be, and as a
+/// tidy table otherwise; a matrix, when it is asked for, does not hold them.
 #[must_use]
 pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let mut form = table.form.clone();

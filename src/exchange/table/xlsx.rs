@@ -1,10 +1,10 @@
 //! The first sheet with fields of an XLSX workbook, as the rows of a CSV file, and the text of a table as a workbook.
 //!
-//! A row that begins with `#` is a comment, as in CSV. In a workbook that is written, plain decimal numbers are numbers, shown with
-//! their digits, and all else is text; the same table gives the same bytes.
+//! A row that begins with `#` is a comment, as in CSV. In a workbook that is written, plain decimal numbers are
+//! numbers, shown with their digits, and all else is text; the same table gives the same bytes.
 //!
-//! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to hold
-//! more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
+//! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to
+//! hold more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
 
 use std::io::{Cursor, Read as _};
 
@@ -256,7 +256,8 @@ fn place(grid: &mut Grid, field: Field, cells: &mut usize, problems: &mut Proble
     Some(())
 }
 
-/// Sheets leave out empty cells at the ends of rows: the rows of each block become equally long, as far as its header goes.
+/// Sheets leave out empty cells at the ends of rows: the rows of each block become equally long, as far as its header
+/// goes.
 fn even(grid: &mut Grid) {
     for row in &mut grid.rows {
         if row.iter().all(Field::is_blank) {

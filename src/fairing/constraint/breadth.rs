@@ -1,7 +1,9 @@
-//! 0 <= y <= B/2 over the surface: at the points of a grid four times as fine as the knots, where the surface comes near a limit.
+//! 0 <= y <= B/2 over the surface: at the points of a grid four times as fine as the knots, where the surface comes
+//! near a limit.
 //!
-//! Limits of the control values would be sufficient and far too strict: the control points of a full waterline lie outside it.
-//! Between the points of the grid the surface may pass a limit by h^2/8 times its second derivative, h a quarter of a span.
+//! Limits of the control values would be sufficient and far too strict: the control points of a full waterline lie
+//! outside it. Between the points of the grid the surface may pass a limit by h^2/8 times its second derivative, h a
+//! quarter of a span.
 
 use super::super::model::{Limit, value};
 use super::super::program::Between;

@@ -1,7 +1,7 @@
 //! Transverse metacentre at the design draught: KM_T = (int z dV + I_T) / V with I_T = (2/3) int y^3 dx on the waterline.
 //!
-//! int z dV + I_T - KM_T V = 0 is linear but for I_T, a cubic form of the half-breadths: I_T = g . c / 3 with its gradient
-//! g_k = 2 int y^2 N_k dx. About c_0 it is I_T ~ g_0 . c - 2 I_T(c_0).
+//! int z dV + I_T - KM_T V = 0 is linear but for I_T, a cubic form of the half-breadths: I_T = g . c / 3 with its
+//! gradient g_k = 2 int y^2 N_k dx. About c_0 it is I_T ~ g_0 . c - 2 I_T(c_0).
 
 use super::super::model::Limit;
 use super::equal;

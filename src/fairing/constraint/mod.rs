@@ -195,8 +195,8 @@ impl Constraint {
         !matches!(self, Self::Metacentre { .. } | Self::WettedSurface(_))
     }
 
-    /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for centres: an
-    /// error over L_PP or T) is an error of the row.
+    /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for
+    /// centres: an error over L_PP or T) is an error of the row.
     #[must_use]
     pub fn limit(&self, hull: &Hull) -> Limit {
         match *self {

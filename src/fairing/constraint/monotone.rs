@@ -1,8 +1,8 @@
 //! Monotone lines: dy/dx >= 0 or <= 0 along a waterline, dy/dz along a station, at five points of every span and at the
 //! ends of the range.
 //!
-//! Rows are divided by x' or z', so that a violation is a slope. Differences of control values would be sufficient everywhere, and
-//! too strong beside the ends of the range, where a control value acts on both sides of it.
+//! Rows are divided by x' or z', so that a violation is a slope. Differences of control values would be sufficient
+//! everywhere, and too strong beside the ends of the range, where a control value acts on both sides of it.
 
 use super::super::bends::Line;
 use super::super::model::Limit;

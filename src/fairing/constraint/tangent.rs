@@ -1,4 +1,5 @@
-//! Prescribed tangents: dy/dx = tan(angle) on a waterline, dy/dz = tan(angle) on a station, linear in the net on a fixed chart.
+//! Prescribed tangents: dy/dx = tan(angle) on a waterline, dy/dz = tan(angle) on a station, linear in the net on a
+//! fixed chart.
 //!
 //! A vertical side is 0 deg on the station. At the ends of a waterline y' = -x' tan(half angle of entrance), and y' =
 //! x' tan(half angle of run); where the chart stands still, x' = 0, a round stem has no angle to prescribe.

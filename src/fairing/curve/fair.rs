@@ -62,7 +62,8 @@ impl Job<'_> {
         Ok(solved)
     }
 
-    /// The best pattern with these numbers of changes: that which overrules least, its changes moved while the objective falls.
+    /// The best pattern with these numbers of changes: that which overrules least, its changes moved while the
+    /// objective falls.
     fn pattern(&mut self, z: &[f64], starts: &[usize], counts: &[usize]) -> Result<Option<Patterned>, CurveError> {
         let Some(signs) = Signs::best(z, starts, counts) else { return Ok(None) };
         let wishes = self.wishes.clone();
@@ -316,7 +317,8 @@ fn through(
     Ok(BsplineCurve::new(knots.clone(), net.into_iter().map(|c| [c]).collect())?)
 }
 
-/// The spline of least energy of this order through the points as given; of less order where knuckles leave that one open.
+/// The spline of least energy of this order through the points as given; of less order where knuckles leave that one
+/// open.
 fn interpolant(job: &Job, points: &[CurvePoint], read: &[usize]) -> Result<BsplineCurve<1>, CurveError> {
     let exact = (2..=job.space.order).rev().find_map(|order| through(&job.space.knots, order, points, read).ok());
     match exact {

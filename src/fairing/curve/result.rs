@@ -139,7 +139,8 @@ pub struct FairCurve {
     pub allowed: Option<usize>,
     /// Price of the pattern in sigma^2.
     pub price: f64,
-    /// Prices of smaller numbers that were too dear: number and price in sigma^2, infinite where the pattern is not possible.
+    /// Prices of smaller numbers that were too dear: number and price in sigma^2, infinite where the pattern is not
+    /// possible.
     pub refused: Vec<(usize, f64)>,
     /// Factor on all tolerances; 1 unless infeasible.
     pub widening: f64,

@@ -10,8 +10,8 @@
 //! kappa_ss  = w (w (g y'''' + 2 g' y''' + g'' y'') + w' (g y''' + g' y''))
 //! ```
 //!
-//! E_m = int kappa_(m-2)^2 ds; on a level line (q = 1) it is the integral of the square of the m-th derivative. Gauss rules with
-//! [`EXTRA`] nodes a span more than polynomials need.
+//! E_m = int kappa_(m-2)^2 ds; on a level line (q = 1) it is the integral of the square of the m-th derivative. Gauss
+//! rules with [`EXTRA`] nodes a span more than polynomials need.
 
 use super::super::inflections::{CurvatureRow, curvature_rows};
 use super::super::model::{Model, Reading, Row};

@@ -4,16 +4,16 @@
 //! minimise tau   subject to   |a_k c - d_k| <= tau delta_k,   s_i r_i c >= 0
 //! ```
 //!
-//! Values are divided by their size and tolerances by the largest one. The answer of the solver is not believed: the factor is
-//! that of the coefficients as they came, bends that fall short of their sign by less than a dead band
+//! Values are divided by their size and tolerances by the largest one. The answer of the solver is not believed: the
+//! factor is that of the coefficients as they came, bends that fall short of their sign by less than a dead band
 //! ([`dead_band`]) count as flat, and an exclusion is what the multipliers prove.
 
 use super::bands::{Bands, Bend};
 use super::space::Space;
 use crate::qp::{LeastFactor, Problem, Settings, Status};
 
-/// A coefficient of y'' below this part of the largest one is flat, and one whose sag over the whole length is below this part
-/// of the size of the values.
+/// A coefficient of y'' below this part of the largest one is flat, and one whose sag over the whole length is below
+/// this part of the size of the values.
 const DEAD_BAND: f64 = 1e-7;
 
 /// The y'' below which a curve is flat.
@@ -96,7 +96,8 @@ pub(super) fn least_factor(bands: &Bands, space: &Space, pattern: &Pattern) -> T
     Tried { factor, at_least, coefficients }
 }
 
-/// The factor that coefficients need; infinite when a held point is missed or a bend has the wrong sign beyond the dead band.
+/// The factor that coefficients need; infinite when a held point is missed or a bend has the wrong sign beyond the dead
+/// band.
 fn factor_of(bands: &Bands, space: &Space, wanted: &[Bend], coefficients: &[f64]) -> f64 {
     let bends = space.bends.apply(coefficients);
     let flat = dead_band(bands, &bends);
@@ -117,7 +118,8 @@ fn factor_of(bands: &Bands, space: &Space, wanted: &[Bend], coefficients: &[f64]
     factor
 }
 
-/// A lower bound of the factor from multipliers alone, for the values at the sites as unknowns (0 where the space is another).
+/// A lower bound of the factor from multipliers alone, for the values at the sites as unknowns (0 where the space is
+/// another).
 ///
 /// Multiplied by z and summed the rows say: sum of limits <= (A'z)_tau tau + (A'z)_c c. What A'z leaves over in c is
 /// bounded because every value lies within its band when tau <= 1: the bound holds if it exceeds 1 and proves then that

@@ -22,7 +22,8 @@ const FARTHEST: f64 = 1e6;
 /// Where an inflection can be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Every curve within the bands with this number of inflections and this bend at its beginning has this one after here.
+    /// Every curve within the bands with this number of inflections and this bend at its beginning has this one after
+    /// here.
     pub from: f64,
     /// And before here.
     pub to: f64,
@@ -289,7 +290,8 @@ impl Work<'_> {
     }
 }
 
-/// The differences before which each change can stand, given its window among the sites, and a start in the middle of each.
+/// The differences before which each change can stand, given its window among the sites, and a start in the middle of
+/// each.
 fn allowed(part: &Bands, space: &Space, windows: &[[usize; 2]]) -> Option<(Vec<[usize; 2]>, Vec<usize>)> {
     let (x, places) = (part.sites(), &space.places);
     let last = x.len() - 1;

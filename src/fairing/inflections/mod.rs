@@ -1,8 +1,9 @@
 //! The least number of inflections of a planar curve within tolerance bands, with a proof.
 //!
-//! The curve is a graph y(x), C1 between knuckles, that passes every site x_k within |y(x_k) - d_k| <= delta_k. Its curvature
-//! y'' / (1 + y'^2)^(3/2) has the sign of y''. Wanted is the least number K of sign changes of y''; straight pieces have no
-//! sign, so that a flat is no inflection, and knuckles split the curve (a change of sign across a knuckle does not count).
+//! The curve is a graph y(x), C1 between knuckles, that passes every site x_k within |y(x_k) - d_k| <= delta_k. Its
+//! curvature y'' / (1 + y'^2)^(3/2) has the sign of y''. Wanted is the least number K of sign changes of y''; straight
+//! pieces have no sign, so that a flat is no inflection, and knuckles split the curve (a change of sign across a
+//! knuckle does not count).
 //!
 //! *From below.* A second divided difference of the values at the sites is y'' weighted by a hat function, and hat
 //! functions diminish variation (Karlin 1968; de Boor 2001, XI): a curve with K changes of sign has values whose
@@ -12,13 +13,13 @@
 //! the fewest runs. What stops each run is a witness, and the [`Chain`] of witnesses proves the number by comparing
 //! decimal numbers: no solver is believed. O(n^2) operations.
 //!
-//! *From above.* A cubic spline with knots at the sites (and between them, if need be) whose y'', which is piecewise linear,
-//! has the wanted pattern: a linear program finds the least factor tau on the tolerances for a pattern; if tau <= 1 the spline
-//! is there to be looked at. Patterns are tried from the middle of the intervals that the chains leave.
+//! *From above.* A cubic spline with knots at the sites (and between them, if need be) whose y'', which is piecewise
+//! linear, has the wanted pattern: a linear program finds the least factor tau on the tolerances for a pattern; if
+//! tau <= 1 the spline is there to be looked at. Patterns are tried from the middle of the intervals that the chains leave.
 //!
-//! *Between.* The runs of a chain agree in where they meet but not in the values there, so that rarely the bound from below
-//! is one too few. Then every pattern is excluded by a linear program over the values, each with Farkas multipliers that are
-//! checked here ([`refuted`](Inflections::refuted) counts them).
+//! *Between.* The runs of a chain agree in where they meet but not in the values there, so that rarely the bound from
+//! below is one too few. Then every pattern is excluded by a linear program over the values, each with Farkas
+//! multipliers that are checked here ([`refuted`](Inflections::refuted) counts them).
 //!
 //! Limits: where the bands leave nothing but a polyline with a corner, no smooth curve attains the bound and the number
 //! is not certified (5 of 6000 random bands of small whole numbers; bands of readings do not meet so exactly). The

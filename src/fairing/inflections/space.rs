@@ -4,8 +4,8 @@ use super::bands::Bands;
 use crate::qp::SparseRows;
 use crate::spline::{KnotVector, SplineError};
 
-/// One coefficient of the second derivative of a spline over its control values, y'' = sum_i r_i M_i with B-splines M_i of
-/// degree p - 2.
+/// One coefficient of the second derivative of a spline over its control values, y'' = sum_i r_i M_i with B-splines M_i
+/// of degree p - 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvatureRow {
     /// The first of the three control values that it combines.
@@ -19,8 +19,8 @@ pub struct CurvatureRow {
 }
 
 /// The coefficients of the second derivative, in order. A curve has no more changes of the sign of y'' than they have
-/// (variation diminishing), for cubics exactly as many: there y'' is piecewise linear and they are its values at the knots. At a
-/// knot of full multiplicity, a knuckle, there is none: nothing is said across it.
+/// (variation diminishing), for cubics exactly as many: there y'' is piecewise linear and they are its values at the
+/// knots. At a knot of full multiplicity, a knuckle, there is none: nothing is said across it.
 #[must_use]
 pub fn curvature_rows(knots: &KnotVector) -> Vec<CurvatureRow> {
     let (p, t) = (knots.degree(), knots.knots());
@@ -122,8 +122,8 @@ mod tests {
 
     #[test]
     fn the_coefficients_are_those_of_the_second_derivative() {
-        // x^4 on any knots of degree 5: y'' = 12 x^2 is reproduced by its own coefficients at the ends, and for cubics with
-        // c from interpolation the coefficient is y'' at the knot.
+        // x^4 on any knots of degree 5: y'' = 12 x^2 is reproduced by its own coefficients at the ends, and for cubics
+        // with c from interpolation the coefficient is y'' at the knot.
         let knots = KnotVector::from_breakpoints(3, &[0.0, 0.4, 1.0, 2.5, 3.0], &[1, 3, 1]).unwrap();
         let control: Vec<[f64; 1]> = (0..knots.basis_count()).map(|i| [((7 * i * i) % 11) as f64]).collect();
         let rows = curvature_rows(&knots);

@@ -92,8 +92,8 @@ impl Chain {
     }
 }
 
-/// What stops the longest run of `bend` that begins at the site `start`: the worst witness against it at the first site that
-/// it cannot reach.
+/// What stops the longest run of `bend` that begins at the site `start`: the worst witness against it at the first site
+/// that it cannot reach.
 fn stop(bands: &Bands, start: usize, to: usize, bend: Bend, factor: f64) -> Option<Witness> {
     let (x, d, delta) = (bands.sites(), bands.values(), bands.tolerances());
     let against = bend.opposite();

@@ -24,8 +24,8 @@ pub struct Comb {
     pub inflections: Vec<[f64; 3]>,
 }
 
-/// The combs of the curves in which planes cut the side of a hull, `count` teeth each; `tolerance` is the departure that can just
-/// be seen \[m\]. Curves without breadth have none.
+/// The combs of the curves in which planes cut the side of a hull, `count` teeth each; `tolerance` is the departure
+/// that can just be seen \[m\]. Curves without breadth have none.
 #[must_use]
 pub fn combs(hull: &Hull, cuts: &[Cut], count: usize, tolerance: f64) -> Vec<Comb> {
     let locator = Locator::new(hull.surface());

@@ -1,19 +1,20 @@
 //! Curvature of plane sections of a surface, from the surface.
 //!
 //! The section of S(u, v) by the plane n . S = d is the curve along which f(u, v) = n . S - d vanishes. Moving with
-//! u' = -f_v, v' = f_u keeps f = 0; differentiating S(u(t), v(t)) along that motion gives the first three derivatives P', P'',
-//! P''' of the section in space, and with them (do Carmo 1976, 1-5)
+//! u' = -f_v, v' = f_u keeps f = 0; differentiating S(u(t), v(t)) along that motion gives the first three derivatives P',
+//! P'', P''' of the section in space, and with them (do Carmo 1976, 1-5)
 //!
 //! ```text
 //! kappa = n . (P' x P'') / |P'|^3
 //! d(kappa)/ds = n . (P' x P''') / |P'|^4 - 3 kappa (P' . P'') / |P'|^3
 //! ```
 //!
-//! They are exact to rounding: the traced curve, which is within a tolerance of surface and plane, only says where. With u
-//! forward and v upward S_v x S_u points outward, and kappa is positive where the section is convex outward, in whichever
-//! direction it is followed. On a line of the net (a waterline where z = z(v), a station where x = x(u)) the motion is along
-//! that parameter at unit speed. Curvature is not defined where the motion stands still: where the surface touches the plane,
-//! and where its net is drawn together into a point; a speed below 1e-6 of its size elsewhere counts as none.
+//! They are exact to rounding: the traced curve, which is within a tolerance of surface and plane, only says where.
+//! With u forward and v upward S_v x S_u points outward, and kappa is positive where the section is convex outward, in
+//! whichever direction it is followed. On a line of the net (a waterline where z = z(v), a station where x = x(u)) the
+//! motion is along that parameter at unit speed. Curvature is not defined where the motion stands still: where the
+//! surface touches the plane, and where its net is drawn together into a point; a speed below 1e-6 of its size
+//! elsewhere counts as none.
 
 use super::profile::{Local, Profile};
 use crate::hull::Branch;
@@ -220,8 +221,8 @@ impl<'a> Locator<'a> {
         self.speeds[0].min(self.speeds[1])
     }
 
-    /// 1 where a line of the net runs as the motion along the section does, -1 where it runs against it; none where the motion
-    /// stands still everywhere.
+    /// 1 where a line of the net runs as the motion along the section does, -1 where it runs against it; none where the
+    /// motion stands still everywhere.
     fn sense(&self, line: &BsplineCurve<3>, pieces: &[[f64; 2]], n: Point, tolerance: f64) -> Option<f64> {
         pieces.iter().find_map(|[from, to]| {
             let [point, velocity] = line.derivatives::<2>(0.5 * (from + to));
@@ -248,7 +249,8 @@ pub(in super::super) fn swept<const N: usize>(s: &[[Point; N]; N], [a, b]: [f64;
     [first, second]
 }
 
-/// kappa and d(kappa)/ds of a motion with these derivatives in the plane with unit normal `n`; none where it stands still.
+/// kappa and d(kappa)/ds of a motion with these derivatives in the plane with unit normal `n`; none where it stands
+/// still.
 fn bending(n: Point, [first, second, third]: [Point; 3], least: f64) -> Option<(f64, f64)> {
     let speed = length(first);
     if speed.is_nan() || speed <= least {
@@ -272,7 +274,8 @@ pub(super) struct Breadth {
 }
 
 impl Breadth {
-    /// The first parameter of `pieces` at which the curve has breadth, and the length up to it; none without such a place.
+    /// The first parameter of `pieces` at which the curve has breadth, and the length up to it; none without such a
+    /// place.
     fn begins(self, pieces: &[[f64; 2]], point: &impl Fn(f64) -> Point) -> Option<(f64, f64)> {
         let mut along = 0.0;
         let mut before: Option<(f64, Point)> = None;
@@ -299,8 +302,8 @@ impl Breadth {
         None
     }
 
-    /// The pieces of a curve without its ends that have no breadth, and the length left out; no piece where there is no breadth
-    /// at all. A closed curve has no ends.
+    /// The pieces of a curve without its ends that have no breadth, and the length left out; no piece where there is no
+    /// breadth at all. A closed curve has no ends.
     pub(super) fn clip(
         self,
         mut pieces: Vec<[f64; 2]>,
@@ -340,8 +343,8 @@ pub(super) struct Trace {
 }
 
 impl Trace {
-    /// The branch of the section by the plane with unit normal `n`, which it keeps to within `tolerance` \[m\]; a line of the net
-    /// is the section itself. None for a branch that has no curvature, or no `breadth`, anywhere.
+    /// The branch of the section by the plane with unit normal `n`, which it keeps to within `tolerance` \[m\]; a line
+    /// of the net is the section itself. None for a branch that has no curvature, or no `breadth`, anywhere.
     pub(super) fn new(
         locator: &Locator,
         branch: &Branch,

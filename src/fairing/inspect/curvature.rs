@@ -1,10 +1,10 @@
 //! Curvature of the whole surface: extremes and integrals.
 //!
-//! Taken at 6 x 6 Gauss points to a patch below the deck at side. Integrals are those of the Gauss rule: on a patch that is
-//! smooth and regular, of high order; the borders of the deck inside a patch cost one order or more. Extremes are those among
-//! the points, which stand inside the patches: towards an edge at which the surface has no tangent plane (a keel or a stem
-//! that is a point or a blunt line) curvature grows without bound, and the points stop short of it. With u forward
-//! and v upward a surface that is convex outward has positive principal curvatures.
+//! Taken at 6 x 6 Gauss points to a patch below the deck at side. Integrals are those of the Gauss rule: on a patch
+//! that is smooth and regular, of high order; the borders of the deck inside a patch cost one order or more. Extremes
+//! are those among the points, which stand inside the patches: towards an edge at which the surface has no tangent
+//! plane (a keel or a stem that is a point or a blunt line) curvature grows without bound, and the points stop short of
+//! it. With u forward and v upward a surface that is convex outward has positive principal curvatures.
 
 use super::contour::breaks;
 use crate::hull::Hull;

@@ -1,7 +1,7 @@
 //! The side of a hull as a grid that is even to the eye, with curvature and girth: what maps and viewers show.
 //!
-//! Columns are lines of the surface from keel to deck at side, at equal steps of length along its middle ([`SurfaceMap::new`]), or
-//! stations at equal steps along the ship ([`SurfaceMap::at_stations`], in `stations`).
+//! Columns are lines of the surface from keel to deck at side, at equal steps of length along its middle
+//! ([`SurfaceMap::new`]), or stations at equal steps along the ship ([`SurfaceMap::at_stations`], in `stations`).
 
 use super::curvature::deck_parameter;
 use crate::hull::Hull;
@@ -57,7 +57,8 @@ pub struct MapBreak {
 }
 
 impl MapBreak {
-    /// The inner knots at which curvature may jump, and how many are left out: of more than `most` knuckles alone are kept.
+    /// The inner knots at which curvature may jump, and how many are left out: of more than `most` knuckles alone are
+    /// kept.
     pub(super) fn of(knots: &KnotVector, most: usize) -> (Vec<(f64, KnotLine)>, usize) {
         let (low, high) = knots.domain();
         let inner = knots.breakpoints().into_iter().filter(|&t| low < t && t < high);

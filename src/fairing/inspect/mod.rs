@@ -1,8 +1,10 @@
-//! Inspection of a hull: what its stations, waterlines, buttocks and diagonals, its net and its surface say about fairness.
+//! Inspection of a hull: what its stations, waterlines, buttocks and diagonals, its net and its surface say about
+//! fairness.
 //!
 //! Section curves are [`Hull::section`]'s, connected and in order; their curvature is that of the surface
-//! (`contour.rs`), and what is counted on them is defined in `profile.rs`. One length tells what is seen from what is not:
-//! the tolerance, which is the resolution of the drawing times its scale ([`Resolution`]). A lesser bump does not show on paper.
+//! (`contour.rs`), and what is counted on them is defined in `profile.rs`. One length tells what is seen from what is
+//! not: the tolerance, which is the resolution of the drawing times its scale ([`Resolution`]). A lesser bump does not
+//! show on paper.
 //!
 //! Accuracy: curvature to rounding; lengths and energies of a piece to the Clenshaw-Curtis rule of 13 points (1e-10 for
 //! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points. Where the half-breadth
@@ -52,8 +54,8 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// 0.1 mm on a drawing that is at most 2.5 m long: the scale is the largest of 1:10, 25, 50, 100, 200, 500 at which a ship of
-    /// `length` \[m\] fits.
+    /// 0.1 mm on a drawing that is at most 2.5 m long: the scale is the largest of 1:10, 25, 50, 100, 200, 500 at which
+    /// a ship of `length` \[m\] fits.
     #[must_use]
     pub fn for_length(length: f64) -> Self {
         let scales = [10.0, 25.0, 50.0, 100.0, 200.0, 500.0];
@@ -86,8 +88,8 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// The stations, waterlines and buttocks of a table of offsets of the hull, and three diagonals: through 0.7, 1 and 1.3 T on
-    /// the centreplane, parallel to the line from there to the bilge, atan(T / (B/2)).
+    /// The stations, waterlines and buttocks of a table of offsets of the hull, and three diagonals: through 0.7, 1 and
+    /// 1.3 T on the centreplane, parallel to the line from there to the bilge, atan(T / (B/2)).
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
         let p = hull.particulars();
@@ -141,8 +143,8 @@ pub struct CurveReport {
     pub extrema: Vec<[f64; 3]>,
     /// kappa where |kappa| is largest \[1/m\], positive where the curve is convex outward.
     pub largest: CurvatureAt,
-    /// Largest |difference of kappa| between neighbouring ordinates \[1/m\]: stations, or waterlines on stations. None when the
-    /// curve passes fewer than two.
+    /// Largest |difference of kappa| between neighbouring ordinates \[1/m\]: stations, or waterlines on stations. None
+    /// when the curve passes fewer than two.
     pub step: Option<f64>,
     /// int kappa^2 ds \[1/m\].
     pub bending: f64,
@@ -234,8 +236,8 @@ fn curves(hull: &Hull, planes: &Planes, tolerance: f64) -> (Vec<CurveReport>, Ve
     (curves, empty, narrow)
 }
 
-/// The curves of a plane on the side with their numbers from 1, and whether one was not counted for want of breadth. They keep to
-/// surface and plane to within `close` lengths between perpendiculars.
+/// The curves of a plane on the side with their numbers from 1, and whether one was not counted for want of breadth.
+/// They keep to surface and plane to within `close` lengths between perpendiculars.
 fn traces(hull: &Hull, locator: &Locator, cut: Cut, close: f64) -> (Vec<(usize, Trace)>, bool) {
     let Some((normal, _)) = cut.plane() else { return (Vec::new(), false) };
     let close = close * hull.particulars().length_between_perpendiculars;

@@ -1,9 +1,9 @@
 //! The control polygon's signs.
 //!
-//! Each inner vertex of a row or column of the net is + where it lies outboard of the chord of its two neighbours, - where
-//! it lies inboard, and 0 where it lies on it. The rule (ITS Surabaya 1999): a row is fair when the sign changes seldom and
-//! no sign is enclosed by two opposite ones. The curve of a row is convex where its signs do not change (variation
-//! diminishing: it has no more inflections than its polygon).
+//! Each inner vertex of a row or column of the net is + where it lies outboard of the chord of its two neighbours, -
+//! where it lies inboard, and 0 where it lies on it. The rule (ITS Surabaya 1999): a row is fair when the sign changes
+//! seldom and no sign is enclosed by two opposite ones. The curve of a row is convex where its signs do not change
+//! (variation diminishing: it has no more inflections than its polygon).
 //!
 //! Rows are the lines v = constant, looked at from above (x, y); columns the lines u = constant, looked at along the ship
 //! (z, y).

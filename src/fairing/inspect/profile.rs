@@ -1,28 +1,29 @@
 //! Curvature along a plane curve: what it says about fairness.
 //!
-//! The curve is taken at 13 Chebyshev-Lobatto points to a piece (between knots, where it is smooth), with point, direction,
-//! curvature kappa and its derivative d(kappa)/ds given by whoever knows the curve. Integrals over a piece are those of
-//! Clenshaw and Curtis (1960), exact for polynomials of degree 12; roots and extrema between two points are those of the
-//! cubic with the values and slopes at both (error O(h^4)).
+//! The curve is taken at 13 Chebyshev-Lobatto points to a piece (between knots, where it is smooth), with point,
+//! direction, curvature kappa and its derivative d(kappa)/ds given by whoever knows the curve. Integrals over a piece
+//! are those of Clenshaw and Curtis (1960), exact for polynomials of degree 12; roots and extrema between two points
+//! are those of the cubic with the values and slopes at both (error O(h^4)).
 //!
 //! What counts is told from what does not by one length, the *tolerance*: what can just be seen in the drawing.
-//! * A **lobe** is a stretch with one sign of kappa. Its departure is the largest distance of the curve from the chord of the
-//!   stretch (kappa l^2 / 8 for constant kappa: kappa integrated twice). While some lobe departs by less than the tolerance,
-//!   the least of them is given to its neighbours, which become one; an **inflection** is a border between the lobes that
-//!   remain.
+//! * A **lobe** is a stretch with one sign of kappa. Its departure is the largest distance of the curve from the chord
+//!   of the stretch (kappa l^2 / 8 for constant kappa: kappa integrated twice). While some lobe departs by less than
+//!   the tolerance, the least of them is given to its neighbours, which become one; an **inflection** is a border
+//!   between the lobes that remain.
 //! * A **curvature extremum** counts when the ripple that it stands for can be seen: with the smaller difference A to the
 //!   extrema beside it and their distance w, A w^2 / (4 pi^2) is the height from crest to trough of the sine wave with
 //!   that curvature. Lesser ones are removed, the least first.
-//! * A **flat** is a stretch of at least 5 % of the length of the curve that departs by at most the tolerance and in which
-//!   |kappa| stays below 1/8 of its mean over the curve, or below a lower bound, halved until that is so. An inflection
-//!   inside a flat stands in its middle.
+//! * A **flat** is a stretch of at least 5 % of the length of the curve that departs by at most the tolerance and in
+//!   which |kappa| stays below 1/8 of its mean over the curve, or below a lower bound, halved until that is so. An
+//!   inflection inside a flat stands in its middle.
 //! * A **knuckle** is a turn of the tangent by more than half a degree at one point. It splits the curve.
 
 use std::f64::consts::PI;
 
 /// Points to a piece.
 const NODES: usize = 13;
-/// How far the points at the ends of a piece stand inside it, in lengths of the piece: there the curve is that of the piece.
+/// How far the points at the ends of a piece stand inside it, in lengths of the piece: there the curve is that of the
+/// piece.
 const INSIDE: f64 = 1e-7;
 /// Turn of the tangent at a knuckle \[rad\].
 const KNUCKLE: f64 = 0.5 * PI / 180.0;
@@ -126,7 +127,8 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// Value and slope of the cubic with the given values and slopes at the ends of an interval of length `h`, at `r` in [0, 1].
+/// Value and slope of the cubic with the given values and slopes at the ends of an interval of length `h`, at `r` in
+/// [0, 1].
 fn hermite(r: f64, h: f64, values: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
     let (p, q) = (1.0 - r, r);
     let value = p * p * (1.0 + 2.0 * q) * values[0]
@@ -167,8 +169,8 @@ struct Lobe {
 }
 
 impl Profile {
-    /// The curve over the parameter ranges `pieces`, in order and joined end to end; on each it is smooth. Parameters at which
-    /// `local` knows no curvature are left out. None when fewer than two points remain.
+    /// The curve over the parameter ranges `pieces`, in order and joined end to end; on each it is smooth. Parameters
+    /// at which `local` knows no curvature are left out. None when fewer than two points remain.
     #[must_use]
     pub fn sample(pieces: &[[f64; 2]], closed: bool, mut local: impl FnMut(f64) -> Option<Local>) -> Option<Self> {
         let rule = clenshaw_curtis();
@@ -422,8 +424,8 @@ struct Swings {
 }
 
 impl Swings {
-    /// Neighbours of a point; none at the ends of an open curve. The place of a neighbour across the start of a closed curve
-    /// is that of the next or the last round.
+    /// Neighbours of a point; none at the ends of an open curve. The place of a neighbour across the start of a closed
+    /// curve is that of the next or the last round.
     fn beside(&self, k: usize) -> Option<[(f64, f64); 2]> {
         let (n, p) = (self.points.len(), &self.points);
         match self.around {
@@ -501,7 +503,8 @@ fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
     inner.map(|k| swings.points[k].0).collect()
 }
 
-/// Maximal stretches of a run with |kappa| at most `bound`; those that bend too much are searched again with half the bound.
+/// Maximal stretches of a run with |kappa| at most `bound`; those that bend too much are searched again with half the
+/// bound.
 fn flats_of(run: &[Node], bound: f64, least: f64, tolerance: f64, halvings: u32) -> Vec<Stretch> {
     let last = run.len() - 1;
     if run[last].s - run[0].s >= least && departure(run, run[0].s, run[last].s) <= tolerance {

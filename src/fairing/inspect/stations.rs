@@ -16,7 +16,8 @@ const BESIDE: f64 = 1e-7;
 const UPRIGHT: f64 = 1e-7;
 /// Lines u = constant and steps of v over which the mean girth is taken.
 const MEAN: [usize; 2] = [9, 400];
-/// Most knot lines in one direction that are two rows or two columns each: a surface with more breaks everywhere a little.
+/// Most knot lines in one direction that are two rows or two columns each: a surface with more breaks everywhere a
+/// little.
 const MOST: usize = 30;
 /// Halvings of an interval of v in which a station leaves the surface.
 const HALVINGS: usize = 30;

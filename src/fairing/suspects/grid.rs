@@ -95,9 +95,9 @@ impl Grid {
         }
     }
 
-    /// Whether hull comes up to a cell from before and from behind on a line and does not shrink to nothing there, as it does
-    /// between a bulb and the stem: straight lines through the two nearest offsets of either side reach at least a fifth of
-    /// the nearest.
+    /// Whether hull comes up to a cell from before and from behind on a line and does not shrink to nothing there, as
+    /// it does between a bulb and the stem: straight lines through the two nearest offsets of either side reach at
+    /// least a fifth of the nearest.
     fn bridges(&self, along: Along, cell: usize) -> bool {
         let at = self.coordinate(along, cell);
         let hull = |steps: isize| {
@@ -168,8 +168,8 @@ impl Grid {
         }
     }
 
-    /// The cell `steps` places along lines that run that way and `across` lines further; none outside the table or without
-    /// an offset.
+    /// The cell `steps` places along lines that run that way and `across` lines further; none outside the table or
+    /// without an offset.
     pub(in crate::fairing) fn shifted(&self, along: Along, cell: usize, steps: isize, across: isize) -> Option<usize> {
         let (i, j) = self.place(cell);
         let (di, dj) = match along {

@@ -3,8 +3,8 @@
 use super::search::{Suspects, suspects};
 use crate::hull::{OffsetTable, StationOffsets, TableForm};
 
-/// The table with heights at buttocks in place of half-breadths at waterlines; none without heights. Heights are heights whatever
-/// the half-breadths are: neither doubled nor negative.
+/// The table with heights at buttocks in place of half-breadths at waterlines; none without heights. Heights are
+/// heights whatever the half-breadths are: neither doubled nor negative.
 #[must_use]
 pub fn height_grid(table: &OffsetTable) -> Option<OffsetTable> {
     let heights = |station: &StationOffsets| station.heights.iter().any(|cell| cell.value().is_some());
@@ -24,7 +24,8 @@ pub fn height_grid(table: &OffsetTable) -> Option<OffsetTable> {
     })
 }
 
-/// The suspects among the heights at buttocks of a table, their `waterline` the index of the buttock; none without buttocks.
+/// The suspects among the heights at buttocks of a table, their `waterline` the index of the buttock; none without
+/// buttocks.
 #[must_use]
 pub fn height_suspects(table: &OffsetTable) -> Option<Suspects> {
     let mut found = suspects(&height_grid(table)?);

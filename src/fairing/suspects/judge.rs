@@ -1,11 +1,11 @@
 //! How far each cell lies from what its neighbours predict, in units of the local noise.
 //!
-//! Each direction is a witness. Its predictors are tried at the neighbouring cells too, with the cell in question replaced by
-//! its prediction, so that a typing error does not speak for itself: the mean square of their residuals there is the scale of
-//! the predictor here. A knuckle or a bilge raises it, or is the same on the neighbouring lines and is taken off (levelled
-//! predictors). Local mean squares are moderated by the noise of the whole table with as many degrees of freedom as the table
-//! is even (Smyth 2004, "Linear models and empirical Bayes methods"); of the predictors with the smallest scales the one that
-//! the value offends least testifies.
+//! Each direction is a witness. Its predictors are tried at the neighbouring cells too, with the cell in question
+//! replaced by its prediction, so that a typing error does not speak for itself: the mean square of their residuals
+//! there is the scale of the predictor here. A knuckle or a bilge raises it, or is the same on the neighbouring lines
+//! and is taken off (levelled predictors). Local mean squares are moderated by the noise of the whole table with as
+//! many degrees of freedom as the table is even (Smyth 2004, "Linear models and empirical Bayes methods"); of the
+//! predictors with the smallest scales the one that the value offends least testifies.
 
 use super::grid::{Along, Grid};
 use super::stencil::{PREDICTORS, Stencil, stencils};
@@ -51,8 +51,8 @@ const HEARD: f64 = 9.0;
 const AT_END: f64 = 4.0;
 /// The same beside the end of a run.
 const NEAR_END: f64 = 1.5;
-/// Mean square of what stands in for a cell that is set aside, over that of a prediction beside it: side by side such cells would
-/// otherwise confirm each other.
+/// Mean square of what stands in for a cell that is set aside, over that of a prediction beside it: side by side such
+/// cells would otherwise confirm each other.
 const STAND_IN: f64 = 25.0;
 /// Independent residuals among those of overlapping stencils.
 const INDEPENDENT: f64 = 0.75;
@@ -91,8 +91,8 @@ pub(super) struct Verdict {
 }
 
 impl Verdict {
-    /// The residual in standard deviations of a normal law: Student's t of the scale's degrees of freedom, brought to normal by
-    /// D. L. Wallace's formula (1959), within 1 % for t below 20 and five degrees of freedom or more.
+    /// The residual in standard deviations of a normal law: Student's t of the scale's degrees of freedom, brought to
+    /// normal by D. L. Wallace's formula (1959), within 1 % for t below 20 and five degrees of freedom or more.
     pub(super) fn score(&self) -> f64 {
         let t = self.residual / self.scale;
         let nu = self.freedom;
@@ -108,8 +108,8 @@ type Row = [f64; ALL];
 struct Direction {
     along: Along,
     stencils: Vec<Vec<Option<Stencil>>>,
-    /// The cells beside a cell on the line before and on the line after, with the weights of linear interpolation between them;
-    /// weight 0 where there is none.
+    /// The cells beside a cell on the line before and on the line after, with the weights of linear interpolation
+    /// between them; weight 0 where there is none.
     beside: Vec<[(u32, f64); 2]>,
     around: Vec<[u32; AROUND.len()]>,
     /// Weight of the cell in the predictions of its neighbours two and one steps before, and one and two steps after.
@@ -223,9 +223,9 @@ impl Direction {
         }
     }
 
-    /// What the neighbours of a cell say about the predictors, with the cell replaced by the prediction of each. The residual
-    /// at a neighbour on the same line then grows by the weight of the cell in its prediction times the residual at the cell; a
-    /// levelled one on a line beside it falls by its share of that.
+    /// What the neighbours of a cell say about the predictors, with the cell replaced by the prediction of each. The
+    /// residual at a neighbour on the same line then grows by the weight of the cell in its prediction times the
+    /// residual at the cell; a levelled one on a line beside it falls by its share of that.
     fn heard(&self, cell: usize, masked: &[bool]) -> Heard {
         const PLAIN: usize = PREDICTORS.len();
         let mut heard = Heard { sum: [0.0; ALL], weight: [0.0; ALL], square: [0.0; ALL] };
@@ -346,8 +346,8 @@ impl Judge {
                 let freedom = freedom / list.len() as f64;
                 list.sort_unstable_by(f64::total_cmp);
                 let quantile = |share: f64| list[((list.len() - 1) as f64 * share) as usize];
-                // The logarithm of a mean square of nu normal numbers spreads by about sqrt(2/nu) about its median, which lies
-                // 0.7/nu below the logarithm of the mean.
+                // The logarithm of a mean square of nu normal numbers spreads by about sqrt(2/nu) about its median,
+                // which lies 0.7/nu below the logarithm of the mean.
                 let spread = (quantile(0.75) - quantile(0.25)) / 1.349;
                 let excess = spread * spread - 2.0 / freedom;
                 let prior = (2.0 / excess.max(2.0 / MOST_FREEDOM)).max(0.2);
@@ -363,7 +363,8 @@ impl Judge {
         }
     }
 
-    /// How much greater the mean square of a prediction is for what it takes from cells that are set aside: 1 + STAND_IN sum w^2.
+    /// How much greater the mean square of a prediction is for what it takes from cells that are set aside: 1 +
+    /// STAND_IN sum w^2.
     fn doubt(&self, d: usize, q: usize, cell: usize) -> f64 {
         if self.set_aside == 0 {
             return 1.0;
@@ -412,7 +413,8 @@ impl Judge {
         let gap = a.residual - b.residual;
         let chi2 = gap * gap / (pa + pb);
         let prediction2 = (chi2 / USUAL_CHI2).max(1.0) / weight;
-        // Degrees of freedom of the sum of two variances, each 1/p over the square of the sum of weights (Satterthwaite 1946).
+        // Degrees of freedom of the sum of two variances, each 1/p over the square of the sum of weights (Satterthwaite
+        // 1946).
         let [va, vb] = [1.0 / pa, 1.0 / pb];
         let freedom = (va + vb).powi(2) / (va * va / a.freedom + vb * vb / b.freedom);
         Some(Verdict {
@@ -425,8 +427,8 @@ impl Judge {
         })
     }
 
-    /// How much the energy of the two lines through a cell falls when the cell gives way by `e`: sum of r²/gain of the cubic
-    /// through four neighbours \[m²\].
+    /// How much the energy of the two lines through a cell falls when the cell gives way by `e`: sum of r²/gain of the
+    /// cubic through four neighbours \[m²\].
     pub(super) fn energy_drop(&self, cell: usize, e: f64) -> f64 {
         let mut sum = 0.0;
         for direction in &self.directions {

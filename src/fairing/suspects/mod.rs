@@ -1,5 +1,5 @@
-//! Suspects among the offsets of a table: cells that their neighbours in both directions contradict, and points of sections
-//! that lie off the curve of the others.
+//! Suspects among the offsets of a table: cells that their neighbours in both directions contradict, and points of
+//! sections that lie off the curve of the others.
 mod grid;
 mod heights;
 mod judge;

@@ -1,14 +1,16 @@
 //! Suspects among the points of sections that a table gives as lines of points.
 //!
-//! The place of a point along its section says nothing; its distance from the curve of the others does. Predictors are polynomials
-//! through the nearest points, the point itself left out, in a frame whose axis runs from neighbour to neighbour (from the
-//! two nearest on one side where a predictor looks to one side only, which is right beside a knuckle). The scale of a
-//! predictor is its mean square at the points around, computed as if the point were not there, and at the same share of the
-//! girth on the neighbouring sections, moderated by the level of the whole table; of the predictors with the smallest scales
-//! the one that the point offends least testifies, as for cells (head of `judge.rs`).
+//! The place of a point along its section says nothing; its distance from the curve of the others does. Predictors are
+//! polynomials through the nearest points, the point itself left out, in a frame whose axis runs from neighbour to
+//! neighbour (from the two nearest on one side where a predictor looks to one side only, which is right beside a
+//! knuckle). The scale of a predictor is its mean square at the points around, computed as if the point were not there,
+//! and at the same share of the girth on the neighbouring sections, moderated by the level of the whole table; of the
+//! predictors with the smallest scales the one that the point offends least testifies, as for cells (head of
+//! `judge.rs`).
 //!
-//! Each slip of the pen is tried on the half-breadth and on the height of the point in the notation of the table; its evidence is
-//! the distance at which the repaired point would lie (head of `posterior.rs`). Marked knuckles end the predictors.
+//! Each slip of the pen is tried on the half-breadth and on the height of the point in the notation of the table; its
+//! evidence is the distance at which the repaired point would lie (head of `posterior.rs`). Marked knuckles end the
+//! predictors.
 
 use super::posterior::{Reading, readings, student};
 use super::reading::{Hypothesis, Writing, bare, repairs};
@@ -444,8 +446,9 @@ fn suspect(judge: &Judge, r: usize, at: usize, writing: Writing, wrong: f64) -> 
     })
 }
 
-/// The suspects among the points of the sections of a table; nothing is changed. The strongest is set aside before the next is
-/// looked for, and all are heard again at the end. Cost: linear in the points, and in the points of a section for each suspect.
+/// The suspects among the points of the sections of a table; nothing is changed. The strongest is set aside before the
+/// next is looked for, and all are heard again at the end. Cost: linear in the points, and in the points of a section
+/// for each suspect.
 #[must_use]
 pub fn point_suspects(table: &OffsetTable) -> PointSuspects {
     let quantum = table.form.quantum().unwrap_or(1e-4);

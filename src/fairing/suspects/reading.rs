@@ -1,7 +1,7 @@
 //! What a cell would say had it been written or read right: hypotheses in the loftsman's terms.
 //!
-//! Each slip is undone on the text of the cell in its own notation: adjacent digits swapped back, a 1 read for a 7. Slips that
-//! change the value by copying another cell leave that cell's text behind instead.
+//! Each slip is undone on the text of the cell in its own notation: adjacent digits swapped back, a 1 read for a 7.
+//! Slips that change the value by copying another cell leave that cell's text behind instead.
 
 use crate::hull::TableForm;
 use crate::units::{CellEntry, CellRules, Notation, parse_cell};
@@ -71,8 +71,8 @@ impl Hypothesis {
         }
     }
 
-    /// How often such a slip is the cause of a wrong cell, before the cell is looked at. Judgement: swapped digits and look-alikes
-    /// lead every list of transcription errors.
+    /// How often such a slip is the cause of a wrong cell, before the cell is looked at. Judgement: swapped digits and
+    /// look-alikes lead every list of transcription errors.
     pub(super) fn prior(self) -> f64 {
         match self {
             Self::DigitsSwapped | Self::DigitMisread => 0.2,

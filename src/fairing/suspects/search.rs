@@ -1,14 +1,14 @@
 //! The search for suspects: the strongest first, each set aside before the next is looked for, all of them heard again.
 //!
-//! How much evidence a cell needs depends on the rest of its table (empirical Bayes). With n offsets and beliefs b_k in the other
-//! suspects the share of wrong cells is taken as
+//! How much evidence a cell needs depends on the rest of its table (empirical Bayes). With n offsets and beliefs b_k in
+//! the other suspects the share of wrong cells is taken as
 //!
 //!   a = (UNFOUND + sum b_k + FURTHER (1 - prod (1 - b_k))) / n,
 //!
-//! so that a table in which nothing is certain needs odds of n/UNFOUND from the cell alone, and one with a certain error a few
-//! hundred times less. A belief is the probability from the cell's own evidence, discounted by WITNESS. The price: the only
-//! error of a table has to be larger to be found than one among several. The three constants were chosen on seeded tables
-//! with planted errors (tests/suspects.rs says how), not derived.
+//! so that a table in which nothing is certain needs odds of n/UNFOUND from the cell alone, and one with a certain
+//! error a few hundred times less. A belief is the probability from the cell's own evidence, discounted by WITNESS. The
+//! price: the only error of a table has to be larger to be found than one among several. The three constants were
+//! chosen on seeded tables with planted errors (tests/suspects.rs says how), not derived.
 
 use super::grid::{Along, Grid};
 use super::judge::{Judge, Verdict};
@@ -21,8 +21,9 @@ use crate::numeric::median;
 const LEAST_SCORE: f64 = 3.0;
 /// Least probability that a suspect is wrong.
 const LEAST_PROBABILITY: f64 = 0.6;
-/// Wrong cells that a table is expected to have before any has been found in it. It stands well below what misprints alone would
-/// say: what looks like the only error of a table is oftener a feature of the hull that no predictor follows.
+/// Wrong cells that a table is expected to have before any has been found in it. It stands well below what misprints
+/// alone would say: what looks like the only error of a table is oftener a feature of the hull that no predictor
+/// follows.
 const UNFOUND: f64 = 0.002;
 /// Wrong cells that are expected besides those found once one is certain.
 const FURTHER: f64 = 1.0;
@@ -95,11 +96,13 @@ impl Suspect {
 /// The suspects of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suspects {
-    /// Noise of the table \[m\]: standard deviation of an offset from a smooth neighbourhood; reading noise and roughness.
+    /// Noise of the table \[m\]: standard deviation of an offset from a smooth neighbourhood; reading noise and
+    /// roughness.
     pub noise: f64,
     /// The suspects, most severe first.
     pub suspects: Vec<Suspect>,
-    /// By station and waterline: what the neighbours say once the suspects are set aside; none where too few neighbours speak.
+    /// By station and waterline: what the neighbours say once the suspects are set aside; none where too few neighbours
+    /// speak.
     pub verdicts: Vec<Vec<Option<CellVerdict>>>,
 }
 
@@ -107,12 +110,13 @@ pub struct Suspects {
 const ROUNDS: usize = 3;
 /// Sweeps in which cells that are set aside together get their predictions.
 const SWEEPS: usize = 3;
-/// Distance from the median of the simplest predictions, over its usual size around, from which a cell is set aside before the
-/// search begins.
+/// Distance from the median of the simplest predictions, over its usual size around, from which a cell is set aside
+/// before the search begins.
 const GROSS: f64 = 4.0;
 
 /// Cells that lie far off the median of six predictions by straight lines: between and beyond the neighbours in both
-/// directions. One wrong neighbour spoils two or three of the six only, so that wrong cells side by side do not hide each other.
+/// directions. One wrong neighbour spoils two or three of the six only, so that wrong cells side by side do not hide
+/// each other.
 fn gross(grid: &Grid, noise: f64, most: usize) -> Vec<usize> {
     let mut offs: Vec<Option<f64>> = vec![None; grid.len()];
     for (cell, off) in offs.iter_mut().enumerate().filter(|&(cell, _)| grid.is_given(cell)) {
@@ -249,8 +253,8 @@ impl Search<'_> {
         1.0 - list.iter().find(|r| r.hypothesis == Hypothesis::Noise).map_or(0.0, |r| r.probability)
     }
 
-    /// What a suspect says for errors elsewhere in the table: its probability on its own evidence, with odds a further WITNESS
-    /// lower, so that features of the hull do not vouch for each other.
+    /// What a suspect says for errors elsewhere in the table: its probability on its own evidence, with odds a further
+    /// WITNESS lower, so that features of the hull do not vouch for each other.
     fn belief(&self, verdict: &Verdict) -> f64 {
         let p = self.probability(verdict);
         let odds = p / (1.0 - p).max(1e-12) * UNFOUND / self.expected_elsewhere(verdict.cell) / WITNESS;
@@ -265,8 +269,8 @@ impl Search<'_> {
         self.probability(verdict) >= LEAST_PROBABILITY
     }
 
-    /// The suspect to set aside next: of those that stand out the one whose yielding takes most energy off its lines, unless
-    /// it lies in the shadow of another.
+    /// The suspect to set aside next: of those that stand out the one whose yielding takes most energy off its lines,
+    /// unless it lies in the shadow of another.
     fn next(&self) -> Option<Verdict> {
         let mut order: Vec<(f64, Verdict)> = self
             .verdicts
@@ -367,7 +371,8 @@ impl Search<'_> {
         -f64::max(wrong, f64::MIN_POSITIVE).ln()
     }
 
-    /// How much the cost falls when `other` is set aside in the place of some that are, and the value that then stands in for it.
+    /// How much the cost falls when `other` is set aside in the place of some that are, and the value that then stands
+    /// in for it.
     fn gain_of_exchange(&mut self, cells: &[usize], other: usize) -> Option<(f64, f64)> {
         let region = self.region(&[cells, &[other]].concat());
         let stand_ins: Vec<f64> = cells.iter().map(|&cell| self.judge.grid.value[cell]).collect();
@@ -420,8 +425,8 @@ impl Search<'_> {
         Some(other)
     }
 
-    /// Exchanges suspects for neighbours where that explains the neighbourhood better: beside a wrong cell a right one may have
-    /// looked worse.
+    /// Exchanges suspects for neighbours where that explains the neighbourhood better: beside a wrong cell a right one
+    /// may have looked worse.
     fn exchange(&mut self, found: &mut [usize]) -> bool {
         let mut changed = false;
         for cell in found {
@@ -459,8 +464,8 @@ impl Search<'_> {
         }
     }
 
-    /// Hears each cell that is set aside again, the weakest first, with the others set aside; those that do not stand out are
-    /// taken back.
+    /// Hears each cell that is set aside again, the weakest first, with the others set aside; those that do not stand
+    /// out are taken back.
     fn hear_again(&mut self, found: &mut Vec<usize>) -> Vec<Verdict> {
         let mut kept = Vec::new();
         for last in [false, true] {

@@ -1,9 +1,9 @@
 //! What the neighbours on one line predict for a cell: polynomials through, or fitted to, the nearest offsets of its run,
 //! the cell itself left out. A prediction is a row of weights, sum w_k y_k.
 //!
-//! Weights of the least-squares polynomial of degree d at the cell: w_k = sum_p q_p(t) q_p(t_k) with polynomials q_p that are
-//! orthonormal over the points, made by the recurrence q_p ~ t q_(p-1) (Vandermonde with Arnoldi: Brubeck, Nakatsukasa,
-//! Trefethen 2021), exact to rounding for the up to eight points in use.
+//! Weights of the least-squares polynomial of degree d at the cell: w_k = sum_p q_p(t) q_p(t_k) with polynomials q_p
+//! that are orthonormal over the points, made by the recurrence q_p ~ t q_(p-1) (Vandermonde with Arnoldi: Brubeck,
+//! Nakatsukasa, Trefethen 2021), exact to rounding for the up to eight points in use.
 
 use super::grid::{Along, Grid};
 
@@ -33,8 +33,8 @@ const fn through(points: usize, degree: usize, side: Side, graded: bool) -> Pred
     Predictor { points, degree, side, graded }
 }
 
-/// The predictors. Few points follow features, many average reading noise; one side is right beside a knuckle or the edge of
-/// a flat.
+/// The predictors. Few points follow features, many average reading noise; one side is right beside a knuckle or the
+/// edge of a flat.
 pub(super) const PREDICTORS: [Predictor; 14] = [
     through(4, 3, Side::Both, false),
     through(6, 3, Side::Both, false),

@@ -39,13 +39,13 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// In each gap the span of its two data and a margin on both sides, within [least, most]; the data themselves are always
-    /// allowed.
+    /// In each gap the span of its two data and a margin on both sides, within [least, most]; the data themselves are
+    /// always allowed.
     ///
-    /// The margin is what an extremum between the data may need: half the width of the gap times half the smaller of the
-    /// slopes on its two sides, each the greater of that within the gap and that of the neighbouring gap. A parabola sampled
-    /// at even spaces needs half of it. Where the data are steep on one side only (an end close to a station, a
-    /// transom cut by two stations), there is hardly any margin, and the spline cannot shoot over.
+    /// The margin is what an extremum between the data may need: half the width of the gap times half the smaller of
+    /// the slopes on its two sides, each the greater of that within the gap and that of the neighbouring gap. A
+    /// parabola sampled at even spaces needs half of it. Where the data are steep on one side only (an end close to a
+    /// station, a transom cut by two stations), there is hardly any margin, and the spline cannot shoot over.
     pub(super) fn within(
         sites: Vec<f64>,
         values: Vec<f64>,
@@ -260,8 +260,8 @@ fn curve_of(knots: &KnotVector, control: &[f64]) -> Result<BsplineCurve<1>, Spli
     BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect())
 }
 
-/// Control values that have part in the curve between two places, of multiplicity two at least, become one value: what differs is
-/// rounding.
+/// Control values that have part in the curve between two places, of multiplicity two at least, become one value: what
+/// differs is rounding.
 pub(super) fn flatten(knots: &KnotVector, control: &mut [f64], [from, to]: [f64; 2], value: f64) {
     let reach = knots.degree() + 1;
     for (k, c) in control.iter_mut().enumerate() {

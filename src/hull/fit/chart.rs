@@ -1,12 +1,12 @@
 //! The level chart: z(v), the profiles x_stern(v) and x_stem(v), and x(u, v) between them.
 //!
-//! x(u, v) = s + (e - s) u + (stern(v) - s) A(u) + (stem(v) - e) F(u), with A = (1 - u/ua)^3 up to ua, F = ((u - uf)/(1 - uf))^3
-//! from uf, 0 beyond. s is the foremost point of the stern profile and e the aftmost one of the stem profile, so that both
-//! cubes only lengthen the shortest waterline: x_u >= e - s > 0, and so for the net. In the middle stations are lines u = constant.
-//! Cubes and line lie in the cubic spline space of u: the net is exact.
+//! x(u, v) = s + (e - s) u + (stern(v) - s) A(u) + (stem(v) - e) F(u), with A = (1 - u/ua)^3 up to ua,
+//! F = ((u - uf)/(1 - uf))^3 from uf, 0 beyond. s is the foremost point of the stern profile and e the aftmost one of
+//! the stem profile, so that both cubes only lengthen the shortest waterline: x_u >= e - s > 0, and so for the net. In
+//! the middle stations are lines u = constant. Cubes and line lie in the cubic spline space of u: the net is exact.
 //!
-//! v runs like the girth of the sections (mean over the stations of the chord lengths between waterlines), and dz/dv = 0 at the
-//! bottom where it is flat, so that y(v) is smooth where dy/dz is infinite.
+//! v runs like the girth of the sections (mean over the stations of the chord lengths between waterlines), and dz/dv =
+//! 0 at the bottom where it is flat, so that y(v) is smooth where dy/dz is infinite.
 
 use super::super::HullError;
 use super::FitError;
@@ -190,7 +190,8 @@ pub(super) fn lengths(u: &KnotVector, span: Span, stern: &[f64], stem: &[f64]) -
     Ok(stern.iter().zip(stem).map(column).collect())
 }
 
-/// Knots in u on which every waterline, with sites `rows` in (0, 1), has at most one site a span; the shoulders are knots.
+/// Knots in u on which every waterline, with sites `rows` in (0, 1), has at most one site a span; the shoulders are
+/// knots.
 pub(super) fn length_knots(rows: &[Vec<f64>]) -> Result<KnotVector, FitError> {
     let mut gaps: Vec<[f64; 2]> = Vec::new();
     for row in rows {

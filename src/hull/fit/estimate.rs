@@ -1,9 +1,10 @@
 //! How well a table fixes a figure of its hull, found from the table itself.
 //!
-//! The hull is fitted again from every second station, and again from every second waterline (or point of a section). An
-//! error that falls with the square of the spacing is a third of what the figure changes by (Richardson 1911); the surface is
-//! better than that where the hull is smooth, so that the estimate is on the safe side there. It says nothing of errors that
-//! all lines share: ends of waterlines and bottoms that the table does not give. Cost: two more fits.
+//! The hull is fitted again from every second station, and again from every second waterline (or point of a section).
+//! An error that falls with the square of the spacing is a third of what the figure changes by (Richardson 1911); the
+//! surface is better than that where the hull is smooth, so that the estimate is on the safe side there. It says
+//! nothing of errors that all lines share: ends of waterlines and bottoms that the table does not give. Cost: two more
+//! fits.
 
 use super::super::{Functional, Hull, OffsetTable};
 use super::features::runs_along;
@@ -16,8 +17,8 @@ const LEAST: usize = 5;
 /// The hulls of a table without every second line.
 #[derive(Debug, Clone)]
 pub struct Thinned {
-    /// From every second station, the first and the last among them; none with fewer than five stations, or where they make
-    /// no hull.
+    /// From every second station, the first and the last among them; none with fewer than five stations, or where they
+    /// make no hull.
     pub stations: Option<Hull>,
     /// From every second waterline (the lowest, the highest and the one at the draught stay) and every second point of a
     /// section; none with fewer than five, or where they make no hull.
@@ -35,7 +36,8 @@ impl Thinned {
         }
     }
 
-    /// Richardson's estimate of the error of `fine`, where half as many lines give `coarse`: |coarse - fine| / 3, in their unit.
+    /// Richardson's estimate of the error of `fine`, where half as many lines give `coarse`: |coarse - fine| / 3, in
+    /// their unit.
     #[must_use]
     pub fn error(fine: f64, coarse: f64) -> f64 {
         (coarse - fine).abs() / 3.0

@@ -24,8 +24,9 @@ pub(super) struct FlatOfSide {
 }
 
 impl FlatOfSide {
-    /// From the heights that the table gives, from offsets marked as points of a tangent line above which the half-breadth does not
-    /// change, and from tangent lines of which all points are as wide. What contradicts the offsets is left out with a note.
+    /// From the heights that the table gives, from offsets marked as points of a tangent line above which the
+    /// half-breadth does not change, and from tangent lines of which all points are as wide. What contradicts the
+    /// offsets is left out with a note.
     pub(super) fn new(table: &OffsetTable, notes: &mut Vec<String>) -> Option<Self> {
         let mut order: Vec<&StationOffsets> = table.stations.iter().filter(|s| s.station.x.is_finite()).collect();
         order.sort_by(|a, b| a.station.x.total_cmp(&b.station.x));
@@ -80,7 +81,8 @@ impl FlatOfSide {
         (edge.len() > 1).then_some(Self { half, edge })
     }
 
-    /// Ends of the flat on the waterline at `z`, aft and fore \[m\]; none where it lies below the flat or meets it at a point.
+    /// Ends of the flat on the waterline at `z`, aft and fore \[m\]; none where it lies below the flat or meets it at a
+    /// point.
     ///
     /// Between two stations the edge is the monotone cubic x(z) through the stations on its side of the lowest one.
     pub(super) fn ends(&self, z: f64) -> Option<[f64; 2]> {
@@ -151,8 +153,8 @@ fn height_at(line: &FeatureLine, x: f64) -> Option<f64> {
     Some(pair[0][2] + (x - pair[0][0]) / (pair[1][0] - pair[0][0]) * (pair[1][2] - pair[0][2]))
 }
 
-/// Whether the waterline `j` is a line of the given kind: more than half of its offsets are marked so, or a level line of the
-/// table runs along it.
+/// Whether the waterline `j` is a line of the given kind: more than half of its offsets are marked so, or a level line
+/// of the table runs along it.
 pub(super) fn runs_along(table: &OffsetTable, j: usize, kind: LineKind) -> bool {
     let cells: Vec<(f64, &Cell)> = table
         .stations
@@ -216,7 +218,8 @@ pub(super) fn unused(table: &OffsetTable, flat: Option<&FlatOfSide>, notes: &mut
     }
 }
 
-/// What the chart does not hold of a table, in words: the camber of the deck, and on an upright chart a transom that rakes.
+/// What the chart does not hold of a table, in words: the camber of the deck, and on an upright chart a transom that
+/// rakes.
 pub(super) fn not_held(table: &OffsetTable, chart: Chart) -> Vec<String> {
     let mut notes = Vec::new();
     let cambered = |s: &&StationOffsets| {

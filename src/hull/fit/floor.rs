@@ -124,7 +124,8 @@ fn dips(
     Ok(found)
 }
 
-/// The control values that make value and slope at a break: at an end the first or the last two, at a double knot those beside it.
+/// The control values that make value and slope at a break: at an end the first or the last two, at a double knot those
+/// beside it.
 fn beside(knots: &KnotVector, breaks: &[f64], at: usize) -> std::ops::Range<usize> {
     let count = knots.basis_count();
     if at == 0 {

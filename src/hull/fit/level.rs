@@ -1,13 +1,15 @@
-//! The loft on the level chart: every waterline a spline of least energy through its own cells and ends, the waterlines joined
-//! across.
+//! The loft on the level chart: every waterline a spline of least energy through its own cells and ends, the waterlines
+//! joined across.
 //!
-//! All waterlines share one knot vector in u, on which none has more than one site a span; each meets its cells at its own
-//! sites u_ij (x(u_ij, v_j) = x_i), and what is missing is filled with the least energy int y_uu^2 du. The control values are then
-//! interpolated across at the v_j with the least energy int y_vv^2 dv. The surface passes through every cell to rounding (below
-//! 1e-9 m), and stays between the centreplane and the greatest half-breadth but for swings below 1e-4 of it ([`super::bounded`]).
+//! All waterlines share one knot vector in u, on which none has more than one site a span; each meets its cells at its
+//! own sites u_ij (x(u_ij, v_j) = x_i), and what is missing is filled with the least energy int y_uu^2 du. The control
+//! values are then interpolated across at the v_j with the least energy int y_vv^2 dv. The surface passes through every
+//! cell to rounding (below 1e-9 m), and stays between the centreplane and the greatest half-breadth but for swings
+//! below 1e-4 of it ([`super::bounded`]).
 //!
-//! Where a profile jumps along a level keel (a dome or skeg below it) the surface has a level strip without height, which is the
-//! keel: the waterline there is written twice, for the body below and for the hull, and the lines across break at both.
+//! Where a profile jumps along a level keel (a dome or skeg below it) the surface has a level strip without height,
+//! which is the keel: the waterline there is written twice, for the body below and for the hull, and the lines across
+//! break at both.
 //!
 //! Cost: linear in the number of cells.
 
@@ -23,7 +25,8 @@ use super::rows::{Row, Rows};
 use crate::spline::{BsplineCurve, BsplineSurface, Energy, KnotVector};
 use part::{Columns, Part, Shape};
 
-/// Control values of a waterline this far beyond centreplane and greatest half-breadth, over the latter, ask for more knots.
+/// Control values of a waterline this far beyond centreplane and greatest half-breadth, over the latter, ask for more
+/// knots.
 const WILD: f64 = 0.05;
 
 /// A profile jumps when an end moves by more than this part of the longest waterline from one waterline to the next.
@@ -41,8 +44,8 @@ const HAIR: f64 = 1e-9;
 /// Rounds in which rows are kept above the centreplane: what is held in one gap may swing in the next.
 const STEERED: usize = 4;
 
-/// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the ends of
-/// the body below.
+/// Splits the rows where a profile jumps to a longer waterline; the longer one is written a second time, between the
+/// ends of the body below.
 fn split(table: &OffsetTable, rows: Vec<Row>, notes: &mut Vec<String>) -> Vec<Vec<Row>> {
     let longest = rows.iter().map(|r| r.ends[1].x - r.ends[0].x).fold(0.0, f64::max);
     let mut parts: Vec<Vec<Row>> = vec![Vec::new()];

@@ -9,8 +9,8 @@ pub enum FitMethod {
     /// Interpolation on graded charts with minimum energy, the default.
     #[default]
     Graded,
-    /// S(x, z) = sum y_ij psi_i(x) psi_j(z) with hat functions: every cell is met, between cells the surface is bilinear. It
-    /// errs by |y_xx| dx^2 / 8 + |y_zz| dz^2 / 8 (Blagojevic, Split, programs 1 and 2).
+    /// S(x, z) = sum y_ij psi_i(x) psi_j(z) with hat functions: every cell is met, between cells the surface is
+    /// bilinear. It errs by |y_xx| dx^2 / 8 + |y_zz| dz^2 / 8 (Blagojevic, Split, programs 1 and 2).
     Bilinear,
     /// Least squares on a tensor product with few control points; cells are not met.
     LeastSquares(LeastSquares),
@@ -22,15 +22,16 @@ pub enum FitMethod {
     ParametricStations(ParametricStations),
 }
 
-/// Least squares on given or chosen knots (Blagojevic, Split, programs 3 and 4). The first of each pair is along the hull, the
-/// second up it.
+/// Least squares on given or chosen knots (Blagojevic, Split, programs 3 and 4). The first of each pair is along the
+/// hull, the second up it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeastSquares {
     /// Orders, degree + 1.
     pub orders: [usize; 2],
     /// Numbers of control points; none for three quarters of the lines of the table, rounded up, and at least the order.
     pub control_points: [Option<usize>; 2],
-    /// Knots, clamped or not, `control_points + order` of them used; none for knots by the sites (Piegl & Tiller 1997, 9.69).
+    /// Knots, clamped or not, `control_points + order` of them used; none for knots by the sites (Piegl & Tiller 1997,
+    /// 9.69).
     pub knots: [Option<Vec<f64>>; 2],
     /// Parameters of the stations and of the waterlines; none for parameters in proportion to x and z.
     pub parameters: [Option<Vec<f64>>; 2],
@@ -42,8 +43,9 @@ impl Default for LeastSquares {
     }
 }
 
-/// Uniform bicubic surface over the offsets (Nitu, Macovei & Dobran, Bucharest 1993). Border curves depend on border vertices
-/// only and the corners are met. Along a knuckle the vertices are repeated three times: two surfaces joined C0.
+/// Uniform bicubic surface over the offsets (Nitu, Macovei & Dobran, Bucharest 1993). Border curves depend on border
+/// vertices only and the corners are met. Along a knuckle the vertices are repeated three times: two surfaces joined
+/// C0.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct UniformBicubic {
     /// Waterlines of the table that are knuckles \[m\].
@@ -55,8 +57,8 @@ pub struct UniformBicubic {
 /// Where the knots of [`QuadraticNet`] stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum NetKnots {
-    /// Three-fold at the ends and equally spaced between, `[0, 0, 0, 1, 2, 3, 3, 3]` for five control points: the non-uniform
-    /// knots of the thesis.
+    /// Three-fold at the ends and equally spaced between, `[0, 0, 0, 1, 2, 3, 3, 3]` for five control points: the
+    /// non-uniform knots of the thesis.
     #[default]
     OpenUniform,
     /// Three-fold at the ends and midway between the inner lines of the table, so that spans follow its spacing.

@@ -53,8 +53,9 @@ impl Fitted {
         outlines::point_residuals(table, &self.hull).0
     }
 
-    /// The table with the half-breadths of the surface in its own cells; cells without a hull stay blank. Ends of waterlines are
-    /// those of the surface where the table gives them. Heights, outlines, lines and deck are those of the table.
+    /// The table with the half-breadths of the surface in its own cells; cells without a hull stay blank. Ends of
+    /// waterlines are those of the surface where the table gives them. Heights, outlines, lines and deck are those of
+    /// the table.
     #[must_use]
     pub fn surface_table(&self, table: &OffsetTable) -> OffsetTable {
         let mut surface = table.clone();

@@ -52,7 +52,8 @@ pub struct CellResidual {
 pub enum Chart {
     /// z = z(v): waterlines are lines of the net; x runs between the profiles.
     Level,
-    /// x = x(u): stations are lines of the net; z runs between keel, knuckles and deck, or along the girth of each section.
+    /// x = x(u): stations are lines of the net; z runs between keel, knuckles and deck, or along the girth of each
+    /// section.
     Upright,
 }
 
@@ -129,8 +130,8 @@ fn graded(table: &OffsetTable) -> Result<Fitted, FitError> {
     Ok(fitted)
 }
 
-/// Tables of section outlines: with their knuckles as lines of the net where there are any, else, and where these make no hull,
-/// from section to section by girth.
+/// Tables of section outlines: with their knuckles as lines of the net where there are any, else, and where these make
+/// no hull, from section to section by girth.
 fn sections(table: &OffsetTable) -> Result<Fitted, FitError> {
     if !upright::has_knuckles(table) {
         return skin::fit(table);

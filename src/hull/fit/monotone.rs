@@ -24,7 +24,8 @@ pub(super) fn monotone_slope(points: &[(f64, f64)], i: usize) -> f64 {
     (w + v) / (w / before + v / after)
 }
 
-/// The value at `t` of the monotone piecewise cubic through `points` (t rising, at least one); its end values beyond them.
+/// The value at `t` of the monotone piecewise cubic through `points` (t rising, at least one); its end values beyond
+/// them.
 ///
 /// Slopes are those of [`monotone_slope`]. Accuracy: second order, no overshoot.
 pub(super) fn monotone_cubic(points: &[(f64, f64)], t: f64) -> f64 {

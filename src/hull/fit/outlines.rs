@@ -1,7 +1,7 @@
 //! Points of sections beside the surface: what a fit leaves of tables that give sections instead of a grid.
 //!
-//! Where a section has several points at one height, its greatest half-breadth there counts; between points it is the monotone
-//! piecewise cubic (Fritsch & Butland 1984) of y and of z over the chord length.
+//! Where a section has several points at one height, its greatest half-breadth there counts; between points it is the
+//! monotone piecewise cubic (Fritsch & Butland 1984) of y and of z over the chord length.
 
 use super::super::{Hull, OffsetTable, OutlinePoint};
 use super::monotone::monotone_cubic;
@@ -94,9 +94,9 @@ fn is_level(branch: &[OutlinePoint], k: usize) -> bool {
     (k > 0 && flat(&branch[k - 1], &branch[k])) || branch.get(k + 1).is_some_and(|next| flat(&branch[k], next))
 }
 
-/// The outermost points of the sections above the bottom of the hull, and the number of all points. Points of the bottom, of other
-/// level pieces and of lines that close a section across are no part of the side, and points where the hull does not reach have
-/// no residual.
+/// The outermost points of the sections above the bottom of the hull, and the number of all points. Points of the
+/// bottom, of other level pieces and of lines that close a section across are no part of the side, and points where the
+/// hull does not reach have no residual.
 pub(super) fn point_residuals(table: &OffsetTable, hull: &Hull) -> (Vec<PointResidual>, usize) {
     let (mut list, mut all) = (Vec::new(), 0usize);
     let floor = hull.bottom() + CLOSEST * (hull.top() - hull.bottom());

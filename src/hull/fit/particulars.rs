@@ -10,8 +10,8 @@ use crate::units::decimal;
 /// Design draught over the height of the table where none is stated.
 const DRAUGHT_SHARE: f64 = 0.7;
 
-/// The lowest of the upper edges of the sections: deck at side or highest offset \[m\]; stations that the table gives only a part
-/// of (fewer than half as many offsets as the fullest) do not count.
+/// The lowest of the upper edges of the sections: deck at side or highest offset \[m\]; stations that the table gives
+/// only a part of (fewer than half as many offsets as the fullest) do not count.
 pub(super) fn lowest_edge(table: &OffsetTable) -> Option<f64> {
     let edges: Vec<(usize, f64)> = table
         .stations
@@ -112,8 +112,8 @@ fn before_transom(table: &OffsetTable, x: f64, highest: f64) -> bool {
     table.transom.zip(next).is_some_and(|(plane, z)| highest.is_finite() && plane.x_base + plane.slope * z > x)
 }
 
-/// Knots and control points (x, z) of the deck at side: the heights of the stations where the table gives them, or of their
-/// highest offsets, joined straight, inside the surface; level at the top where every station reaches it.
+/// Knots and control points (x, z) of the deck at side: the heights of the stations where the table gives them, or of
+/// their highest offsets, joined straight, inside the surface; level at the top where every station reaches it.
 #[allow(clippy::type_complexity, reason = "the two parts of one curve, taken apart at once")]
 pub(super) fn deck(
     table: &OffsetTable,

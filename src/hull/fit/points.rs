@@ -1,7 +1,7 @@
 //! Readings between the lines of the net: heights at buttocks on the level chart.
 //!
-//! A reading says y(x, z) = b at the height z at which the buttock b meets the station x, anywhere between waterlines. The surface
-//! is moved to the readings by the net d of least energy
+//! A reading says y(x, z) = b at the height z at which the buttock b meets the station x, anywhere between waterlines.
+//! The surface is moved to the readings by the net d of least energy
 //!
 //! > int int d_uu^2 + 2 d_uv^2 + d_vv^2 du dv,   d = 0 at every cell and along the edges,   d = b - y at every reading,
 //!
@@ -17,7 +17,8 @@ use crate::hull::form::{Hull, HullError};
 use crate::hull::offsets::OffsetTable;
 use crate::spline::{BsplineSurface, KnotVector, basis_row, energy};
 
-/// A reading nearer to the bottom than this part of the height of the hull, or to another datum of its station, says nothing new.
+/// A reading nearer to the bottom than this part of the height of the hull, or to another datum of its station, says
+/// nothing new.
 const APART: f64 = 1e-6;
 
 /// Weight of the penalties over the mean of the diagonal of the energy.
@@ -101,7 +102,8 @@ pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -
     Ok(Hull::new(hull.name(), *hull.particulars(), moved, hull.deck().clone())?)
 }
 
-/// The readings at which the hull reaches, without doubtful ones, how many it does not reach, and how many say nothing new.
+/// The readings at which the hull reaches, without doubtful ones, how many it does not reach, and how many say nothing
+/// new.
 fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, usize, usize) {
     let (mut list, mut beyond, mut known): (Vec<Reading>, usize, usize) = (Vec::new(), 0, 0);
     let height = hull.top() - hull.bottom();
@@ -140,7 +142,8 @@ fn cells(table: &OffsetTable, hull: &Hull) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Knots such that no span holds two readings of a station, and a reading shares none with both its neighbours on the knots.
+/// Knots such that no span holds two readings of a station, and a reading shares none with both its neighbours on the
+/// knots.
 fn knots_between(v: &KnotVector, readings: &[Reading]) -> Vec<f64> {
     let breaks = v.breakpoints();
     let stations = readings.iter().map(|r| r.station).max().map_or(0, |s| s + 1);

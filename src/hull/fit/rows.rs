@@ -1,9 +1,10 @@
 //! The waterlines of a table, made ready for a surface: their cells, their ends, and what had to be assumed.
 //!
-//! An end of a waterline is, in this order: the one the table gives; where the profile (lowest point on the centreplane of
-//! each station) crosses its height, interpolated with a monotone cubic (Fritsch & Butland 1984) in z; the last zero before the
-//! hull begins; the last cell itself where the table ends with breadth (transom or cut); where the waterline, continued
-//! straight, closes before the next station. Each assumption is told once, with the waterlines it concerns.
+//! An end of a waterline is, in this order: the one the table gives; where the profile (lowest point on the centreplane
+//! of each station) crosses its height, interpolated with a monotone cubic (Fritsch & Butland 1984) in z; the last zero
+//! before the hull begins; the last cell itself where the table ends with breadth (transom or cut); where the
+//! waterline, continued straight, closes before the next station. Each assumption is told once, with the waterlines it
+//! concerns.
 
 use super::super::{Entry, LineKind, OffsetTable, StationOffsets};
 use super::monotone::monotone_cubic;
@@ -193,8 +194,8 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
     Ok(Rows { rows, notes })
 }
 
-/// Leaves out an outermost station that stands close to the next one and is much narrower: both are cut through a raking transom
-/// (or a blunt stem), and no fair line passes through the two.
+/// Leaves out an outermost station that stands close to the next one and is much narrower: both are cut through a
+/// raking transom (or a blunt stem), and no fair line passes through the two.
 fn crowded_ends(table: &OffsetTable, order: &mut Vec<usize>, notes: &mut Vec<String>) {
     for fore in [false, true] {
         let at = |n: usize| if fore { order[order.len() - 1 - n] } else { order[n] };
@@ -290,7 +291,8 @@ fn outside(line: &Waterline<'_>, k: usize) -> bool {
     !line.above_deck(k)
 }
 
-/// The end of a waterline on the plane of the transom; none where it closes before it, and where an offset lies aft of the plane.
+/// The end of a waterline on the plane of the transom; none where it closes before it, and where an offset lies aft of
+/// the plane.
 ///
 /// It closes before it when the table gives an end or a station without hull before the plane, or when it has no
 /// breadth left there.
@@ -341,15 +343,15 @@ fn end(
         return Some((End { x: line.x(next), y: 0.0 }, Origin::Zero));
     }
     if let Some(at) = profile_crossing(line, k, step) {
-        // A profile that leaves the waterline at the station itself, or so near that the waterline could not close without a
-        // jump: a level keel ends there with its breadth.
+        // A profile that leaves the waterline at the station itself, or so near that the waterline could not close
+        // without a jump: a level keel ends there with its breadth.
         let inner = k.checked_add_signed(-step).filter(|&n| n < line.order.len()).map(|n| (line.x(n) - x).abs());
         let near = inner.map_or(0.0, |spacing| AT_STATION * spacing);
         if (at - x).abs() <= near.max(1e-9 * (1.0 + x.abs())) {
             return Some((End { x, y }, Origin::Profile));
         }
-        // Where between the two stations the profile rises is not known. A waterline that would have to close more steeply than
-        // at 45 degrees is round there and closes later, at most half-way.
+        // Where between the two stations the profile rises is not known. A waterline that would have to close more
+        // steeply than at 45 degrees is round there and closes later, at most half-way.
         let reach = (at - x).abs().max(y.min(0.5 * (line.x(next) - x).abs()));
         return Some((End { x: x + reach.copysign(at - x), y: 0.0 }, Origin::Profile));
     }

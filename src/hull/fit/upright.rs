@@ -1,26 +1,27 @@
 //! The upright chart: stations are lines of the net, and so are keel, knuckles and upper edge.
 //!
-//! S(u, v) = (x(u), y(u, v), z(u, v)). x(u) is one polynomial over the length. Between two successive lines of the hull, a below b,
+//! S(u, v) = (x(u), y(u, v), z(u, v)). x(u) is one polynomial over the length. Between two successive lines of the
+//! hull, a below b,
 //!
 //! > z(u, v) = z_a(u) + (z_b(u) - z_a(u)) zeta(v),
 //!
-//! with z_a and z_b splines in u through their heights at the stations and zeta a polynomial of v in the band (v or, at a round
-//! keel, v^2): a product of splines, hence exactly in the tensor space. y is the unknown: each station's y(v) passes
-//! through its own cells and points with the least bending, on knots common to all stations; then every column of the net is
-//! interpolated across the stations. Volume = 2 int int y x_u z_v dv du stays linear in y.
+//! with z_a and z_b splines in u through their heights at the stations and zeta a polynomial of v in the band (v or, at
+//! a round keel, v^2): a product of splines, hence exactly in the tensor space. y is the unknown: each station's y(v)
+//! passes through its own cells and points with the least bending, on knots common to all stations; then every column
+//! of the net is interpolated across the stations. Volume = 2 int int y x_u z_v dv du stays linear in y.
 //!
-//! A knuckle is a p-fold knot in v: the surface on one side of it does not know of the other, and they share the line as
-//! their edge. That is the join of two surfaces along a knuckle, exactly, in one net. On a tangent line, and where a knuckle has
-//! ended and runs out as a line of the net, both sides take value and slope of one curve at every station: the tangent plane is
-//! continuous at the stations, and between them to the error of interpolation.
+//! A knuckle is a p-fold knot in v: the surface on one side of it does not know of the other, and they share the line
+//! as their edge. That is the join of two surfaces along a knuckle, exactly, in one net. On a tangent line, and where a
+//! knuckle has ended and runs out as a line of the net, both sides take value and slope of one curve at every station:
+//! the tangent plane is continuous at the stations, and between them to the error of interpolation.
 //!
-//! Exact: every given cell and point (to 1e-9 m), keel, knuckles and upper edge at the stations, hulls whose sections are
-//! cubic in the band and whose lines are cubic along it (prisms, pyramids). Order: four along the ship (tested), two to four
-//! around the section.
+//! Exact: every given cell and point (to 1e-9 m), keel, knuckles and upper edge at the stations, hulls whose sections
+//! are cubic in the band and whose lines are cubic along it (prisms, pyramids). Order: four along the ship (tested),
+//! two to four around the section.
 //!
-//! Limits: sections are functions y(z): no level ledges inside, no hooks. A plumb stem or a bulb ahead of a recess makes
-//! the keel line jump; the piece between the stations beside the jump is then ruled, and a note says so. Cost: linear in the
-//! number of cells (banded systems in both directions), times the number of lines.
+//! Limits: sections are functions y(z): no level ledges inside, no hooks. A plumb stem or a bulb ahead of a recess
+//! makes the keel line jump; the piece between the stations beside the jump is then ruled, and a note says so. Cost:
+//! linear in the number of cells (banded systems in both directions), times the number of lines.
 
 pub(super) mod ends;
 mod girth;

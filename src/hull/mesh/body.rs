@@ -1,4 +1,5 @@
-//! The body of a hull as patches over rectangles of parameters: the side to port, and the halves of the faces that close it.
+//! The body of a hull as patches over rectangles of parameters: the side to port, and the halves of the faces that
+//! close it.
 //!
 //! The side is S(u, v), above a knot line below the lowest deck drawn down to it: v = v_0 + (w - v_0) (d(u) - v_0) /
 //! (v_1 - v_0) for w > v_0. A closing face is ruled from the centreplane to an edge of the side, (x, s y, z) with 0 <=

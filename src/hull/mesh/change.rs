@@ -20,7 +20,8 @@ fn along_normal(sum: [f64; 3], normal: [f64; 3]) -> bool {
 }
 
 impl Half<'_> {
-    /// Whether triangles may stand in place of others: normals as before, and no farther from the surface than allowed or before.
+    /// Whether triangles may stand in place of others: normals as before, and no farther from the surface than allowed
+    /// or before.
     fn may_replace(&self, new: &[Face], old: &[Face]) -> bool {
         let sum = |region: Region| {
             let own = old.iter().filter(|face| face.0 == region);

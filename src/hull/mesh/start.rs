@@ -1,4 +1,5 @@
-//! The grid of the parameters that a mesh begins with: cells of the side, and strips between its edges and the centreplane.
+//! The grid of the parameters that a mesh begins with: cells of the side, and strips between its edges and the
+//! centreplane.
 
 use super::super::vertices::Known;
 use super::Region;
@@ -15,8 +16,8 @@ const SAME: f64 = 1e-2;
 /// Wanted lengths of edges over the deviation, at least.
 const LEAST_SIZE: f64 = 3.0;
 
-/// The side whose square is five deviations over the curvature: an equilateral triangle of it leaves a sphere by five sixths of the
-/// deviation, and a cylinder by five eighths.
+/// The side whose square is five deviations over the curvature: an equilateral triangle of it leaves a sphere by five
+/// sixths of the deviation, and a cylinder by five eighths.
 fn size_at(curvature: f64, deviation: f64) -> f64 {
     (5.0 * deviation / curvature.max(1e-12)).sqrt().max(LEAST_SIZE * deviation)
 }

@@ -12,8 +12,8 @@ pub(super) const ORDER: usize = MAX_DEGREE + 1;
 /// Halvings of an interval in which roots cannot be told apart.
 const DEEPEST: u32 = 40;
 
-/// The weights of the control points `span - p ..= span` in the blossom of a spline at the `arguments` 0 to p - 1 (Ramshaw
-/// 1989): the recurrence of the basis functions with one argument a level.
+/// The weights of the control points `span - p ..= span` in the blossom of a spline at the `arguments` 0 to p - 1
+/// (Ramshaw 1989): the recurrence of the basis functions with one argument a level.
 pub(super) fn blossom(knots: &KnotVector, span: usize, arguments: impl Fn(usize) -> f64) -> [f64; ORDER] {
     let (p, k) = (knots.degree(), knots.knots());
     let mut weights = [0.0; ORDER];
@@ -124,8 +124,8 @@ pub(super) fn minus(value: f64) -> bool {
     value < 0.0
 }
 
-/// Value and derivative at `t` of the polynomial with Bernstein coefficients `c` on [0, 1]: the scheme of de Casteljau down
-/// to two numbers.
+/// Value and derivative at `t` of the polynomial with Bernstein coefficients `c` on [0, 1]: the scheme of de Casteljau
+/// down to two numbers.
 #[inline]
 pub(super) fn value_and_slope(c: &[f64], t: f64) -> (f64, f64) {
     // The usual degree without loops.
@@ -198,8 +198,9 @@ pub(super) fn bracketed(c: &[f64], low: f64, high: f64, guess: f64) -> f64 {
     t
 }
 
-/// Appends the places on [0, 1] where the sign of the polynomial changes, in increasing order. Descartes' rule isolates them
-/// (Lane & Riesenfeld 1981); none is missed, places closer than 2^-40 count as one or, when the sign comes back, as none.
+/// Appends the places on [0, 1] where the sign of the polynomial changes, in increasing order. Descartes' rule isolates
+/// them (Lane & Riesenfeld 1981); none is missed, places closer than 2^-40 count as one or, when the sign comes back,
+/// as none.
 pub(super) fn sign_changes(c: &[f64; ORDER], degree: usize, out: &mut Vec<f64>) {
     isolate(c, degree, 0.0, 1.0, 0, out);
 }

@@ -7,8 +7,8 @@ use crate::spline::BsplineCurve;
 /// Places on an arc at which its height over the deck is compared first.
 const PLACES: usize = 12;
 
-/// The parts of a curve at or below the deck at side; the curve itself when it stays below. `closed` tells whether the curve
-/// ends where it starts. The ends lie on the deck to `tolerance` \[m\].
+/// The parts of a curve at or below the deck at side; the curve itself when it stays below. `closed` tells whether the
+/// curve ends where it starts. The ends lie on the deck to `tolerance` \[m\].
 pub(super) fn below_deck(
     hull: &Hull,
     curve: BsplineCurve<3>,

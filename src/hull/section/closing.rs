@@ -1,9 +1,9 @@
 //! The plane and ruled faces that close the body, cut by a plane.
 //!
-//! The flat of bottom is {(x(u), s y(u), z_bottom)}, the transom {(x(v), s y(v), z(v))} over the stern profile, a flat bow
-//! likewise over the stem, 0 <= s <= 1, where (x, y, z) is an edge of the surface. The plane n . (x, y, z) = d meets the
-//! face at y* = (d - n_x x - n_z z) / n_y wherever 0 <= y* <= y: a curve that is a spline itself, exactly. A plane that
-//! holds the y direction meets it in lines across, at the roots of n_x x + n_z z - d.
+//! The flat of bottom is {(x(u), s y(u), z_bottom)}, the transom {(x(v), s y(v), z(v))} over the stern profile, a flat
+//! bow likewise over the stem, 0 <= s <= 1, where (x, y, z) is an edge of the surface. The plane n . (x, y, z) = d
+//! meets the face at y* = (d - n_x x - n_z z) / n_y wherever 0 <= y* <= y: a curve that is a spline itself, exactly. A
+//! plane that holds the y direction meets it in lines across, at the roots of n_x x + n_z z - d.
 
 use super::bernstein::{Arc, curve_sign_changes, join};
 use crate::spline::{BsplineCurve, KnotVector};

@@ -1,11 +1,11 @@
 //! The topology of the contour f = 0: connected chains of graph segments, none missed, none invented.
 //!
-//! Each patch through which the contour may pass (Bernstein coefficients of both signs) is quartered until f_u or f_v has
-//! one sign on each cell, so that the contour is there a set of graphs u(v) or v(u), given completely by the places where it
-//! crosses the edges of the cell. The crossings of an edge are isolated once (Descartes' rule) and belong to both cells
-//! beside it; where cells of different size meet, those of the smaller cells are used. Segments are chained through them,
-//! in time proportional to their number. Cells in which |f| stays below a fraction of the tolerance are not divided further
-//! (singular points): there the crossings are joined in the order around the cell.
+//! Each patch through which the contour may pass (Bernstein coefficients of both signs) is quartered until f_u or f_v
+//! has one sign on each cell, so that the contour is there a set of graphs u(v) or v(u), given completely by the places
+//! where it crosses the edges of the cell. The crossings of an edge are isolated once (Descartes' rule) and belong to
+//! both cells beside it; where cells of different size meet, those of the smaller cells are used. Segments are chained
+//! through them, in time proportional to their number. Cells in which |f| stays below a fraction of the tolerance are
+//! not divided further (singular points): there the crossings are joined in the order around the cell.
 
 use super::bernstein::{ORDER, halve, minus, sign_changes};
 use super::field::{Field, Patch};

@@ -33,15 +33,16 @@ impl Spans {
         self.breaks.len()
     }
 
-    /// Span and row of its operator of a Bernstein coefficient of the whole spline; joints belong to the span before them.
+    /// Span and row of its operator of a Bernstein coefficient of the whole spline; joints belong to the span before
+    /// them.
     fn place(&self, index: usize) -> (usize, usize) {
         let span = (index.saturating_sub(1)) / self.degree;
         (span, index - span * self.degree)
     }
 }
 
-/// f(u, v) = n . S(u, v) - d over the whole surface; n is of unit length, so that f is a distance \[m\]. Coefficients on the
-/// edge of two patches are one number.
+/// f(u, v) = n . S(u, v) - d over the whole surface; n is of unit length, so that f is a distance \[m\]. Coefficients
+/// on the edge of two patches are one number.
 pub(super) struct Field {
     pub u: Spans,
     pub v: Spans,

@@ -1,8 +1,9 @@
 //! From a chain of graph segments to a curve: quintic Hermite arcs between points of the contour.
 //!
-//! Position, first and second derivatives with respect to the running coordinate are exact at both ends of an arc (implicit
-//! differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter and divided until
-//! the distance is below 0.7 of the tolerance; the error of an arc of length h is P^(6) (tau (1 - tau))^3 h^6 / 720.
+//! Position, first and second derivatives with respect to the running coordinate are exact at both ends of an arc
+//! (implicit differentiation of f = 0). Inside, the arc is compared with points of the contour at the same parameter
+//! and divided until the distance is below 0.7 of the tolerance; the error of an arc of length h is P^(6) (tau (1 -
+//! tau))^3 h^6 / 720.
 
 use super::bernstein::Arc;
 use super::contour::{Chain, Link, Running};
@@ -201,7 +202,8 @@ fn arc(a: &Node, b: &Node, mode: Mode) -> [[f64; 3]; DEGREE + 3] {
     points
 }
 
-/// First and second derivative of the contour at `n` with respect to the fraction of the running coordinate from `a` to `b`.
+/// First and second derivative of the contour at `n` with respect to the fraction of the running coordinate from `a` to
+/// `b`.
 fn derivatives(n: &Node, a: &Node, b: &Node, mode: Mode) -> ([f64; 3], [f64; 3]) {
     let extent = [b.st[0] - a.st[0], b.st[1] - a.st[1]];
     let (mut first, mut second) = (extent, [0.0; 2]);

@@ -144,8 +144,8 @@ fn areas_are_those_of_closed_forms() {
     let barge = Solid::new(&hull(true, true, 0.0)).unwrap();
     let exact = 2.0 * 60.0 * 4.0 * 1.25_f64.sqrt() + 60.0 * 6.0 + 60.0 * 10.0 + 2.0 * 4.0 * 0.5 * (6.0 + 10.0);
     assert!((barge.area() / exact - 1.0).abs() < 1e-12, "{} for {exact}", barge.area());
-    // A wall-sided parabola of length L, half-breadth b and height h: two walls, deck and bottom. The length of its arc is
-    // sqrt(L^2 + 16 b^2) / 2 + L^2 / (8 b) asinh(4 b / L).
+    // A wall-sided parabola of length L, half-breadth b and height h: two walls, deck and bottom. The length of its arc
+    // is sqrt(L^2 + 16 b^2) / 2 + L^2 / (8 b) asinh(4 b / L).
     let (long, b, h) = (60.0, 5.0, 4.0);
     let (u, v) = (KnotVector::uniform(2, 2).unwrap(), KnotVector::uniform(1, 1).unwrap());
     let mut points = Vec::new();

@@ -50,8 +50,8 @@ fn a_smooth_cube_is_the_surface_of_catmull_and_clark() {
 
 #[test]
 fn triangles_follow_loop() {
-    // An octahedron: four triangles at each point. The point of Loop's rule is 5/8 of it, neighbours adding to zero about it:
-    // (1 - n b) p + b sum, b = (5/8 - (3/8 + cos(2 pi/4)/4)^2)/4.
+    // An octahedron: four triangles at each point. The point of Loop's rule is 5/8 of it, neighbours adding to zero
+    // about it: (1 - n b) p + b sum, b = (5/8 - (3/8 + cos(2 pi/4)/4)^2)/4.
     let points =
         [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     let faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];

@@ -12,7 +12,8 @@ use crate::spline::{BsplineSurface, KnotVector, length, minus};
 /// Most parts of a span.
 const MOST_PARTS: f64 = 100.0;
 
-/// Spans of which the quarters are looked at; of more, up to the second number, the halves, of still more the spans as a whole.
+/// Spans of which the quarters are looked at; of more, up to the second number, the halves, of still more the spans as
+/// a whole.
 const QUARTERS: usize = 60_000;
 const HALVES: usize = 400_000;
 
@@ -162,8 +163,8 @@ fn cut(knots: &KnotVector, along: &[f64], twist: &[f64], deviation: f64, times: 
 }
 
 impl TriangleMesh {
-    /// Triangles over surfaces of (w x, w y, w z, w) \[m\], each for itself, that leave them by at most about `deviation` \[m\];
-    /// `times` as many along and around as that asks for.
+    /// Triangles over surfaces of (w x, w y, w z, w) \[m\], each for itself, that leave them by at most about
+    /// `deviation` \[m\]; `times` as many along and around as that asks for.
     #[must_use]
     pub fn of_surfaces(surfaces: &[BsplineSurface<4>], deviation: f64, times: usize) -> Self {
         let mut corners = Vec::new();

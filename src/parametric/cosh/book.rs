@@ -1,5 +1,5 @@
-//! The book that values and problems are entered into while the gaps of the wishes are filled, and the parts of the design
-//! that are checked on their own: the midship section and the shoulders.
+//! The book that values and problems are entered into while the gaps of the wishes are filled, and the parts of the
+//! design that are checked on their own: the midship section and the shoulders.
 
 use super::Wishes;
 use crate::parametric::midship::{MidshipProblem, MidshipSection};

@@ -172,8 +172,8 @@ impl Resolved {
         trial.half_breadth(trial.stern.end, trial.depth) / trial.section.half_breadth
     }
 
-    /// A form whose transom can have the breadth `wish`: the one given, or, where height and cut-up are ours to choose, the
-    /// nearest to the preset.
+    /// A form whose transom can have the breadth `wish`: the one given, or, where height and cut-up are ours to choose,
+    /// the nearest to the preset.
     fn transom_in_reach(&self, form: &Form, goal: &Goal, wish: f64) -> Option<Form> {
         let holds =
             |form: &Form| Self::transom_at(form, 0.0) <= wish && wish <= Self::transom_at(form, Stern::LARGEST_SWEEP);
@@ -229,8 +229,8 @@ impl Resolved {
         Ok(form)
     }
 
-    /// Gives the ends the soft section, and solves again for what that leaves to do; where the fullness has no room for it,
-    /// the form stays as it is.
+    /// Gives the ends the soft section, and solves again for what that leaves to do; where the fullness has no room for
+    /// it, the form stays as it is.
     fn soften(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
         let mut soft = form;
         soft.soften(self.midship.value);

@@ -26,10 +26,11 @@ impl Stem {
     }
 }
 
-/// Stern profile. The waterlines of the run end on x_v(z) = c - (c - x_0) q(z / z_0), which rises from the cut-up (c, 0)
-/// through (x_0, z_0), with q(s) = (1 - w) s + w s^2 for w in [0, 1] and (2 - w) s^2 + (w - 1) s^3 for w in [1, 2]. With a
-/// transom, (x_0, z_0) is its lowest point and the plane x = x_0 cuts the hull off, so that the surface passes through the
-/// edge of the transom without a crease; without one (x_0, z_0) is the aft perpendicular at the design waterline.
+/// Stern profile. The waterlines of the run end on x_v(z) = c - (c - x_0) q(z / z_0), which rises from the cut-up (c,
+/// 0) through (x_0, z_0), with q(s) = (1 - w) s + w s^2 for w in [0, 1] and (2 - w) s^2 + (w - 1) s^3 for w in [1, 2].
+/// With a transom, (x_0, z_0) is its lowest point and the plane x = x_0 cuts the hull off, so that the surface passes
+/// through the edge of the transom without a crease; without one (x_0, z_0) is the aft perpendicular at the design
+/// waterline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stern {
     pub(super) cut_up: f64,
@@ -57,9 +58,10 @@ impl Stern {
     }
 }
 
-/// Fullness over height: phi = keel + (waterline - keel) H(z/T), H(s) = (1 - exp(-c s)) / (1 - exp(-c)) up to the design
-/// waterline. Above it, with d = s - 1, H = 1 + H'(1) (a (1 - exp(-k d)) / k + b d exp(-k d)), k = max(2, c), b = c/k - 1,
-/// a = 1 - b: continuous curvature, rising, bounded. `flare` adds (1 - phi) flare ((z - T) / (D - T))^3 there.
+/// Fullness over height: phi = keel + (waterline - keel) H(z/T), H(s) = (1 - exp(-c s)) / (1 - exp(-c)) up to the
+/// design waterline. Above it, with d = s - 1, H = 1 + H'(1) (a (1 - exp(-k d)) / k + b d exp(-k d)), k = max(2, c),
+/// b = c/k - 1, a = 1 - b: continuous curvature, rising, bounded. `flare` adds (1 - phi) flare ((z - T) / (D - T))^3
+/// there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Law {
     pub(super) keel: f64,
@@ -260,7 +262,8 @@ impl Form {
         }
     }
 
-    /// The soft section s(z) = k + (B/2 - k) (1 - (1 - z/T)^m), of the area of the midship section, without its tangent lines.
+    /// The soft section s(z) = k + (B/2 - k) (1 - (1 - z/T)^m), of the area of the midship section, without its tangent
+    /// lines.
     fn soft_breadth(&self, z: f64, breadth: f64) -> f64 {
         if self.softness <= 0.0 || z >= self.draught {
             return breadth;
@@ -269,8 +272,8 @@ impl Form {
         keel + (self.section.half_breadth - keel) * (1.0 - (1.0 - z / self.draught).powf(self.softness))
     }
 
-    /// The exponent of the soft section for a midship section of coefficient `coefficient`; 0 where the floor is flat (the
-    /// bilge then is what the ends have too) or where the section would not stay below twice the midship section.
+    /// The exponent of the soft section for a midship section of coefficient `coefficient`; 0 where the floor is flat
+    /// (the bilge then is what the ends have too) or where the section would not stay below twice the midship section.
     pub(super) fn soften(&mut self, coefficient: f64) {
         let (half, keel) = (self.section.half_breadth, self.section.keel);
         let part = (coefficient * half - keel) / (half - keel);
@@ -289,8 +292,8 @@ impl Form {
         }
     }
 
-    /// Volume and first moment below the design waterline that the soft section adds to [`Form::integrals`], both sides. (It
-    /// adds nothing at the design waterline.)
+    /// Volume and first moment below the design waterline that the soft section adds to [`Form::integrals`], both
+    /// sides. (It adds nothing at the design waterline.)
     pub(super) fn softening(&self, nodes: &[HeightNode]) -> (f64, f64) {
         let (mut volume, mut moment) = (0.0, 0.0);
         for node in nodes {

@@ -1,13 +1,15 @@
-//! The cosh family: waterlines of hyperbolic-cosine arcs on both ends of a prismatic body, solved for Cb, Cm, LCB and Cwp.
+//! The cosh family: waterlines of hyperbolic-cosine arcs on both ends of a prismatic body, solved for Cb, Cm, LCB and
+//! Cwp.
 //!
-//! At each height z the waterline is y = b(z) f_E((x - xf) / (x_stem(z) - xf)) in the entrance, b(z) along the parallel body
-//! and b(z) f_R((xa - x) / (xa - x_v(z))) in the run, where b is the midship section and f_E, f_R are blends of the kernels J
-//! and S of equal fullness: S beside a parallel body (curvature 0 at the shoulder), J and S such that the curvatures agree
-//! where there is none. The fullness of each end rises from keel to waterline by an exponential law, which keeps waterlines
-//! nested: no tumblehome, sections do not cross, at most one inflection an end. The transom is a plane cut of the run.
+//! At each height z the waterline is y = b(z) f_E((x - xf) / (x_stem(z) - xf)) in the entrance, b(z) along the parallel
+//! body and b(z) f_R((xa - x) / (xa - x_v(z))) in the run, where b is the midship section and f_E, f_R are blends of
+//! the kernels J and S of equal fullness: S beside a parallel body (curvature 0 at the shoulder), J and S such that the
+//! curvatures agree where there is none. The fullness of each end rises from keel to waterline by an exponential law,
+//! which keeps waterlines nested: no tumblehome, sections do not cross, at most one inflection an end. The transom is a
+//! plane cut of the run.
 //!
-//! The four numbers of fullness are solved for displacement, LCB and waterplane area; the net interpolates that form and a
-//! last linear correction makes the coefficients of the B-spline hull exact (errors below 1e-12, see the tests).
+//! The four numbers of fullness are solved for displacement, LCB and waterplane area; the net interpolates that form
+//! and a last linear correction makes the coefficients of the B-spline hull exact (errors below 1e-12, see the tests).
 
 mod book;
 mod build;

@@ -1,10 +1,11 @@
 //! From the analytic hull to its net, and the last linear correction that makes the coefficients exact.
 //!
-//! v runs along the girth of the midship section (floor, bilge, side), so that y is smooth in v where dy/dz is infinite; the
-//! tangent lines of the bilge are double knots, the height of the transom tip is a triple one (corner of the stern profile),
-//! the design waterline a simple one. x(u, v) = linear + (stern profile) (1 - u/ua)^3 + (stem profile) ((u - uf)/(1 - uf))^3,
-//! cut off at the shoulders ua and uf: it lies in the spline space, is C2 and x_u > 0. Along the parallel body the columns of
-//! the net are those of the midship section exactly; without one, a double knot holds value and slope at the largest section.
+//! v runs along the girth of the midship section (floor, bilge, side), so that y is smooth in v where dy/dz is
+//! infinite; the tangent lines of the bilge are double knots, the height of the transom tip is a triple one (corner of
+//! the stern profile), the design waterline a simple one. x(u, v) = linear + (stern profile) (1 - u/ua)^3 + (stem
+//! profile) ((u - uf)/(1 - uf))^3, cut off at the shoulders ua and uf: it lies in the spline space, is C2 and x_u > 0.
+//! Along the parallel body the columns of the net are those of the midship section exactly; without one, a double knot
+//! holds value and slope at the largest section.
 
 use super::form::Form;
 use crate::hull::{Functional, Hull, HullError, PrincipalParticulars};

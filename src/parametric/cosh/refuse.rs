@@ -102,8 +102,8 @@ impl Resolved {
         vec![Infeasible { code, keys, message }]
     }
 
-    /// A net that does not follow its form, because an end is so full that it is nearly a step: wider than B, negative, or
-    /// with tumblehome.
+    /// A net that does not follow its form, because an end is so full that it is nearly a step: wider than B, negative,
+    /// or with tumblehome.
     pub(super) fn misshapen(&self, hull: &Hull, form: &Form) -> Option<Infeasible> {
         let half = 0.5 * self.breadth;
         let surface = hull.surface();

@@ -1,10 +1,10 @@
 //! Solving the fullness of both ends for displacement, LCB and waterplane area.
 //!
-//! Unknown are the fullnesses of entrance and run at the design waterline (eW, rW) and on the keel (eK, rK). For a given eW,
-//! rW follows from the waterplane area (monotone, Brent's method); then volume and moment are nearly affine in (eK, rK) and
-//! two or three Newton steps solve them. eW itself is the least extreme one: it minimises the distance of LCF from its usual
-//! place and the difference of the vertical laws of both ends (Brent's minimisation inside the best cell of a scan, so that
-//! the hull depends continuously on the particulars).
+//! Unknown are the fullnesses of entrance and run at the design waterline (eW, rW) and on the keel (eK, rK). For a
+//! given eW, rW follows from the waterplane area (monotone, Brent's method); then volume and moment are nearly affine
+//! in (eK, rK) and two or three Newton steps solve them. eW itself is the least extreme one: it minimises the distance
+//! of LCF from its usual place and the difference of the vertical laws of both ends (Brent's minimisation inside the
+//! best cell of a scan, so that the hull depends continuously on the particulars).
 
 use argmin::core::{CostFunction, Executor, State};
 use argmin::solver::brent::BrentOpt;
@@ -45,8 +45,8 @@ fn run_fullness(form: &Form, goal: &Goal, ew: f64) -> Option<f64> {
     bracketed_root(error, LOWEST_FULLNESS, FULLEST, 1e-13).ok()
 }
 
-/// The form of waterline fullness `ew` that has the volume, the LCB and the waterplane area; none when a keel fullness would
-/// leave [lowest, waterline fullness].
+/// The form of waterline fullness `ew` that has the volume, the LCB and the waterplane area; none when a keel fullness
+/// would leave [lowest, waterline fullness].
 pub(super) fn at_entrance(form: &Form, nodes: &[HeightNode], goal: &Goal, ew: f64) -> Option<Form> {
     let rw = run_fullness(form, goal, ew)?;
     let residual = |ek: f64, rk: f64| {
@@ -132,7 +132,8 @@ pub(super) struct Found {
     pub(super) extremeness: f64,
 }
 
-/// The least extreme form that reaches the goal; none when the scan meets none (`fine`: a scan for narrow ranges as well).
+/// The least extreme form that reaches the goal; none when the scan meets none (`fine`: a scan for narrow ranges as
+/// well).
 pub(super) fn solve(form: &Form, nodes: &[HeightNode], goal: &Goal, fine: bool) -> Option<Found> {
     let search = Search { form, nodes, goal };
     let cells = 14;

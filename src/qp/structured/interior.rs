@@ -12,7 +12,8 @@ const FINISH: usize = 6;
 const FINISH_FACTOR: f64 = 3.0;
 /// While the residuals are not there, the complementarity stays above this part of the tolerance.
 const WAIT: f64 = 0.1;
-/// The iterate with residuals and complementarity of this size is kept for a warm start: near the centre, far from the faces.
+/// The iterate with residuals and complementarity of this size is kept for a warm start: near the centre, far from the
+/// faces.
 const KEEP: f64 = 3e-5;
 /// Most correctors after Mehrotra's; none for steps this long; the part of the hoped-for gain that one must bring.
 const CORRECTORS: usize = 2;
@@ -107,7 +108,8 @@ fn centred(point: &Point, step: &Direction, targets: &Targets, target: f64, aim:
     }
 }
 
-/// Iterates from a point; the number of iterations and how it ended. Keeps an early iterate for the next start, and tells of all.
+/// Iterates from a point; the number of iterations and how it ended. Keeps an early iterate for the next start, and
+/// tells of all.
 pub(super) fn iterate(
     scaled: &Scaled,
     newton: &mut Newton,

@@ -12,25 +12,25 @@
 //! P x + q + A'z = 0,   A x = t,   s_u z_u = s_l z_l = 0,   z_u, z_l >= 0
 //! ```
 //!
-//! and the iteration follows the points where the products equal a falling mu. With residuals r_d = P x + q + A'z, r_p = t - A x
-//! and targets tau of the products, Newton's equations give, row by row,
+//! and the iteration follows the points where the products equal a falling mu. With residuals r_d = P x + q + A'z,
+//! r_p = t - A x and targets tau of the products, Newton's equations give, row by row,
 //!
 //! ```text
 //! dt = A dx - r_p,   dz = gamma + W dt,   W = z_u/s_u + z_l/s_l,   gamma = (tau_u/s_u - z_u) - (tau_l/s_l - z_l)
 //! P dx + A'dz = -r_d,   A dx - dz/W = r_p - gamma/W
 //! ```
 //!
-//! Elimination of dz leaves the normal matrix N = P + A'WA. Bands and differences of a tensor-product net keep N in the pattern
-//! of P; the dense rows (volume, moments) stay outside and are served by a Schur complement ([`schur`]), so that N stays
-//! sparse. N is factored by supernodal Cholesky in an order of minimum degree ([`normal`], [`factor`]) once an iteration,
-//! and refinement removes what its regularisation changed ([`newton`]).
+//! Elimination of dz leaves the normal matrix N = P + A'WA. Bands and differences of a tensor-product net keep N in the
+//! pattern of P; the dense rows (volume, moments) stay outside and are served by a Schur complement ([`schur`]), so
+//! that N stays sparse. N is factored by supernodal Cholesky in an order of minimum degree ([`normal`], [`factor`])
+//! once an iteration, and refinement removes what its regularisation changed ([`newton`]).
 //!
-//! An iteration ([`interior`]): the predictor aims at tau = 0 and shows how far it may go; mu falls by the cube of what it
-//! leaves (Mehrotra 1992), its second-order term ds dz corrects tau, and further correctors pull stray products back towards mu
-//! as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program has two. Beyond the
-//! tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit ([`start`]); a later solve of a
-//! [`Solver`] starts from the iterate its predecessor had before it neared the boundary. Where the iteration stalls two
-//! auxiliary programs look for a proof that there is no solution ([`phase`]).
+//! An iteration ([`interior`]): the predictor aims at tau = 0 and shows how far it may go; mu falls by the cube of what
+//! it leaves (Mehrotra 1992), its second-order term ds dz corrects tau, and further correctors pull stray products back
+//! towards mu as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program
+//! has two. Beyond the tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit
+//! ([`start`]); a later solve of a [`Solver`] starts from the iterate its predecessor had before it neared the
+//! boundary. Where the iteration stalls two auxiliary programs look for a proof that there is no solution ([`phase`]).
 
 mod factor;
 mod interior;

@@ -19,7 +19,8 @@ use super::normal::Normal;
 use super::scaled::Scaled;
 use super::schur::Schur;
 
-/// Weight 1/delta of the equalities inside the normal matrix, in units of the largest of the inequalities, and its limits.
+/// Weight 1/delta of the equalities inside the normal matrix, in units of the largest of the inequalities, and its
+/// limits.
 const EQUALITY_RATIO: f64 = 0.1;
 const EQUALITY_WEIGHTS: [f64; 2] = [1e8, 1e13];
 /// Relative lift of the diagonal at first and when the factorisation fails.

@@ -48,8 +48,8 @@ fn pattern(quadratic: &SparseRows, rows: &SparseRows, inside: &[bool]) -> (Vec<u
     (starts, indices)
 }
 
-/// Approximate minimum degree ordering of N (Amestoy, Davis & Duff 1996): the variable that is eliminated k-th, for every k.
-/// The natural order where the ordering fails.
+/// Approximate minimum degree ordering of N (Amestoy, Davis & Duff 1996): the variable that is eliminated k-th, for
+/// every k. The natural order where the ordering fails.
 pub(super) fn elimination_order(quadratic: &SparseRows, rows: &SparseRows, inside: &[bool]) -> Vec<usize> {
     let n = quadratic.row_count();
     let (starts, indices) = pattern(quadratic, rows, inside);

@@ -39,8 +39,8 @@ pub(super) fn farkas(problem: &Problem, z: &[f64]) -> Vec<f64> {
     multipliers
 }
 
-/// min q'd + 1/2 |d|^2, P d = 0, A d in the recession cone of [l, u]: -q projected on the cone of the rays; d = 0 if the objective
-/// is bounded below along every ray.
+/// min q'd + 1/2 |d|^2, P d = 0, A d in the recession cone of [l, u]: -q projected on the cone of the rays; d = 0 if
+/// the objective is bounded below along every ray.
 pub(super) fn steepest_ray(problem: &Problem) -> Problem {
     let (n, m) = (problem.linear.len(), problem.rows.row_count());
     let mut rows = SparseRows::new(n);

@@ -3,7 +3,8 @@
 use super::newton::Step;
 use super::scaled::Scaled;
 
-/// x, the slacks s_u = u - t, s_l = t - l > 0 (infinite without a limit) and the multipliers; of an equality only z counts.
+/// x, the slacks s_u = u - t, s_l = t - l > 0 (infinite without a limit) and the multipliers; of an equality only z
+/// counts.
 #[derive(Clone)]
 pub(super) struct Point {
     pub(super) x: Vec<f64>,
@@ -129,7 +130,8 @@ impl Point {
         self.upper.iter().zip(&self.lower).map(|(upper, lower)| upper.z / upper.s + lower.z / lower.s).collect()
     }
 
-    /// The largest steps that keep slacks (first) and multipliers (second) at or above 0; infinite where nothing stops them.
+    /// The largest steps that keep slacks (first) and multipliers (second) at or above 0; infinite where nothing stops
+    /// them.
     pub(super) fn longest(&self, direction: &Direction) -> [f64; 2] {
         let mut longest = [f64::INFINITY; 2];
         for row in 0..self.z.len() {

@@ -1,4 +1,5 @@
-//! The problem as the iteration sees it: variables in elimination order, rows of unit size, an objective of unit curvature.
+//! The problem as the iteration sees it: variables in elimination order, rows of unit size, an objective of unit
+//! curvature.
 
 use super::super::problem::Problem;
 use super::super::sparse::SparseRows;

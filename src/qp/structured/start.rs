@@ -16,8 +16,8 @@ const PULL: f64 = 0.02;
 /// Products of a warm start, in units of their mean.
 const SPREAD: f64 = 10.0;
 
-/// The least of 1/2 x'Px + q'x + SOFT/2 |A x - t|^2 on the equalities, t the nearest admissible values to 0, and all products s z
-/// equal.
+/// The least of 1/2 x'Px + q'x + SOFT/2 |A x - t|^2 on the equalities, t the nearest admissible values to 0, and all
+/// products s z equal.
 pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
     let m = scaled.rows.row_count();
     let bounded = |row: usize| scaled.upper[row].is_finite() || scaled.lower[row].is_finite();
@@ -76,8 +76,9 @@ fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -
     point
 }
 
-/// A kept iterate in the limits of a changed problem: x and multipliers stay, every t moves to where both its slacks are at least
-/// what they were (or a quarter of the width), and products that fall outside [mu / SPREAD, mu SPREAD] are brought back.
+/// A kept iterate in the limits of a changed problem: x and multipliers stay, every t moves to where both its slacks
+/// are at least what they were (or a quarter of the width), and products that fall outside [mu / SPREAD, mu SPREAD] are
+/// brought back.
 pub(super) fn warm(scaled: &Scaled, kept: &Point) -> Point {
     let mut point = kept.clone();
     let values = scaled.rows.apply(&kept.x);

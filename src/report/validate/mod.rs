@@ -141,8 +141,8 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// Validates every folder of `folders` that holds a `reference.toml`, and every folder right below them that does. Folders
-/// without a table of offsets or without figures are passed over.
+/// Validates every folder of `folders` that holds a `reference.toml`, and every folder right below them that does.
+/// Folders without a table of offsets or without figures are passed over.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Usage`] when there is no such folder, or a reference cannot be read.

@@ -135,7 +135,8 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
     Ok(())
 }
 
-/// One line a figure: `case,source,table,quantity,measured,basis,T,unit,theirs,ours,difference,difference_percent,left_out,
+/// One line a figure:
+/// `case,source,table,quantity,measured,basis,T,unit,theirs,ours,difference,difference_percent,left_out,
 /// tolerance,verdict`; differences and `left_out` in the unit of the figure.
 #[must_use]
 pub fn validation_csv(cases: &[Case]) -> String {
@@ -170,8 +171,9 @@ pub fn validation_csv(cases: &[Case]) -> String {
     text
 }
 
-/// `{"passed", "cases": [{"case", "title", "source", "table", "chart", "residual", "failure", "notes", "figures": [{"quantity",
-/// "measured", "basis", "T", "unit", "theirs", "ours", "difference", "difference_percent", "left_out", "tolerance", "verdict"}]}]}`
+/// `{"passed", "cases": [{"case", "title", "source", "table", "chart", "residual", "failure", "notes", "figures":
+/// [{"quantity", "measured", "basis", "T", "unit", "theirs", "ours", "difference", "difference_percent", "left_out",
+/// "tolerance", "verdict"}]}]}`
 #[must_use]
 pub fn validation_json(cases: &[Case]) -> Value {
     let figure = |c: &Comparison| {

@@ -1,4 +1,5 @@
-//! DXF of AutoCAD 2000 (AC1015): every object has a handle and an owner. Flat lines are LWPOLYLINE, lines in space POLYLINE.
+//! DXF of AutoCAD 2000 (AC1015): every object has a handle and an owner. Flat lines are LWPOLYLINE, lines in space
+//! POLYLINE.
 
 use std::fmt::Write as _;
 

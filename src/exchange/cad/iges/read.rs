@@ -121,7 +121,8 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
     let second = if global.starts_with(b"1H") { 4 } else { 1 };
     let delimiters = [field, delimiter(second, b';')];
     let header = parameters(global.get(second..).unwrap_or_default(), delimiters);
-    // Counted from the record delimiter: the scale is the 13th, the flag of the unit the 14th, its name the 15th of the section.
+    // Counted from the record delimiter: the scale is the 13th, the flag of the unit the 14th, its name the 15th of the
+    // section.
     let number = |k: usize| match header.get(k) {
         Some(Parameter::Number(value)) => *value,
         _ => 0.0,

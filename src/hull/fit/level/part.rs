@@ -1,9 +1,9 @@
 //! Waterlines between which lines across are smooth, and the lines across them.
 //!
-//! A line across may start on a flat: from a double knot on it is straight in z, so that nothing of the curve below passes into the
-//! flat (flat of side, tangent line along a waterline). The stern profile may have a corner where the transom begins; the chart
-//! has a crease there, and y(u, v) takes the slope in v that keeps the tangent plane: with g the jump of the slope of the profile,
-//! the jump of y_v is (y_u / x_u) (dx / dx_stern) g.
+//! A line across may start on a flat: from a double knot on it is straight in z, so that nothing of the curve below
+//! passes into the flat (flat of side, tangent line along a waterline). The stern profile may have a corner where the
+//! transom begins; the chart has a crease there, and y(u, v) takes the slope in v that keeps the tangent plane: with g
+//! the jump of the slope of the profile, the jump of y_v is (y_u / x_u) (dx / dx_stern) g.
 
 use super::super::bounded::{Line, carried, flatten, with_multiple};
 use super::super::chart::{Heights, Span, heights, lengths};
@@ -163,8 +163,8 @@ impl Part {
         Ok(())
     }
 
-    /// Where each line across becomes straight: on the flat of side at the lowest waterline from which all are as wide, or on its
-    /// level edge below that; on a tangent line along a waterline towards the straighter side.
+    /// Where each line across becomes straight: on the flat of side at the lowest waterline from which all are as wide,
+    /// or on its level edge below that; on a tangent line along a waterline towards the straighter side.
     fn starts(&self, u: &KnotVector, rows: &[Vec<f64>], flat: Option<&FlatOfSide>) -> Vec<Option<Start>> {
         let degree = u.degree();
         let last = self.rows.len() - 1;

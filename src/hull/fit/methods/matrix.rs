@@ -1,8 +1,8 @@
 //! A table as a full matrix of half-breadths, and what a surface over it comes to.
 //!
-//! What a table leaves blank is filled so: below the lowest offset of a station, between two, and at stations without any, the
-//! half-breadth is 0; above the highest offset it is the one at the deck where the table has that, else the highest; an
-//! unknown cell (`?`) lies on the line between its neighbours along the waterline.
+//! What a table leaves blank is filled so: below the lowest offset of a station, between two, and at stations without
+//! any, the half-breadth is 0; above the highest offset it is the one at the deck where the table has that, else the
+//! highest; an unknown cell (`?`) lies on the line between its neighbours along the waterline.
 
 use super::super::{CellResidual, Chart, FitError, Fitted};
 use crate::hull::cell::Entry;
@@ -27,7 +27,8 @@ fn entry(station: &StationOffsets, waterline: usize) -> Entry {
     station.half_breadths.get(waterline).map_or(Entry::Absent, |cell| cell.entry)
 }
 
-/// The half-breadth on the line between the nearest known ones along a waterline; that of the nearest where one side has none.
+/// The half-breadth on the line between the nearest known ones along a waterline; that of the nearest where one side
+/// has none.
 fn between(xs: &[f64], known: &[Option<f64>], at: usize) -> f64 {
     let before = (0..at).rev().find_map(|i| known[i].map(|y| (xs[i], y)));
     let behind = (at + 1..xs.len()).find_map(|i| known[i].map(|y| (xs[i], y)));
@@ -116,8 +117,8 @@ impl Matrix {
         Ok(Fitted { hull, chart: Chart::Level, cells, notes: self.notes })
     }
 
-    /// The deck at side: the heights that the table gives, straight between; the highest waterline without, and where they are
-    /// above it.
+    /// The deck at side: the heights that the table gives, straight between; the highest waterline without, and where
+    /// they are above it.
     fn deck(&mut self, table: &OffsetTable) -> Result<BsplineCurve<2>, HullError> {
         let (bottom, top) = (self.zs[0], self.zs[self.zs.len() - 1]);
         let heights = table.stations.iter().filter_map(|s| Some((s.station.x, s.deck_height.filter(|&z| z > bottom)?)));

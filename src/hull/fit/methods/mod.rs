@@ -8,9 +8,9 @@
 //! | quadratic net | 3 | corners, corners of splits | 3 x 3 |
 //! | parametric stations | any | none, nearly | 3 offsets a waterline with its ends |
 //!
-//! Limits: they need half-breadths at stations and waterlines (what the table lacks of that is filled by [`matrix`]'s rules, and
-//! noted), the surface begins at the lowest waterline and ends at the highest, and knuckles, tangent lines, transoms and heights
-//! of the table are not used. Cost: one banded solve a direction.
+//! Limits: they need half-breadths at stations and waterlines (what the table lacks of that is filled by [`matrix`]'s
+//! rules, and noted), the surface begins at the lowest waterline and ends at the highest, and knuckles, tangent lines,
+//! transoms and heights of the table are not used. Cost: one banded solve a direction.
 
 mod matrix;
 mod net;

@@ -1,9 +1,10 @@
-//! Parametric stations and waterlines (Silalahi 1999): each waterline is splined with its ends and cut into equal parts of its
-//! parameter, then the columns likewise, and a surface is put through the matrix of points, which includes the ends.
+//! Parametric stations and waterlines (Silalahi 1999): each waterline is splined with its ends and cut into equal parts
+//! of its parameter, then the columns likewise, and a surface is put through the matrix of points, which includes the
+//! ends.
 //!
-//! The parameters of the columns are averaged over all of them, so that waterlines stay level. Where a table does not give an
-//! end, the waterline ends at its first or last offset. The surface does not pass through the cells but through points of the
-//! waterlines between them; it misses the cells by the error of those splines.
+//! The parameters of the columns are averaged over all of them, so that waterlines stay level. Where a table does not
+//! give an end, the waterline ends at its first or last offset. The surface does not pass through the cells but through
+//! points of the waterlines between them; it misses the cells by the error of those splines.
 
 use super::super::FitError;
 use super::super::method::{ParametricStations, Problems};
@@ -60,9 +61,9 @@ fn part(k: usize, parts: usize) -> f64 {
 /// How far a control point may be moved to keep x rising, over the length of its waterline.
 const MOST_MOVED: f64 = 0.01;
 
-/// Makes x of one column of a net rise from its first to its last point, both kept. At a round end, where the waterline stands
-/// across, interpolation lets the point next to the end fall back by its own error. Gives the largest movement \[m\]; a net
-/// that falls further than [`MOST_MOVED`] stays as it is, to be refused.
+/// Makes x of one column of a net rise from its first to its last point, both kept. At a round end, where the waterline
+/// stands across, interpolation lets the point next to the end fall back by its own error. Gives the largest movement
+/// \[m\]; a net that falls further than [`MOST_MOVED`] stays as it is, to be refused.
 fn rising(net: &mut [[f64; 3]], column: usize, columns: usize) -> f64 {
     let mut xs: Vec<f64> = net.iter().skip(column).step_by(columns).map(|p| p[0]).collect();
     let (first, last) = (xs[0], xs[xs.len() - 1]);

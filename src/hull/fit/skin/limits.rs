@@ -30,7 +30,8 @@ pub(super) fn parabolic(sites: &[f64], values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Takes slopes back to where no cubic leaves the range of its gap by more than a turn needs, and none falls below `floor`.
+/// Takes slopes back to where no cubic leaves the range of its gap by more than a turn needs, and none falls below
+/// `floor`.
 pub(super) fn limit(sites: &[f64], values: &[f64], floor: f64, slopes: &mut [f64]) {
     let gaps = sites.len().saturating_sub(1);
     let rate = |k: usize| (values[k + 1] - values[k]) / (sites[k + 1] - sites[k]);

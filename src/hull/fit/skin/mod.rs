@@ -4,9 +4,10 @@
 //! a section are piecewise cubic in v, which runs like its girth, so that flat bottoms, ledges, tunnels and bulbs,
 //! where y(z) is steep or jumps, are as smooth as walls. z does not fall with v, in the net: the chart cannot fold.
 //!
-//! Exact: every point of a section that rises from keel to deck, to rounding. Straight pieces between points in line stay straight,
-//! corners stay sharp. Second order around the section, up to fourth along the ship; C1 everywhere, and C2 at the sections where
-//! no limit acts. Nothing swings: control values stay within what neighbouring sections have, half-breadths are not negative.
+//! Exact: every point of a section that rises from keel to deck, to rounding. Straight pieces between points in line
+//! stay straight, corners stay sharp. Second order around the section, up to fourth along the ship; C1 everywhere, and
+//! C2 at the sections where no limit acts. Nothing swings: control values stay within what neighbouring sections have,
+//! half-breadths are not negative.
 //!
 //! Limits: pieces that fall on the way from keel to deck (tunnels seen from below, hooks) are left out, with a note.
 //! Cost: linear in the number of sections, and in that of nodes but for their assignment, which takes points times

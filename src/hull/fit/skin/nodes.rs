@@ -180,7 +180,8 @@ pub(super) fn assign(parameters: &[f64], nodes: &[f64]) -> Vec<usize> {
     result
 }
 
-/// The piecewise cubic through the points of a section over its girth: heights never fall, half-breadths are never negative.
+/// The piecewise cubic through the points of a section over its girth: heights never fall, half-breadths are never
+/// negative.
 struct Outline {
     girths: Vec<f64>,
     /// Half-breadths and heights, and their slopes.
@@ -241,7 +242,8 @@ struct Walk {
 }
 
 impl Walk {
-    /// The speed at every point is that of an even walk, so that the shift of a point to its node stays in the gaps beside it.
+    /// The speed at every point is that of an even walk, so that the shift of a point to its node stays in the gaps
+    /// beside it.
     fn new(assigned: Vec<usize>, nodes: &[f64], girths: Vec<f64>) -> Self {
         let sites: Vec<f64> = assigned.iter().map(|&m| nodes[m]).collect();
         let last = sites.len() - 1;

@@ -1,8 +1,8 @@
 //! The sections of a table as lines of points from the centreplane at the keel to the upper edge, heights never falling.
 //!
-//! Level pieces (flat of bottom, ledges) stay. Between two branches (bulb and flare) the line goes back to the centreplane and up
-//! along it. A piece that falls is no part of a half-breadth surface: its points are left out and named. Lines that close
-//! a section along its deck are no part of the side.
+//! Level pieces (flat of bottom, ledges) stay. Between two branches (bulb and flare) the line goes back to the
+//! centreplane and up along it. A piece that falls is no part of a half-breadth surface: its points are left out and
+//! named. Lines that close a section along its deck are no part of the side.
 
 use crate::hull::OffsetTable;
 use crate::hull::cell::OutlinePoint;
@@ -13,8 +13,8 @@ const DECK_SLOPE: f64 = 0.15;
 /// Heights that fall by less than this part of the depth of the section fall by inaccuracy.
 const DUST: f64 = 0.01;
 
-/// The centre of a flat bottom lies below its edge by this part of the depth of the section, so that the half-breadth at the
-/// height of the keel is that of the flat.
+/// The centre of a flat bottom lies below its edge by this part of the depth of the section, so that the half-breadth
+/// at the height of the keel is that of the flat.
 const HAIR: f64 = 1e-10;
 
 /// An outermost section nearer to the next one than this part of the following space is crowded.
@@ -175,8 +175,8 @@ fn joined(branches: Vec<Vec<[f64; 2]>>) -> (Vec<[f64; 2]>, f64) {
     (points, hook)
 }
 
-/// Points with heights that never fall, nearest to the given ones in the mean square (pool adjacent violators; Barlow et al.
-/// 1972), and the greatest move.
+/// Points with heights that never fall, nearest to the given ones in the mean square (pool adjacent violators; Barlow
+/// et al. 1972), and the greatest move.
 fn rising(mut points: Vec<[f64; 2]>) -> (Vec<[f64; 2]>, f64) {
     // Sum, count.
     let mut pools: Vec<(f64, usize)> = Vec::new();

@@ -67,7 +67,8 @@ fn carried_on(profiles: &[Profile]) -> Option<[f64; 2]> {
     (run <= REACH * step && left <= 0.5 * breadth).then_some([b.x + run, top])
 }
 
-/// Ends at which half-breadths grow like the square root of the distance, by the exponent between the two stations next to them.
+/// Ends at which half-breadths grow like the square root of the distance, by the exponent between the two stations next
+/// to them.
 pub(in crate::hull::fit) fn blunt(profiles: &[Profile]) -> Blunt {
     let greatest = profiles.iter().map(Profile::breadth).fold(0.0, f64::max);
     let is_blunt = |end: &Profile, next: Option<&Profile>, second: Option<&Profile>| {

@@ -1,11 +1,12 @@
-//! The direction around the section: bands between the lines, their share of v and their knots, and the curve of each station.
+//! The direction around the section: bands between the lines, their share of v and their knots, and the curve of each
+//! station.
 //!
-//! In a band z = z_a + (z_b - z_a) zeta, with zeta = t or, at a round keel, zeta = t^2 for t from 0 to 1: there
-//! y ~ sqrt(z - z_keel) is smooth in t. A station that leaves the keel, or a knuckle at which such a band begins, straight has
-//! dy/dt = 0 there, and is told so. The knots of a band are common to all stations and so fine that no span holds two
-//! given points of one station; every station then meets all its points with the least bending (`spline::Energy` of the second
-//! derivative). Where a line is a knuckle the bands on its sides are independent; where it is none at a station, or a tangent
-//! line, one curve runs through, and gives both bands value and slope there.
+//! In a band z = z_a + (z_b - z_a) zeta, with zeta = t or, at a round keel, zeta = t^2 for t from 0 to 1: there y ~
+//! sqrt(z - z_keel) is smooth in t. A station that leaves the keel, or a knuckle at which such a band begins, straight
+//! has dy/dt = 0 there, and is told so. The knots of a band are common to all stations and so fine that no span holds
+//! two given points of one station; every station then meets all its points with the least bending (`spline::Energy` of
+//! the second derivative). Where a line is a knuckle the bands on its sides are independent; where it is none at a
+//! station, or a tangent line, one curve runs through, and gives both bands value and slope there.
 
 use super::lines::Line;
 use super::profile::{Profile, SectionPoint};
@@ -114,8 +115,8 @@ fn breadth_at(points: &[SectionPoint], z: f64) -> f64 {
     }
 }
 
-/// The exponent e in y - y_keel ~ (z - z_keel)^e through the two lowest points of a section: 1/2 at a round keel, 1 at a V; none
-/// where there are none between the keel and `ceiling`.
+/// The exponent e in y - y_keel ~ (z - z_keel)^e through the two lowest points of a section: 1/2 at a round keel, 1 at
+/// a V; none where there are none between the keel and `ceiling`.
 fn exponent(profile: &Profile, ceiling: f64) -> Option<f64> {
     let [keel, first, second, ..] = profile.points[..] else { return None };
     let rise = |p: SectionPoint| Some((p.z - keel.z, p.y? - keel.y?));
@@ -143,7 +144,8 @@ fn is_round(profiles: &[Profile], lines: &[Line], band: usize, slack: f64) -> bo
     exponents.get(exponents.len() / 2).is_some_and(|&e| e < ROUND)
 }
 
-/// The fewest breakpoints from 0 to 1 that part any two successive points of a station, the ends included, and spans enough.
+/// The fewest breakpoints from 0 to 1 that part any two successive points of a station, the ends included, and spans
+/// enough.
 fn breakpoints(sites: &[Vec<f64>]) -> Vec<f64> {
     let mut gaps: Vec<[f64; 2]> = Vec::new();
     for own in sites.iter().filter(|own| !own.is_empty()) {

@@ -1,9 +1,10 @@
 //! The section of each station as heights with half-breadths, from keel to upper edge.
 //!
-//! Half-breadths at waterlines, heights at buttocks, points of outlines, keel, flat of bottom and deck at side are put into
-//! one sequence of rising heights. A horizontal line at the bottom leaves its outermost point (the flat of bottom is implied by
-//! it); one further up cannot be told by y(z) and leaves its outermost point too, with a note. Blank cells between two
-//! values are water between two branches of the section (bulb and flare): there the surface lies on the centreplane.
+//! Half-breadths at waterlines, heights at buttocks, points of outlines, keel, flat of bottom and deck at side are put
+//! into one sequence of rising heights. A horizontal line at the bottom leaves its outermost point (the flat of bottom
+//! is implied by it); one further up cannot be told by y(z) and leaves its outermost point too, with a note. Blank
+//! cells between two values are water between two branches of the section (bulb and flare): there the surface lies on
+//! the centreplane.
 
 use crate::hull::OffsetTable;
 use crate::hull::cell::{Entry, LineKind, Marks, OutlinePoint};

@@ -68,8 +68,8 @@ fn assert_near(actual: f64, expected: f64, percent: f64, what: &str) {
     assert!(off.abs() <= percent, "{what}: {actual} against {expected}");
 }
 
-/// V, LCB and KB are those of trapezoids through the published sections; ours hold a little more, and every second station
-/// gives the same to a thousandth.
+/// V, LCB and KB are those of trapezoids through the published sections; ours hold a little more, and every second
+/// station gives the same to a thousandth.
 #[test]
 fn the_yacht_of_pdstrip() {
     let Some(text) = published("pdstrip_yacht/sections.csv") else { return };
@@ -142,8 +142,8 @@ fn knuckle(sections: &OffsetTable, name: &str, crease: &[[f64; 3]]) -> FeatureLi
     FeatureLine { name: name.to_owned(), kind: LineKind::Knuckle, points }
 }
 
-/// Chines, a skeg, a raked keel and a bulb: with the knuckles the volume is that of the subdivision surface to 0.1 %, without
-/// them to 0.4 %.
+/// Chines, a skeg, a raked keel and a bulb: with the knuckles the volume is that of the subdivision surface to 0.1 %,
+/// without them to 0.4 %.
 #[test]
 fn a_stern_trawler_with_and_without_its_knuckles() {
     let (Some(points), Some(offsets)) = (published("sterntrawler/sections.csv"), published("sterntrawler/offsets.csv"))
