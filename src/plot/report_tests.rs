@@ -129,7 +129,10 @@ fn figures_of_faired_tables_keep_their_text_apart() {
             let name = format!("{name} on {}", sheet.as_str());
             let canvas = canvas.unwrap();
             let words = canvas.texts().iter().filter_map(|text| text.content.split("combs of ").nth(1));
-            scales.extend(words.filter_map(|words| Some(words[..words.find("1/m")?].to_owned())));
+            // How many of all lines bear combs is not the same on all sheets.
+            let counted = |word: &str| word == "of" || word.parse::<usize>().is_ok();
+            let scale = |words: &str| words.split(' ').skip_while(|word| counted(word)).collect::<Vec<_>>().join(" ");
+            scales.extend(words.filter_map(|words| Some(scale(&words[..words.find("1/m")?]))));
             found.extend(faults_within(sheet.room(), &name, &canvas));
         }
         // One scale for each kind of line, whatever the sheet.

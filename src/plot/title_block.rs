@@ -94,8 +94,8 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
 
 /// The heights of the diagonals on the centre line.
 fn diagonals(grid: &LinesGrid) -> String {
-    let heights: Vec<String> = grid.diagonals.iter().map(|plane| format!("{} {:.2}", plane.name, plane.at)).collect();
-    format!("{} m on CL", heights.join(", "))
+    let heights: Vec<String> = grid.diagonals.iter().map(|plane| format!("{:.2}", plane.at)).collect();
+    format!("D at {} m on CL", heights.join(", "))
 }
 
 /// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free
