@@ -232,8 +232,10 @@ pub fn keel_height(hull: &Hull, x: f64) -> Option<f64> {
     for u in [a, b] {
         let edge = hull.surface().curve_at_u(u);
         // An upright end is at its x to rounding.
-        let reach = 1e-13 * hull.particulars().length_between_perpendiculars;
-        let gaps = edge.points().iter().map(|p| [reach + if u > a { p[0] - x } else { x - p[0] }]).collect();
+        let rounding = 1e-13 * hull.particulars().length_between_perpendiculars;
+        let gap = |p: &[f64; 3]| if u > a { p[0] - x } else { x - p[0] };
+        let gaps =
+            edge.points().iter().map(gap).map(|g| [if g.abs() <= rounding { f64::MIN_POSITIVE } else { g }]).collect();
         let Ok(gap) = BsplineCurve::new(edge.knots().clone(), gaps) else { continue };
         heights.extend(curve_sign_changes(&gap).into_iter().map(|v| edge.eval(v)[2]));
     }
