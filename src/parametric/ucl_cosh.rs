@@ -9,8 +9,8 @@
 //!   profile is the transom, x = (D - z) tan(slope), down to the tip, then a straight line to x = acu L on the keel;
 //! * aft waterline, x <= L/2: the circular arc that is tangent to y = b at L/2 and passes through the end of the transom.
 //!
-//! The parameters of the surface are graded so that y is smooth where b and t rise like square roots: below the tip
-//! z/D = (cosh(a_ms s) - 1) / (cosh a_ms - 1), above it (z - zt) / (D - zt) = (cosh(a_tr w) - 1) / (cosh a_tr - 1). At the
+//! The parameters of the surface are graded so that y is smooth where b and t rise like square roots: below the tip z/D
+//! = (cosh(a_ms s) - 1) / (cosh a_ms - 1), above it (z - zt) / (D - zt) = (cosh(a_tr w) - 1) / (cosh a_tr - 1). At the
 //! tip the surface has a corner line along v, as the family has. Bicubic; volume and waterplane areas within 1e-5 of
 //! the formulas (tested).
 

@@ -14,8 +14,8 @@
 //! decimal numbers: no solver is believed. O(n^2) operations.
 //!
 //! *From above.* A cubic spline with knots at the sites (and between them, if need be) whose y'', which is piecewise
-//! linear, has the wanted pattern: a linear program finds the least factor tau on the tolerances for a pattern; if
-//! tau <= 1 the spline is there to be looked at. Patterns are tried from the middle of the intervals that the chains leave.
+//! linear, has the wanted pattern: a linear program finds the least factor tau on the tolerances for a pattern; if tau
+//! <= 1 the spline is there to be looked at. Patterns are tried from the middle of the intervals that the chains leave.
 //!
 //! *Between.* The runs of a chain agree in where they meet but not in the values there, so that rarely the bound from
 //! below is one too few. Then every pattern is excluded by a linear program over the values, each with Farkas

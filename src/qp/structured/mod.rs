@@ -29,9 +29,11 @@
 //! it leaves (Mehrotra 1992), its second-order term ds dz corrects tau, and further correctors pull stray products back
 //! towards mu as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program
 //! has two. Beyond the tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit
-//! ([`start`]); a later solve of a [`Solver`] starts from the iterate its predecessor had before it neared the
-//! boundary. Where the iteration stalls two auxiliary programs look for a proof that there is no solution ([`phase`]).
+//! ([`start`]); a later solve of a [`Solver`] of which limits alone have changed starts from the rows that bound the
+//! last solution ([`active`]), others from the iterate their predecessor had before it neared the boundary. Where the
+//! iteration stalls two auxiliary programs look for a proof that there is no solution ([`phase`]).
 
+mod active;
 mod factor;
 mod interior;
 mod newton;
@@ -42,7 +44,8 @@ mod scaled;
 mod schur;
 mod start;
 
-use super::problem::{Problem, ProblemError, Settings, Solution, Status};
+use super::problem::{Problem, ProblemError, Progress, Settings, Solution, Status};
+use active::Binding;
 use interior::End;
 use newton::Newton;
 use point::Point;
@@ -55,6 +58,8 @@ pub struct Solver {
     scaled: Scaled,
     newton: Option<Newton>,
     kept: Option<Point>,
+    /// The rows that bound the last solution, as long as limits alone have changed since.
+    bound: Option<Vec<Binding>>,
     auxiliary: bool,
 }
 
@@ -74,7 +79,15 @@ impl Solver {
         problem.check()?;
         let scaled = Scaled::new(problem);
         let newton = Newton::new(&scaled);
-        Ok(Self { problem: problem.clone(), settings: settings.clone(), scaled, newton, kept: None, auxiliary: false })
+        Ok(Self {
+            problem: problem.clone(),
+            settings: settings.clone(),
+            scaled,
+            newton,
+            kept: None,
+            bound: None,
+            auxiliary: false,
+        })
     }
 
     /// Takes other numbers with the same pattern: orderings, the symbolic factorisation and the warm start stay.
@@ -88,6 +101,12 @@ impl Solver {
         if !same {
             return Err(ProblemError::Pattern);
         }
+        let limits_alone = self.problem.quadratic == problem.quadratic
+            && self.problem.linear == problem.linear
+            && self.problem.rows == problem.rows;
+        if !limits_alone {
+            self.bound = None;
+        }
         self.problem.clone_from(problem);
         self.scaled.load(problem);
         Ok(())
@@ -96,9 +115,11 @@ impl Solver {
     /// Forgets the last solution: the next solve starts cold.
     pub fn forget(&mut self) {
         self.kept = None;
+        self.bound = None;
     }
 
-    /// Solves; a solve after the first starts from an iterate of the last.
+    /// Solves; a solve after the first starts from the rows that bound the last where limits alone have changed, else,
+    /// and where that comes to nothing, from an iterate of the last.
     pub fn solve(&mut self) -> Solution {
         let (n, m) = (self.problem.linear.len(), self.problem.rows.row_count());
         let failed = Solution {
@@ -110,6 +131,27 @@ impl Solver {
         };
         let mut progress = Vec::new();
         let Some(newton) = &mut self.newton else { return failed };
+        if let Some((point, rounds)) = self.bound.take().and_then(|bound| active::resume(&self.scaled, newton, &bound))
+        {
+            let residuals = point.residuals(&self.scaled);
+            let size = residuals.objective.abs().max(self.scaled.objective_scale);
+            let found = Progress {
+                primal: residuals.primal_size,
+                dual: residuals.dual_size,
+                gap: residuals.gap(&point) / size,
+            };
+            progress.push(found);
+            if found.primal.max(found.dual).max(found.gap) <= self.settings.tolerance {
+                self.bound = Some(active::bindings(&point));
+                return Solution {
+                    status: Status::Optimal,
+                    x: self.scaled.variables(&point.x),
+                    multipliers: self.scaled.multipliers(&point.z),
+                    iterations: rounds,
+                    progress,
+                };
+            }
+        }
         let warm = self.kept.take().map(|kept| start::warm(&self.scaled, &kept));
         let mut outcome = None;
         let mut iterations = 0;
@@ -136,7 +178,10 @@ impl Solver {
             progress,
         };
         match end {
-            End::Optimal => solution.status = Status::Optimal,
+            End::Optimal => {
+                solution.status = Status::Optimal;
+                self.bound = Some(active::bindings(&point));
+            }
             _ if self.auxiliary => {}
             _ => self.explain(&mut solution),
         }

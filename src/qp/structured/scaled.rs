@@ -11,6 +11,7 @@ const DENSE: usize = 100;
 const CLOSED: f64 = 1e-13;
 
 /// The scaled problem and the way back.
+#[derive(Clone)]
 pub(super) struct Scaled {
     pub(super) quadratic: SparseRows,
     pub(super) linear: Vec<f64>,
