@@ -1,6 +1,6 @@
 //! `loftsman fair TABLE|JOB`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
@@ -166,6 +166,11 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         Ok(job) => job,
         Err(failure) => return (None, Err(failure)),
     };
+    let folder = arguments.files.folder(&arguments.input, false);
+    if let Some(file) = job.files().iter().find(|file| is_written(file, &folder)) {
+        let words = format!("{} is read and would be overwritten; -o another folder", file.display());
+        return (Some(job.clone()), Err(Failure::Usage(words)));
+    }
     let [stations, waterlines, offsets] = job.size();
     progress(format!("{}: {stations} stations, {waterlines} waterlines, {offsets} offsets", job.table.name));
     let outputs = match fair_outputs(&job, !arguments.files.no_figures) {
@@ -174,10 +179,19 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     let seconds = start.elapsed().as_secs_f64();
     progress(format!("faired in {seconds:.2} s"));
-    match write_run(&arguments.files.folder(&arguments.input, false), &outputs.files, force) {
+    match write_run(&folder, &outputs.files, force) {
         Ok(()) => (Some(job), Ok((outputs, seconds))),
         Err(failure) => (Some(job), Err(failure)),
     }
+}
+
+/// Whether a file has a name that `fair` writes into the folder, and is in it.
+fn is_written(file: &Path, folder: &Path) -> bool {
+    let stems = ["offsets", "changes", "hull", "start", "fairing", "summary", "manifest"];
+    let named = file.file_stem().is_some_and(|stem| stems.iter().any(|own| stem == *own));
+    let real =
+        |path: &Path| if path.as_os_str().is_empty() { Path::new(".").canonicalize() } else { path.canonicalize() };
+    named && matches!((file.parent().map(real), real(folder)), (Some(Ok(a)), Ok(b)) if a == b)
 }
 
 /// When the files were written last; a file that is not there has no time.

@@ -86,6 +86,20 @@ pub enum HullError {
         /// B \[m\].
         breadth: f64,
     },
+    /// A point of the net that has nothing to do with the dimensions.
+    #[error("x or z of the net, row {row}, column {column}: {x} m, {z} m; they must be within {reach} m of the origin")]
+    Places {
+        /// Index in u.
+        row: usize,
+        /// Index in v.
+        column: usize,
+        /// The length \[m\].
+        x: f64,
+        /// The height \[m\].
+        z: f64,
+        /// A hundred times the largest of L_PP, B and D \[m\].
+        reach: f64,
+    },
     /// The deck at side does not rise in x, or lies outside the surface.
     #[error("deck at side, point {index}: {problem}")]
     Deck {
@@ -95,6 +109,9 @@ pub enum HullError {
         problem: &'static str,
     },
 }
+
+/// Most distance of a point of the net from the origin along x and z, in units of the largest of L_PP, B and D.
+const REACH: f64 = 100.0;
 
 /// A ship's hull, one side of it, symmetric about the centreplane.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +135,8 @@ impl Hull {
     /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, a control half-breadth lies outside -B to 10 B, z does not rise
+    /// [`HullError`] when a dimension is not positive, a point lies a hundred times the largest dimension from the
+    /// origin along x or z, a control half-breadth outside -B to 10 B, z does not rise
     /// with v or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the
     /// surface.
     pub fn new(
@@ -140,9 +158,13 @@ impl Hull {
         // A line that shrinks to a point has coordinates that are equal to rounding only.
         let largest = |axis: usize| surface.points().iter().map(|point| point[axis].abs()).fold(0.0, f64::max);
         let noise = [ROUNDING * largest(0), ROUNDING * largest(2)];
+        let reach = REACH * p.length_between_perpendiculars.max(p.breadth).max(p.depth);
         for row in 0..rows {
             for column in 0..columns {
                 let [x, y, z] = surface.point(row, column);
+                if !(-reach..=reach).contains(&x) || !(-reach..=reach).contains(&z) {
+                    return Err(HullError::Places { row, column, x, z, reach });
+                }
                 if !(-p.breadth..=10.0 * p.breadth).contains(&y) {
                     return Err(HullError::Breadths { row, column, value: y, breadth: p.breadth });
                 }
@@ -424,5 +446,17 @@ mod tests {
         let surface = BsplineSurface::new(line(), line(), points).unwrap();
         let error = Hull::new("x", *wedge().particulars(), surface, deck).unwrap_err();
         assert!(matches!(error, HullError::Breadths { row: 1, column: 1, .. }), "{error}");
+    }
+
+    #[test]
+    fn points_of_the_net_belong_to_the_dimensions() {
+        let line = || KnotVector::uniform(1, 1).unwrap();
+        let deck = || BsplineCurve::new(line(), vec![[0.0, 2.0], [10.0, 2.0]]).unwrap();
+        for far in [1e308, -1e9, f64::NAN] {
+            let points = vec![[0.0, 0.0, 0.0], [0.0, 2.0, 2.0], [10.0, 0.0, 0.0], [far, 2.0, 2.0]];
+            let Ok(surface) = BsplineSurface::new(line(), line(), points) else { continue };
+            let error = Hull::new("x", *wedge().particulars(), surface, deck()).unwrap_err();
+            assert!(matches!(error, HullError::Places { row: 1, column: 1, .. }), "{error}");
+        }
     }
 }

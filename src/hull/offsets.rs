@@ -308,7 +308,8 @@ pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
 #[must_use]
 pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     let draught = hull.particulars().draught;
-    let step = nice_step(draught / 7.0);
+    // A hull that hardly draws water has no more lines than one that does.
+    let step = nice_step((draught / 7.0).max((hull.top() - hull.bottom()) / 200.0));
     let highest = hull.deck().points().iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max).min(hull.top());
     let bottom = hull.bottom();
     let first = (bottom / step).ceil() as i64;

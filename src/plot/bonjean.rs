@@ -201,7 +201,7 @@ fn draw_table(canvas: &mut Canvas, table: &BonjeanTable, design: f64, top: f64) 
             if let Some(area) = area {
                 canvas.text(
                     [left + first + width * (k + 1) as f64 - 1.0, y(row + 1)],
-                    &format!("{area:.digits$}"),
+                    &format!("{:.digits$}", area.max(0.0) + 0.0),
                     &style,
                 );
             }

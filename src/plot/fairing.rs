@@ -254,7 +254,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
     let room = paper[1] - HEAD - FOOT - 20.0;
-    let n = long_scale(x, paper);
+    let n = long_scale(x, paper).max(drawing_scale(breadth, room));
     let millimetres = 1000.0 / f64::from(n);
     // A whole number of times wider than long, so that waterlines keep apart.
     let stretch = (room / (breadth * millimetres)).floor().clamp(1.0, 10.0);
@@ -414,7 +414,12 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let words = TextStyle::new(LETTERS, Anchor::Middle);
     canvas.text(
         [0.5 * plan.room[0], plan.room[1] - 12.5],
-        &format!("{}    {}", station_words(plan.record), plan.heights),
+        &format!(
+            "{}    {}    rings: inflections of bends {:.2} mm or more off their chord",
+            station_words(plan.record),
+            plan.heights,
+            1e3 * plan.record.tolerance()
+        ),
         &words,
     );
     let y = plan.room[1] - 6.0;

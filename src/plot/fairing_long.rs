@@ -8,6 +8,7 @@ use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, long_scale, t
 use super::fairing_combs::{FairingCombs, some};
 use super::fairing_curves::{Range, figures};
 use super::label::LabelPlacer;
+use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
 use super::view::GRID;
@@ -123,10 +124,10 @@ pub(super) fn compose(
     let (x, ..) = extent(record).filter(|_| bounds[0][0].is_finite()).ok_or_else(nothing)?;
     let (low, high) = (bounds[0][0].min(x[0]), bounds[0][1].max(x[1]));
     let [bottom, top] = bounds[1];
-    let n = long_scale([low, high], paper);
-    let millimetres = 1000.0 / f64::from(n);
     let pitch = (paper[1] - HEAD - FOOT) / cuts.len() as f64;
     let room = pitch - WORDS - 2.0 * LONGEST;
+    let n = long_scale([low, high], paper).max(drawing_scale((top - bottom).max(fine), room));
+    let millimetres = 1000.0 / f64::from(n);
     let stretch = (room / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
     let [words, across, heights, axis] = kind.words();
     let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };

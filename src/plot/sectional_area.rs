@@ -78,7 +78,8 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         let words = format!("the areas before and after differ by {apart:.3} m² at most");
         canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
         let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
-        if let Some(x) = lcb.and_then(|row| row.lcb) {
+        let moved = |x: &f64| design.lcb.is_none_or(|after| (x - after).abs() >= 0.005);
+        if let Some(x) = lcb.and_then(|row| row.lcb).filter(moved) {
             mark_centre(&mut canvas, &mut placer, &chart, ("LCB before", x), 2.0, !aft);
         }
     }

@@ -72,7 +72,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         format!("stations {:.3} m, 0 at AP", grid.station_spacing),
         format!("waterlines {:.2}, buttocks {:.2} m", grid.waterline_spacing, grid.buttock_spacing),
         diagonals(grid),
-        format!("D fall {:.1}° outboard of CL", grid.diagonal_angle.to_degrees()),
+        format!("diag. fall {:.1}° outboard", grid.diagonal_angle.to_degrees()),
         inputs.source.unwrap_or_default().to_owned(),
         caption::program(),
     ];
@@ -94,8 +94,9 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
 
 /// The heights of the diagonals on the centre line.
 fn diagonals(grid: &LinesGrid) -> String {
-    let heights: Vec<String> = grid.diagonals.iter().map(|plane| format!("{:.2}", plane.at)).collect();
-    format!("D at {} m on CL", heights.join(", "))
+    let digits = if grid.diagonals.iter().any(|plane| plane.at >= 10.0) { 1 } else { 2 };
+    let heights: Vec<String> = grid.diagonals.iter().map(|plane| format!("{:.digits$}", plane.at)).collect();
+    format!("diag. on CL {} m", heights.join(", "))
 }
 
 /// Writes which drawing it is into the row of the title block with its lower right corner at `corner` that is left free

@@ -180,7 +180,7 @@ fn fairing_jobs<'a>(
             [
                 "fairing-half-breadth-plan",
                 "Half-breadth plan before and after",
-                "The same for the waterlines. Curvatures are those of the ship, however the breadths are stretched.",
+                "The same for the waterlines. Curvatures are those of the ship, also where breadths are stretched.",
             ],
             Box::new(move |sheet| fairing_half_breadth_plan(record, combs, sheet).map(Some)),
         ),

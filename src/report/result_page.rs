@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::page::{fixed, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
-use super::verdict::verdict;
+use super::verdict::{is_warning, verdict};
 use crate::exchange::{NO_MOVE, scene_json};
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::surface::Origin;
@@ -439,6 +439,7 @@ pub(super) fn report_page(
     }
     let assumed: Vec<String> =
         result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text)).collect();
+    let assumed: Vec<String> = assumed.into_iter().filter(|note| !is_warning(note)).collect();
     if !assumed.is_empty() {
         html.push_str("<details><summary>What was found and assumed</summary>\n");
         assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", lowered(note))));

@@ -40,6 +40,12 @@ fn more_often(fairing: &Value, than: &str) -> Vec<String> {
     KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]).filter_map(move |line| one(key, line))).collect()
 }
 
+/// Whether a note of what was assumed is a warning of the reader, `W320 ...`: it may change what all numbers mean.
+pub(super) fn is_warning(note: &str) -> bool {
+    let digits = note.strip_prefix('W').unwrap_or_default();
+    digits.len() > 3 && digits.as_bytes()[..3].iter().all(u8::is_ascii_digit)
+}
+
 /// What the fairing came to, in sentences.
 pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) -> Vec<(bool, String)> {
     let Some((record, fairing)) = &result.fairing else { return Vec::new() };
@@ -48,16 +54,23 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     let mut lines = vec![match fairing["status"].as_str() {
         Some("optimal") => (
             false,
-            "All targets, tolerances and locks are held; of all nets that do so this one is proved to be the best."
+            "All targets, tolerances and locks are held; no net that does so has less energy of curvature and departure \
+             together, which is proved."
                 .to_owned(),
         ),
         Some(word) => (true, format!("Status {word}: not all wishes are held. What is shown is a compromise.")),
         None => (true, "The status is not known.".to_owned()),
     }];
+    lines.extend(
+        list(&fairing["notes"])
+            .map(text)
+            .filter(|note| is_warning(note))
+            .map(|note| (true, note.replace("station_spacing", "spacing of stations"))),
+    );
     lines.push((
         false,
         format!(
-            "{} offsets moved {} mm RMS and {} mm at most; the noise of the table is {} mm. {left_out} left out as suspects.",
+            "{} offsets moved {} mm RMS and {} mm at most; the assumed noise is {} mm. {left_out} left out as suspects.",
             record.changes.len() - left_out,
             fixed(1e3 * rms, 2),
             fixed(1e3 * largest, 2),
