@@ -447,6 +447,19 @@ fn a_table_that_is_right_stays() {
     assert!(rms < 5e-5 && largest < 1e-4, "{rms} {largest}");
 }
 
+#[test]
+fn a_table_that_is_read_is_not_written_over() {
+    let path = folder("own");
+    let table = path.join("offsets.csv");
+    fs::copy(carried(TABLE), &table).unwrap();
+    let before = fs::read(&table).unwrap();
+    let output = program(&["fair", table.to_str().unwrap(), "-o", path.to_str().unwrap(), "--force"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is read and would be overwritten"), "{}", stderr(&output));
+    assert_eq!(fs::read(&table).unwrap(), before);
+    assert_eq!(fs::read_dir(&path).unwrap().count(), 1);
+}
+
 /// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
 /// bends more often. The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit
 /// leaves below 4e-5 m free to move it opened by 14 mm.
