@@ -460,9 +460,8 @@ fn a_table_that_is_read_is_not_written_over() {
     assert_eq!(fs::read_dir(&path).unwrap().count(), 1);
 }
 
-/// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
-/// bends more often. The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit
-/// leaves below 4e-5 m free to move it opened by 14 mm.
+/// The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit leaves below 4e-5 m free
+/// to move it opened by 14 mm.
 #[test]
 fn ends_that_are_closed_stay_closed() {
     let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);
@@ -472,6 +471,8 @@ fn ends_that_are_closed_stay_closed() {
     assert!(below.len() > 15 && below.iter().all(|y| y.abs() < 1e-4), "{below:?}");
 }
 
+/// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
+/// bends more often.
 #[test]
 fn the_bending_energy_is_minimised_within_what_is_held() {
     let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);

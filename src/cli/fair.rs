@@ -189,9 +189,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
 fn is_written(file: &Path, folder: &Path) -> bool {
     let stems = ["offsets", "changes", "hull", "start", "fairing", "summary", "manifest"];
     let named = file.file_stem().is_some_and(|stem| stems.iter().any(|own| stem == *own));
-    let real =
-        |path: &Path| if path.as_os_str().is_empty() { Path::new(".").canonicalize() } else { path.canonicalize() };
-    named && matches!((file.parent().map(real), real(folder)), (Some(Ok(a)), Ok(b)) if a == b)
+    named && file.parent().is_some_and(|parent| super::same(parent, folder))
 }
 
 /// When the files were written last; a file that is not there has no time.

@@ -67,11 +67,6 @@ fn date(text: &str) -> Result<String, String> {
     if fits { Ok(text.to_owned()) } else { Err("expected 1 to 20 characters, as 2026-03-31".to_owned()) }
 }
 
-/// Whether two paths are one folder.
-fn same(a: &Path, b: &Path) -> bool {
-    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let result = read_result(&arguments.result)?;
     let folder = match (&arguments.output, &result.folder) {
@@ -79,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(folder)) => folder.join("report"),
         (None, None) => Path::new("out").join(arguments.result.file_stem().unwrap_or_else(|| "report".as_ref())),
     };
-    if result.folder.as_ref().is_some_and(|of| same(of, &folder)) {
+    if result.folder.as_ref().is_some_and(|of| super::same(of, &folder)) {
         return Err(Failure::Usage(format!(
             "{} is the folder of the result; a report has a folder of its own (-o DIR)",
             folder.display()

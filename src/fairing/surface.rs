@@ -512,8 +512,8 @@ impl<'a> StationLine<'a> {
     }
 }
 
-/// Control values that do not move: those at stem, stern and keel that lie on the centreplane in the fit, where they lie
-/// in it on a net of the fit (`own` false).
+/// Control values that do not move: on a net of the fit those at stem, stern and keel that lie on the centreplane, where
+/// they lie; on a net of its own (`own`) stem, stern or keel where all of it lies on the centreplane in the fit.
 fn known(fitted: &Hull, hull: &Hull, own: bool) -> Vec<Option<f64>> {
     let [rows, columns] = hull.surface().shape();
     let [fit_rows, fit_columns] = fitted.surface().shape();

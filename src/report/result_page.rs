@@ -437,9 +437,8 @@ pub(super) fn report_page(
     for note in &result.notes {
         html.push_str(&format!("<p class=\"bad\">{}</p>\n", lowered(note)));
     }
-    let assumed: Vec<String> =
-        result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text)).collect();
-    let assumed: Vec<String> = assumed.into_iter().filter(|note| !is_warning(note)).collect();
+    let notes = result.fairing.iter().flat_map(|(_, fairing)| list(&fairing["notes"]).map(text));
+    let assumed: Vec<String> = notes.filter(|note| !is_warning(note)).collect();
     if !assumed.is_empty() {
         html.push_str("<details><summary>What was found and assumed</summary>\n");
         assumed.iter().for_each(|note| html.push_str(&format!("<p>{}</p>\n", lowered(note))));
