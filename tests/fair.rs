@@ -209,6 +209,38 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
 }
 
+/// Half a per cent of displacement more than the tolerances leave, and ten times as much as there is: no waves, the
+/// nearest fair hull within the tolerances and an interval that holds what was written.
+#[test]
+fn targets_out_of_reach_give_the_nearest_fair_hull() {
+    let table = carried(TABLE);
+    for target in ["8300 t", "83000 t"] {
+        let (_, outputs) = faired(&table, &[("--displacement", "hold.displacement", target)]);
+        let outcome = &outputs.outcome;
+        assert!(outputs.verdict().is_err() && outcome.nearest);
+        let held = outcome.held.iter().find(|held| held.constraint.key() == "displacement").unwrap();
+        let reach = &outcome.faired.diagnosis.as_ref().unwrap().reaches;
+        let reach = reach.iter().find(|reach| outcome.held[reach.constraint].constraint == held.constraint).unwrap();
+        let [low, high] = reach.values.unwrap();
+        let target = held.constraint.target();
+        assert!(low < held.before && held.before < high && !(low..=high).contains(&target), "{reach:?}");
+        // At least a quarter of the way to what can be had.
+        let end = if target < low { low } else { high };
+        let part = (held.after - held.before) / (end - held.before);
+        assert!((0.2..=1.0).contains(&part), "{part} of the way, {held:?}");
+        for change in &outcome.changes {
+            assert!(change.tolerance.is_none_or(|most| (change.after - change.before).abs() <= most * 1.0001));
+        }
+        let counts = ["station", "waterline", "buttock", "diagonal"].map(|kind| outcome.inflections(kind));
+        let sum = |side: usize| counts.iter().map(|count| count[side]).sum::<usize>();
+        assert!(sum(1) <= sum(0), "{counts:?}");
+        // Between the offsets as well nothing moves further than a few tolerances.
+        let [before, after] = [&outcome.before, &outcome.after].map(|hull| hull.surface().points());
+        let most = before.iter().zip(after).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max);
+        assert!(most < 0.2, "a control point moved by {most} m");
+    }
+}
+
 /// A target beyond all measure does not vanish beside its row, nor does a tolerance beyond all measure spoil the answer.
 #[test]
 fn absurd_numbers_are_not_taken_for_an_answer() {

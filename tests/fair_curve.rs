@@ -274,6 +274,35 @@ fn the_command_writes_curve_proof_and_picture() {
     assert_eq!(folder.run(&["curve.csv", "-o", "out", "--force", "--no-figures", "-q"]).0, 0);
 }
 
+/// What no sensible curve within the tolerances has is refused with the interval that it has, and the nearest curve.
+#[test]
+fn impossible_areas_centroids_and_slopes_are_refused() {
+    let folder = Folder::new("impossible");
+    folder.write("curve.csv", &csv(&points(|x| waterline(-9.0, -9.0, x), 0.0, 100.0, 21, 0.02, 2)));
+    let run = |option: &str, value: &str| {
+        let (code, page, error) = folder.run(&["curve.csv", "-o", "out", "--force", "--no-figures", option, value]);
+        let json: serde_json::Value = serde_json::from_str(&folder.read("out/fairing.json")).unwrap();
+        (code, page + &error, json)
+    };
+    for (option, value) in
+        [("--area", "0"), ("--area", "-5"), ("--area", "1e9"), ("--centroid", "1e9"), ("--first-slope", "1e6")]
+    {
+        let (code, said, json) = run(option, value);
+        assert!(code == 4 && said.contains("E410") && said.contains(" alone could be "), "{option} {value}: {said}");
+        let line = &json["constraints"][0];
+        let alone = &json["infeasible"]["alone"][0];
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        let (least, greatest) = (number(&alone["least"]), number(&alone["greatest"]));
+        assert!((least..=greatest).contains(&number(&line["after"])), "{line} {alone}");
+        // The interval is what can be had: just inside is optimal, just outside is not.
+        let inside = least + 0.02 * (greatest - least);
+        let outside = least - 0.02 * (greatest - least);
+        assert_eq!([run(option, &inside.to_string()).0, run(option, &outside.to_string()).0], [0, 4], "{option}");
+        let moves = &json["moves"];
+        assert!(number(&moves["max"]) < 0.2, "{moves}");
+    }
+}
+
 #[test]
 fn the_command_refuses_with_numbers() {
     let folder = Folder::new("refuse");

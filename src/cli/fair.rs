@@ -54,7 +54,8 @@ pub(super) struct Arguments {
     /// Design draught: what is held holds there [default: of the table]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
-    /// How far an offset may move [default: three noise levels, at least two steps of the table's writing]
+    /// How far an offset may move [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
+    /// as rough, at least two steps of its writing]
     #[arg(long, value_name = "LENGTH")]
     tolerance: Option<String>,
     /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too:
@@ -67,7 +68,7 @@ pub(super) struct Arguments {
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
     #[arg(long, value_name = "NUMBER")]
     anisotropy: Option<String>,
-    /// Smoothing weight, or "auto" for the one of least cross-validation [default: auto]
+    /// Smoothing weight, or "auto": by the noise of the table (Mallows), by cross-validation where the net is one of its own [default: auto]
     #[arg(long, value_name = "NUMBER")]
     weight: Option<String>,
     /// Take suspected typing errors as they are

@@ -81,7 +81,8 @@ enum Unit {
 
 const AFTER: &str = "\
 Cells are those of tables of offsets: 6.41, 3-4-5+ (feet-inches-eighths), (6.41) doubtful, ? to be predicted, and the marks K (knuckle), T \
-(tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm].
+(tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm]. \
+Ends that are 0 stay 0 where no ordinate is below. curve.csv is in metres.
 fairing.json holds the proof: the least number of inflections within the tolerances with three points for each change that no curve \
 can pass without it, and the duality gap of the convex program.
 Exit code 4 when what is wished cannot be had within the tolerances; the message names the smallest tolerance that would do, \

@@ -74,14 +74,14 @@ pub const JOB_KEYS: &[Key] = &[
         "weight",
         Kind::NumberOrWord(&AUTO),
         &[],
-        "Smoothing weight; \"auto\" takes the one of least generalised cross-validation. Default: \"auto\".",
+        "Smoothing weight; \"auto\" takes that for the noise of the table (Mallows), on a net of its own that of least generalised cross-validation. Default: \"auto\".",
     ),
     key(
         "tolerance",
         "table",
         Kind::Length,
         &[],
-        "How far an offset may move. Default: three noise levels, at least two steps of the table's writing.",
+        "How far an offset may move. Default: three noise levels, at most B/1000 or 15 mm unless the table is three times as rough, at least two steps of its writing.",
     ),
     key("tolerance", "stations", Kind::NamedLengths, &[], "Tolerances of single stations, { \"10\" = \"1 mm\" }."),
     key(

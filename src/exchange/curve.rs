@@ -340,8 +340,24 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, seconds: f64) -> Valu
         "noise": { "sigma": json_number(Some(fair.sigma)) },
         "smoothing": { "weight": json_number(Some(fair.lambda)), "degrees_of_freedom": json_number(Some(fair.freedom)) },
         "widening": json_number(Some(fair.widening)),
+        "infeasible": infeasible(fair),
         "suspects": [],
         "work": { "qps": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
+    })
+}
+
+/// Why area, centroid and slopes cannot be had: the least factor on the tolerances, and what each alone could be.
+fn infeasible(fair: &FairCurve) -> Value {
+    let Some(found) = &fair.diagnosis else { return Value::Null };
+    let alone = found.reaches.iter().filter_map(|reach| {
+        let line = fair.lines.get(reach.constraint)?;
+        let [low, high] = reach.values.map_or([None; 2], |ends| ends.map(Some));
+        Some(json!({
+            "kind": line.kind.key(), "least": json_number(low), "greatest": json_number(high), "target": line.target,
+        }))
+    });
+    json!({
+        "widening": json_number(found.widening), "alone": alone.collect::<Vec<Value>>(), "nearest": fair.nearest,
     })
 }
 

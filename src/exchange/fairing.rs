@@ -108,7 +108,7 @@ fn diagnosis(outcome: &Outcome) -> Value {
         .iter()
         .filter_map(|reach| {
             let held = outcome.held.get(reach.constraint)?;
-            let [low, high] = outcome.reached_values(reach).map_or([None; 2], |ends| ends.map(Some));
+            let [low, high] = reach.values.map_or([None; 2], |ends| ends.map(Some));
             Some(json!({
                 "kind": held.constraint.key(), "least": json_number(low), "greatest": json_number(high),
                 "target": number(held.constraint.target()),
@@ -126,6 +126,7 @@ fn diagnosis(outcome: &Outcome) -> Value {
     let cheapest = found.cheapest().and_then(|reach| outcome.held.get(reach.constraint));
     json!({
         "widening": json_number(found.widening),
+        "nearest": outcome.nearest,
         "alone": reaches,
         "rules": rules,
         "cheapest": cheapest.map(|held| held.constraint.key()),
@@ -214,6 +215,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             json!({
                 "kind": held.rule.key(), "name": held.rule.words(), "rows": held.rows, "binding": held.binding,
                 "violation": number(held.violation), "multiplier": number(held.multiplier), "price": number(held.price),
+                "given_up": held.given_up,
                 "words": priced(&held.rule.words(), held.price),
             })
         })

@@ -11,7 +11,7 @@
 
 use super::bending::bending_energy;
 use super::bends::Line;
-use super::compromise::{Answer, Basic};
+use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, breadths};
 use super::guard::{Guarded, Question};
 use super::infeasible::Diagnosis;
@@ -132,6 +132,8 @@ pub struct Faired {
     pub patterns: Option<[Pattern; 2]>,
     /// Why the wishes cannot all be had; the net is then the best compromise, with the tolerances widened.
     pub diagnosis: Option<Diagnosis>,
+    /// What to ask for instead where the wishes cannot all be had; the answer is none then.
+    pub instead: Option<Instead>,
     /// What became of the lines of the table, on a net that follows its features.
     pub guarded: Option<Guarded>,
     /// Price of the signs in sigma^2.
@@ -262,10 +264,10 @@ pub fn fair_prepared(
     };
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
-    // The net of a fit goes through its table; a net of its own follows it as it was smoothed.
-    let reference = if surface.own { &first } else { &surface.start };
-    let basic = Basic { surface, model, smoother, lambda, reference, greatest, solver: &settings.solver };
-    let Answer { mut program, mut solved, mut diagnosis, mut programs, mut iterations } = basic.solve(&mut wishes)?;
+    let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
+    let basic = Basic::new(surface, model, weighed, &settings.constraints, &wishes, first, &settings.solver)?;
+    let Answer { mut program, mut solved, mut diagnosis, mut instead, mut programs, mut iterations } =
+        basic.solve(&mut wishes)?;
     if diagnosis.is_none()
         && solved.is_optimal()
         && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
@@ -283,7 +285,7 @@ pub fn fair_prepared(
             let answer = basic.solve(&mut wishes)?;
             programs += answer.programs;
             iterations += answer.iterations;
-            (program, solved, diagnosis) = (answer.program, answer.solved, answer.diagnosis);
+            (program, solved, diagnosis, instead) = (answer.program, answer.solved, answer.diagnosis, answer.instead);
         }
     }
     let (mut patterns, mut price) = (None, 0.0);
@@ -387,6 +389,7 @@ pub fn fair_prepared(
         rules: wishes.rules,
         settled,
         diagnosis,
+        instead,
         guarded,
         net: solved.net.clone(),
         sigma,
@@ -439,6 +442,14 @@ fn least_bending_of(
 }
 
 impl Faired {
+    /// The same with the programs of an attempt before it.
+    #[must_use]
+    pub fn after(mut self, before: &Self) -> Self {
+        self.programs += before.programs;
+        self.iterations += before.iterations;
+        self
+    }
+
     /// Lines that keep the signs of the start.
     #[must_use]
     pub fn kept(&self) -> &[Line] {

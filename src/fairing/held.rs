@@ -2,7 +2,7 @@
 
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
-use super::model::{Model, value};
+use super::model::{Limit, Model, value};
 use super::program::{RowName, Solved};
 use super::surface::FairSurface;
 use crate::hull::Hull;
@@ -20,6 +20,8 @@ pub struct Held {
     pub before: f64,
     /// Its quantity after.
     pub after: f64,
+    /// What its error is measured in ([`Constraint::scale`]).
+    pub scale: f64,
     /// Multiplier of its row \[m^2 per unit of the row\].
     pub multiplier: f64,
     /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
@@ -42,6 +44,32 @@ pub struct HeldRule {
     pub multiplier: f64,
     /// Root of the mean square of what the readings move less when the rule is dropped \[m\].
     pub price: f64,
+    /// Whether it was given up, because it cannot be had with the other wishes.
+    pub given_up: bool,
+}
+
+impl HeldRule {
+    /// A rule that was given up, with what the hull breaks it by; of a number of inflections, which has no rows until it
+    /// is asked for, 0.
+    pub(super) fn given_up(rule: &Rule, surface: &FairSurface, hull: &Hull) -> Self {
+        let net: Vec<f64> = hull.surface().points().iter().map(|point| point[1]).collect();
+        let violation = rule.limits(surface).into_iter().flatten().map(|limit| violated(&limit, &net));
+        Self {
+            rule: rule.clone(),
+            rows: 0,
+            binding: 0,
+            violation: violation.fold(0.0, f64::max),
+            multiplier: 0.0,
+            price: 0.0,
+            given_up: true,
+        }
+    }
+}
+
+/// By how much a net breaks a limit.
+fn violated(limit: &Limit, net: &[f64]) -> f64 {
+    let y = value(&limit.row, net);
+    (limit.lower - y).max(y - limit.upper).max(0.0)
 }
 
 /// Constraints with what they cost.
@@ -57,7 +85,9 @@ pub(super) fn constraints(
     list.map(|(k, (&constraint, price))| {
         let row = |name: RowName| name == RowName::Constraint(k);
         let multiplier = faired.rows(row).map(|at| faired.solved.solution.multipliers[at]).sum();
-        Held { constraint, before: constraint.value(before), after: constraint.value(after), multiplier, price }
+        let [before_value, after_value] = [before, after].map(|hull| constraint.value(hull));
+        let scale = constraint.scale(before);
+        Held { constraint, before: before_value, after: after_value, scale, multiplier, price }
     })
     .collect()
 }
@@ -76,17 +106,13 @@ pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Fai
         };
         let binding = at.iter().filter(|&&row| binds(row)).count();
         let largest = at.iter().fold(0.0_f64, |most, &row| most.max(multipliers[row].abs()));
-        let violated = |limit: &super::model::Limit| {
-            let y = value(&limit.row, &faired.net);
-            (limit.lower - y).max(y - limit.upper).max(0.0)
-        };
         let violation = faired
             .rules
             .iter()
             .filter(|(rule, _)| *rule == k)
-            .fold(0.0_f64, |most, (_, limit)| most.max(violated(limit)));
+            .fold(0.0_f64, |most, (_, limit)| most.max(violated(limit, &faired.net)));
         let price = if binding == 0 { 0.0 } else { faired.price_of(&surface.model, own, &settings.solver) };
-        HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price }
+        HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price, given_up: false }
     })
     .collect()
 }

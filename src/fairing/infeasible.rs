@@ -4,21 +4,41 @@
 //!   delta_k (and s delta_k besides the room between the offsets), and the rest.
 //! * For each rule of lines and regions alone: the least slack of all its rows with which the rest can be had.
 //! * For each constraint alone: the least and the greatest value that the tolerances and the other constraints leave,
-//!   min and max of its row. The distance from its target to that interval is what it would have to give.
+//!   those of the quantity itself where its row is least and greatest. The distance from its target to that interval is
+//!   what it would have to give.
+//! * The nearest that the targets can be had together.
 
+use super::model::Row;
 use super::program::{Program, RowName};
-use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, SparseRows, Status};
+use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, Status};
+
+/// What a target may miss, relative, and still count as had.
+const HAD: f64 = 1e-9;
 
 /// What one constraint could be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
     /// Index of the constraint.
     pub constraint: usize,
-    /// Least and greatest value of its row within the tolerances and the other constraints; none when these cannot be had
-    /// themselves.
-    pub row: Option<[f64; 2]>,
-    /// Distance of the target from that interval, in units of the row.
+    /// Least and greatest value of its quantity within the tolerances and the other constraints, in its unit; where
+    /// these cannot be had themselves, without them; none where the tolerances alone cannot be had. Of what is not linear: the values where its tangent at the start is least and
+    /// greatest, which can be had, if the others are not its like.
+    pub values: Option<[f64; 2]>,
+    /// Distance of the target from that interval, over the scale of the target; none where the others had to be left
+    /// out: giving way alone, it would not do.
     pub missing: Option<f64>,
+}
+
+/// What a constraint asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Row over the unknowns along which the quantity grows, about the start: the row of the program turns with a target
+    /// that is far away.
+    pub row: Row,
+    /// Least and greatest value that is wished, in the unit of the quantity.
+    pub limits: [f64; 2],
+    /// What a miss is measured in.
+    pub scale: f64,
 }
 
 /// Why a program has no solution, in numbers.
@@ -38,7 +58,7 @@ impl Diagnosis {
     /// the hull, whatever constraint is dropped.
     #[must_use]
     pub fn of_tolerances_alone(&self) -> Option<f64> {
-        self.widening.filter(|_| self.rules.is_empty() && self.reaches.iter().all(|reach| reach.row.is_none()))
+        self.widening.filter(|_| self.rules.is_empty() && self.reaches.iter().all(|reach| reach.values.is_none()))
     }
 
     /// The single constraint that has to give least, in units of its row.
@@ -49,11 +69,27 @@ impl Diagnosis {
     }
 }
 
-/// The least factor on the tolerances of a program whose tolerances are not widened.
+/// The least factor on the tolerances of a program whose tolerances are not widened; `cut` says with which further
+/// limits an answer with tolerances times a factor is none that counts.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
-pub fn least_widening(program: &Program, settings: &Settings) -> Result<Option<f64>, ProblemError> {
+pub fn least_widening(
+    program: &Program,
+    settings: &Settings,
+    mut cut: impl FnMut(&[f64], f64) -> Option<Program>,
+) -> Result<Option<f64>, ProblemError> {
+    let Some((mut factor, mut x)) = widened(program, settings)? else { return Ok(None) };
+    for _ in 0..CUTS {
+        let Some(program) = cut(&x, factor) else { break };
+        let Some(found) = widened(&program, settings)? else { return Ok(None) };
+        (factor, x) = found;
+    }
+    Ok(Some(factor))
+}
+
+/// The least factor on the tolerances, and an answer with it.
+fn widened(program: &Program, settings: &Settings) -> Result<Option<(f64, Vec<f64>)>, ProblemError> {
     least_factor(program, settings, |k| {
         let tolerance = program.tolerances[k];
         (tolerance > 0.0).then_some((tolerance, tolerance))
@@ -66,7 +102,7 @@ fn least_factor(
     program: &Program,
     settings: &Settings,
     give: impl Fn(usize) -> Option<(f64, f64)>,
-) -> Result<Option<f64>, ProblemError> {
+) -> Result<Option<(f64, Vec<f64>)>, ProblemError> {
     let problem = &program.problem;
     let n = problem.linear.len();
     let mut factor = LeastFactor::new(n);
@@ -80,7 +116,9 @@ fn least_factor(
         }
     }
     let solution = factor.into_problem().solve(settings)?;
-    Ok((solution.status == Status::Optimal).then(|| solution.x[n]))
+    let (mut x, optimal) = (solution.x, solution.status == Status::Optimal);
+    let factor = x.split_off(n)[0];
+    Ok(optimal.then_some((factor, x)))
 }
 
 /// Most times that limits are added which an end of an interval breaks: an interval that still breaks some is too wide.
@@ -96,32 +134,20 @@ struct Asked<'a, F> {
 }
 
 impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
-    /// The interval of a constraint's row when its own limits are lifted.
-    fn reach(&mut self, name: RowName) -> Result<Option<[f64; 2]>, ProblemError> {
-        let mut ends = [0.0; 2];
-        for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
-            match self.extreme(name, sign)? {
-                Some(value) => *end = value,
-                None => return Ok(None),
-            }
-        }
-        Ok(Some(ends))
+    /// Where a constraint's quantity is least and greatest when its own limits are lifted.
+    fn reach(&mut self, name: RowName, along: &Row) -> Result<Option<[Vec<f64>; 2]>, ProblemError> {
+        let Some(least) = self.extreme(name, along, 1.0)? else { return Ok(None) };
+        Ok(self.extreme(name, along, -1.0)?.map(|greatest| [least, greatest]))
     }
 
-    /// The least value of the row for sign 1, the greatest for -1.
-    fn extreme(&mut self, name: RowName, sign: f64) -> Result<Option<f64>, ProblemError> {
+    /// Where it is least for sign 1, greatest for -1.
+    fn extreme(&mut self, name: RowName, along: &Row, sign: f64) -> Result<Option<Vec<f64>>, ProblemError> {
         let mut found = None;
         for _ in 0..CUTS {
             let Some(row) = self.program.names.iter().position(|other| *other == name) else { break };
-            let n = self.program.problem.linear.len();
-            let mut problem = self.program.problem.clone();
-            problem.quadratic = SparseRows::from_entries(n, n, &[]);
+            let mut problem = self.program.problem.without_objective();
             (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
-            problem.linear = vec![0.0; n];
-            let (columns, values) = self.program.problem.rows.row(row);
-            for (&column, value) in columns.iter().zip(values) {
-                problem.linear[column] = sign * value;
-            }
+            along.iter().for_each(|&(column, value)| problem.linear[column] += sign * value);
             let solution = self.solver.solve(&problem)?;
             self.programs += 1;
             match solution.status {
@@ -130,8 +156,9 @@ impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
                 Status::Limit if found.is_some() => break,
                 _ => return Ok(None),
             }
-            found = Some(self.program.problem.rows.dot(row, &solution.x));
-            match (self.cut)(&solution.x) {
+            let further = (self.cut)(&solution.x);
+            found = Some(solution.x);
+            match further {
                 Some(program) => self.program = program,
                 None => break,
             }
@@ -143,17 +170,21 @@ impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
 /// The least slack on the rows of these names, the same for all of them and on both sides, with which the program can
 /// be had.
 fn least_slack(program: &Program, these: RowName, settings: &Settings) -> Result<Option<f64>, ProblemError> {
-    least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))
+    let found = least_factor(program, settings, |k| (program.names[k] == these).then_some((0.0, 1.0)))?;
+    Ok(found.map(|(slack, _)| slack))
 }
 
 /// Everything that can be said of a program without a solution, whose least widening is known, and the programs that it
-/// took. `cut` says with which further limits an x is none that counts.
+/// took. `targets` are what its constraints ask for and `value` the quantity of one of them, in its unit; `cut` says
+/// with which further limits an x is none that counts.
 ///
 /// # Errors
 /// [`ProblemError`] when the numbers make no problem.
 pub fn diagnose(
     program: Program,
     widening: Option<f64>,
+    targets: &[Target],
+    value: impl Fn(usize, &[f64]) -> Option<f64>,
     settings: &Settings,
     cut: impl FnMut(&[f64]) -> Option<Program>,
 ) -> Result<(Diagnosis, usize), ProblemError> {
@@ -165,17 +196,94 @@ pub fn diagnose(
             rules.push((rule, least_slack(&program, *name, settings)?));
         }
     }
-    let constraints = program.names.iter().enumerate().filter_map(|(row, name)| match *name {
-        RowName::Constraint(constraint) => Some((constraint, [program.problem.lower[row], program.problem.upper[row]])),
-        _ => None,
-    });
-    let constraints: Vec<(usize, [f64; 2])> = constraints.collect();
+    let held = |constraint: &usize| program.names.contains(&RowName::Constraint(*constraint));
+    let constraints: Vec<usize> = (0..targets.len()).filter(held).collect();
     let mut asked = Asked { program, cut, solver: RepeatedSolver::new(settings), programs: rules.len() };
     let mut reaches = Vec::new();
-    for (constraint, [lower, upper]) in constraints {
-        let row = asked.reach(RowName::Constraint(constraint))?;
-        let missing = row.map(|[low, high]| (lower - high).max(low - upper).max(0.0));
-        reaches.push(Reach { constraint, row, missing });
+    for constraint in constraints {
+        let own = RowName::Constraint(constraint);
+        let Target { limits: [lower, upper], scale, row } = &targets[constraint];
+        let with_others = asked.reach(own, row)?;
+        let alone = with_others.is_some();
+        let ends = match with_others {
+            Some(ends) => Some(ends),
+            None => {
+                let all = asked.program.clone();
+                asked.program = all.without(|name| matches!(name, RowName::Constraint(_)) && name != own);
+                let ends = asked.reach(own, row)?;
+                asked.program = all;
+                ends
+            }
+        };
+        let values = ends.and_then(|[a, b]| {
+            let (a, b) = (value(constraint, &a)?, value(constraint, &b)?);
+            Some([a.min(b), a.max(b)])
+        });
+        let missing = values.filter(|_| alone).map(|[low, high]| (lower - high).max(low - upper).max(0.0) / scale);
+        reaches.push(Reach { constraint, values, missing });
     }
     Ok((Diagnosis { rules, widening, reaches }, asked.programs))
+}
+
+/// Two answers within every row but those of the constraints of which `gives` holds: where these miss their targets by
+/// the least sum of relative misses, and the one of least objective without those that miss; with the programs that it
+/// took. None where the other rows cannot be had. Every row is convex, so that the way from the one to the other keeps
+/// what both keep. `cut` as in [`diagnose`].
+///
+/// # Errors
+/// [`ProblemError`] when the numbers make no problem.
+pub fn nearest(
+    mut program: Program,
+    gives: impl Fn(usize) -> bool,
+    targets: &[Target],
+    settings: &Settings,
+    mut cut: impl FnMut(&[f64]) -> Option<Program>,
+) -> Result<(Option<[Vec<f64>; 2]>, usize), ProblemError> {
+    let giving = |name: RowName| matches!(name, RowName::Constraint(k) if gives(k));
+    let (mut found, mut programs) = (None, 0);
+    for _ in 0..CUTS {
+        let free = program.without(giving).problem.solve(settings)?;
+        programs += 1;
+        if free.status != Status::Optimal {
+            break;
+        }
+        // Towards each target from the side that the free answer is on.
+        let mut problem = program.problem.without_objective();
+        let mut off = Vec::new();
+        for k in (0..program.names.len()).filter(|&k| giving(program.names[k])) {
+            let (value, limits) = (problem.rows.dot(k, &free.x), [problem.lower[k], problem.upper[k]]);
+            let (sign, target) = match limits {
+                [lower, _] if value < lower => (-1.0, lower),
+                [_, upper] if value > upper => (1.0, upper),
+                _ => continue,
+            };
+            [problem.lower[k], problem.upper[k]] =
+                if sign < 0.0 { [f64::NEG_INFINITY, target] } else { [target, f64::INFINITY] };
+            if let RowName::Constraint(constraint) = program.names[k] {
+                let Target { row, scale, .. } = &targets[constraint];
+                row.iter().for_each(|&(column, value)| problem.linear[column] += sign * value / scale);
+            }
+            off.push((program.names[k], k, target));
+        }
+        let near = problem.solve(settings)?;
+        programs += 1;
+        if near.status != Status::Optimal {
+            break;
+        }
+        let misses = |name: RowName| {
+            off.iter().any(|&(own, k, target)| own == name && (problem.rows.dot(k, &near.x) - target).abs() > HAD)
+        };
+        let fair = program.without(misses).problem.solve(settings)?;
+        programs += 1;
+        if fair.status != Status::Optimal {
+            break;
+        }
+        let further = cut(&near.x).or_else(|| cut(&fair.x));
+        found = Some([near.x, fair.x]);
+        match further {
+            Some(more) => program = more,
+            None => break,
+        }
+    }
+    Ok((found, programs))
 }

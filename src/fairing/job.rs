@@ -4,14 +4,14 @@
 //! model of [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
+use super::compromise::Instead;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::held::{self, Held, HeldRule};
-use super::infeasible::{Diagnosis, Reach};
+use super::infeasible::Diagnosis;
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::least_bending::LeastBending;
-use super::program::RowName;
 use super::proposals::{Accepted, Proposal};
 use super::record::moves;
 use super::repeated::{Attempt, Repeated};
@@ -148,6 +148,10 @@ pub enum JobError {
     },
 }
 
+/// Parts of the way from the nearest that targets can be had, where no offset has room left, to the fairest hull within
+/// the tolerances, that are gone back: the first on which no more inflections are counted than before, or the last.
+const GONE_BACK: [f64; 3] = [0.25, 0.5, 0.75];
+
 /// A cell and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
@@ -216,6 +220,12 @@ pub struct Outcome {
     pub order: usize,
     /// Energy of the start net and of the fair net.
     pub energy: [f64; 2],
+    /// Whether the net is one of its own and not that of the surface through the table.
+    pub own: bool,
+    /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
+    pub table_noise: f64,
+    /// Whether targets that cannot be had within the tolerances gave way to the nearest that can.
+    pub nearest: bool,
     /// What was assumed, in words.
     pub notes: Vec<String>,
 }
@@ -226,6 +236,24 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
+        let outcome = self.run_on(table, true)?;
+        // A net of its own that bends more often than the surface through the table does not follow it after all.
+        let more = |outcome: &Outcome| {
+            let [stations, waterlines] = ["station", "waterline"].map(|kind| outcome.inflections(kind));
+            let more = |[before, after]: [usize; 2]| after.saturating_sub(before);
+            more(stations) + more(waterlines)
+        };
+        if outcome.own && more(&outcome) > 0 {
+            let other = self.run_on(table, false)?;
+            if more(&other) < more(&outcome) && other.status == outcome.status {
+                return Ok(other);
+            }
+        }
+        Ok(outcome)
+    }
+
+    /// Fairs a table, on a net of its own where that is allowed and follows it.
+    fn run_on(&self, table: &OffsetTable, own: bool) -> Result<Outcome, JobError> {
         let Started {
             found,
             before,
@@ -238,7 +266,7 @@ impl Job {
             gap,
             excluded,
             watched,
-        } = Started::new(self, table)?;
+        } = Started::new(self, table, own)?;
         let (draught, depth) = (before.particulars().draught, before.particulars().depth);
         if draught > depth * (1.0 + 1e-9) {
             return Err(JobError::Draught { draught, depth });
@@ -308,25 +336,69 @@ impl Job {
                 least * WIDER
             ));
         }
-        let mut after = surface.hull_of(&faired.net)?;
-        let mut held = None;
-        let mut lines = if surface.own {
-            // Nothing is repeated on a net of its own: the prices are final.
-            let (lines, prices) = at_once(
-                || watched.turns(&after),
-                || held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver),
-            );
-            held = Some(prices);
-            lines
-        } else {
-            watched.turns(&after)
+        let whole = |surface: &mut FairSurface, settings: &mut FairSettings, solver: &mut _, faired: Faired| {
+            let after = surface.hull_of(&faired.net)?;
+            if surface.own {
+                // Nothing is repeated on a net of its own: the prices are final.
+                let (lines, prices) = at_once(
+                    || watched.turns(&after),
+                    || held::constraints(surface, settings, &faired, [&before, &after], solver),
+                );
+                return Ok::<_, JobError>((Attempt { faired, after, lines }, Some(prices)));
+            }
+            let lines = watched.turns(&after);
+            let mut attempt = Attempt { faired, after, lines };
+            if self.signs {
+                let repeated = Repeated { surface, settings, prepared: &prepared, watched: &watched };
+                attempt = repeated.until_none_is_worse(attempt, resolution, guarded)?;
+            }
+            Ok((attempt, None))
         };
-        if self.signs && !surface.own {
-            let repeated =
-                Repeated { surface: &mut surface, settings: &mut settings, prepared: &prepared, watched: &watched };
-            let attempt = Attempt { faired, after, lines };
-            Attempt { faired, after, lines } = repeated.until_none_is_worse(attempt, resolution, guarded)?;
+        let asked = settings.constraints.clone();
+        let mut refused = None;
+        let mut given_up: Vec<usize> = Vec::new();
+        let mut kept: Vec<usize> = (0..self.rules.len()).collect();
+        while let Some(Instead::WithoutRules(rules)) = &faired.instead {
+            given_up.extend(rules.iter().map(|&rule| kept[rule]));
+            kept.retain(|rule| !given_up.contains(rule));
+            settings.rules = kept.iter().map(|&rule| self.rules[rule].clone()).collect();
+            refused = refused.or(faired.diagnosis.take());
+            solver = RepeatedSolver::new(&self.solver);
+            let without = fair_prepared(&mut surface, &settings, &prepared, &mut solver)?;
+            faired = without.after(&faired);
         }
+        given_up.sort_unstable();
+        let mut nearest = false;
+        let (attempt, held) = match faired.instead.take() {
+            // Targets that cannot be had give way: the nearest that leave a fair hull.
+            Some(Instead::Targets([near, fair])) => {
+                let mut best = None;
+                for part in GONE_BACK {
+                    let net: Vec<f64> =
+                        near.iter().zip(&fair).map(|(near, fair)| near + part * (fair - near)).collect();
+                    let had = surface.hull_of(&net)?;
+                    let mut eased = FairSettings {
+                        constraints: asked.iter().map(|constraint| constraint.if_had(&had)).collect(),
+                        ..settings.clone()
+                    };
+                    solver = RepeatedSolver::new(&self.solver);
+                    let again = fair_prepared(&mut surface, &eased, &prepared, &mut solver)?.after(&faired);
+                    let (attempt, held) = whole(&mut surface, &mut eased, &mut solver, again)?;
+                    let sum = |count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum::<usize>();
+                    let done = sum(|turns| turns.after) <= sum(|turns| turns.before);
+                    best = Some((attempt, held, eased));
+                    if done {
+                        break;
+                    }
+                }
+                refused = refused.or(faired.diagnosis.take());
+                let Some((attempt, held, eased)) = best else { unreachable!("there is a part") };
+                (settings, nearest) = (eased, true);
+                (attempt, held)
+            }
+            _ => whole(&mut surface, &mut settings, &mut solver, faired)?,
+        };
+        let Attempt { mut faired, after, mut lines } = attempt;
         let changes = changes(table, &surface, &after, &excluded);
         let least = |turns: &mut Turns| {
             let Some(line) = Line::of(turns.cut) else { return };
@@ -344,7 +416,10 @@ impl Job {
         at_once(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
         let held =
             held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver));
-        let rules = held::rules(&surface, &settings, &faired);
+        let held = asked.into_iter().zip(held).map(|(constraint, held)| Held { constraint, ..held }).collect();
+        let mut rules = held::rules(&surface, &settings, &faired);
+        given_up.iter().for_each(|&rule| rules.insert(rule, HeldRule::given_up(&self.rules[rule], &surface, &after)));
+        faired.diagnosis = refused.or(faired.diagnosis);
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());
         notes.extend(faired.bent.as_ref().map(LeastBending::words));
@@ -352,6 +427,18 @@ impl Job {
             notes.push(
                 "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or no step of the solver \
                  lowers it"
+                    .to_owned(),
+            );
+        }
+        if let Some(wanted) = self.energy.order.filter(|&wanted| wanted != surface.order) {
+            notes.push(format!(
+                "the energy is of order {}: one of order {wanted} needs a net of its own, which does not follow this table",
+                surface.order
+            ));
+        }
+        if self.true_curvature && faired.refreshed.is_none() && faired.solved.is_optimal() {
+            notes.push(
+                "the metric of true curvature stayed that of the start: refreshing it did not lower the functional"
                     .to_owned(),
             );
         }
@@ -387,6 +474,9 @@ impl Job {
             order: surface.order,
             energy,
             faired,
+            nearest,
+            own: surface.own,
+            table_noise: found.noise,
             notes,
         })
     }
@@ -440,36 +530,6 @@ impl Outcome {
     #[must_use]
     pub fn moves(&self) -> (f64, f64, Option<&Change>) {
         moves(&self.changes)
-    }
-
-    /// The least and the greatest value of a constraint's quantity within the tolerances and the other constraints;
-    /// none when these cannot be had. Rows are relative: to the target for sizes, to L_PP or T for centres, to B T for
-    /// areas of sections.
-    #[must_use]
-    pub fn reached_values(&self, reach: &Reach) -> Option<[f64; 2]> {
-        let constraint = self.held.get(reach.constraint)?.constraint;
-        let p = self.before.particulars();
-        let target = constraint.target();
-        let of = |row: f64| match constraint {
-            Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => {
-                target + row * p.length_between_perpendiculars
-            }
-            Constraint::HeightOfBuoyancy(_) => target + row * p.draught,
-            // Of the tangent at the surface through the table.
-            Constraint::Metacentre { .. } => target + (row - self.tangent(reach)) * constraint.scale(&self.before),
-            Constraint::WettedSurface(_) => target + (row - self.tangent(reach)) * target,
-            Constraint::MidshipCoefficient(_) => row,
-            Constraint::SectionArea { .. } => row * p.breadth * p.draught,
-            _ => row * target,
-        };
-        reach.row.map(|ends| ends.map(of))
-    }
-
-    /// The value of a row on its target.
-    fn tangent(&self, reach: &Reach) -> f64 {
-        let wanted = RowName::Constraint(reach.constraint);
-        let row = self.faired.rows(|name| name == wanted).next();
-        row.map_or(0.0, |row| self.faired.program.problem.lower[row])
     }
 
     /// Inflections before and after of one kind of curve: station, waterline, buttock or diagonal.

@@ -35,7 +35,13 @@ pub struct TableLine {
 /// Offsets of a line with their tolerances.
 fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
     let same = 1e-9 * surface.hull.particulars().length_between_perpendiculars;
-    let mut points: Vec<(f64, f64, f64)> = Vec::new();
+    // Where a line of the net may break, the curve has a knuckle and may turn for nothing.
+    let (across, net) = (usize::from(matches!(line, Line::Station(_))), surface.hull.surface());
+    let knots = [net.u(), net.v()][across];
+    let near = 1e-9 * (knots.domain().1 - knots.domain().0);
+    let breaks: Vec<f64> =
+        knots.breakpoints().into_iter().filter(|&t| knots.multiplicity(t) >= knots.degree()).collect();
+    let mut points: Vec<(f64, f64, f64, bool)> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
         // Points of a section need not rise: they are no function of the height.
         if matches!(place.origin, Origin::Point { .. }) {
@@ -47,13 +53,16 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
             _ => continue,
         };
         if let Some(tolerance) = reading.tolerance {
-            points.push((site, reading.value, tolerance));
+            let broken = breaks.iter().any(|t| (place.at[across] - t).abs() <= near);
+            points.push((site, reading.value, tolerance, broken));
         }
     }
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points.dedup_by(|a, b| a.0 - b.0 < same);
-    let list = |of: fn(&(f64, f64, f64)) -> f64| points.iter().map(of).collect();
-    Bands::new(list(|p| p.0), list(|p| p.1), list(|p| p.2), Vec::new()).ok()
+    let list = |of: fn(&(f64, f64, f64, bool)) -> f64| points.iter().map(of).collect();
+    let inside = 1..points.len().saturating_sub(1);
+    let knuckles = inside.filter(|&k| points[k].3).collect();
+    Bands::new(list(|p| p.0), list(|p| p.1), list(|p| p.2), knuckles).ok()
 }
 
 impl TableLine {

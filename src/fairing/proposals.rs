@@ -94,6 +94,20 @@ pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullE
     broken(hull, line.course, t, line.kind).map(Some)
 }
 
+/// Whether the net of a hull breaks along a line already.
+pub(super) fn has_line(hull: &Hull, line: &ProposedLine) -> bool {
+    let surface = hull.surface();
+    let middle = 0.5 * (line.reach[0] + line.reach[1]);
+    let (knots, at) = match line.course {
+        LineCourse::Waterline => (surface.v(), hull.parameters(middle, line.at).map(|at| at[1])),
+        LineCourse::Station => (surface.u(), hull.parameters(line.at, middle).map(|at| at[0])),
+    };
+    let wanted = knots.degree() - usize::from(line.kind == LineKind::Tangent);
+    let (from, to) = knots.domain();
+    let near = |t: f64| at.is_some_and(|at| (at - t).abs() <= AT_KNOT * (to - from));
+    knots.breakpoints().into_iter().any(|t| t > from && t < to && near(t) && knots.multiplicity(t) >= wanted)
+}
+
 /// The knuckles along waterlines that were taken, as lines of the table: the fit itself then breaks there, where a fit
 /// without them runs through as a curve.
 pub(super) fn declared(proposals: &[Proposal], hull: &Hull, table: &OffsetTable) -> Vec<FeatureLine> {

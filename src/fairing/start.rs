@@ -4,7 +4,7 @@ use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, MISFIT};
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
 use super::lines::proposed_lines;
-use super::proposals::{Accepted, Proposal, declared, proposals, with_line};
+use super::proposals::{Accepted, Proposal, declared, has_line, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
@@ -75,8 +75,8 @@ struct Modelled {
 
 impl Started {
     /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
-    /// ([`super::robust`]), where the net follows what is left.
-    pub(super) fn new(job: &Job, table: &OffsetTable) -> Result<Self, JobError> {
+    /// ([`super::robust`]), where the net follows what is left; `own` says whether there may be one.
+    pub(super) fn new(job: &Job, table: &OffsetTable, own: bool) -> Result<Self, JobError> {
         let mut found = suspects(table);
         let mut cleaned = Cleaned { clean: table.clone(), charted: table.clone(), excluded: Vec::new() };
         for suspect in found.suspects.iter().filter(|suspect| job.exclude_suspects && suspect.probability > 0.5) {
@@ -95,7 +95,7 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let mut modelled = Modelled::new(job, &cleaned, &found, noise)?;
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
             for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.locked.contains(cell))
@@ -103,7 +103,7 @@ impl Started {
                 without.leave_out(cell, expected);
             }
             if without.excluded.len() > cleaned.excluded.len() {
-                let again = Modelled::new(job, &without, &found, noise)?;
+                let again = Modelled::new(job, &without, &found, noise, own)?;
                 if again.surface.own && again.follows(noise) {
                     (modelled, cleaned) = (again, without);
                 }
@@ -134,26 +134,36 @@ impl Started {
 }
 
 impl Modelled {
-    fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64) -> Result<Self, JobError> {
+    fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64, own: bool) -> Result<Self, JobError> {
         let Cleaned { clean, charted, .. } = table;
         let fitted = Hull::fit(charted, &FitMethod::Graded)?;
         let before = fitted.hull;
-        let (watched, modelled) =
-            at_once(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
-        let (proposals, start, surface, search) = modelled?;
+        let (mut watched, modelled) =
+            at_once(|| Watched::new(clean, &before), || Self::surface(job, table, found, (noise, own), &before));
+        let (proposals, refitted, start, surface, search) = modelled?;
+        // Without a line that the hull has, the surface through the table is another one between the offsets.
+        let before = match refitted {
+            Some(refitted) => {
+                watched = Watched::new(clean, &refitted);
+                refitted
+            }
+            None => before,
+        };
         Ok(Self { before, notes: fitted.notes, proposals, start, surface, search, watched })
     }
 
-    /// What may be declared, the surface with what is, and the net over it with its weight where that is its own.
+    /// What may be declared, the surface through the table with what is where that is another one, the same with edges
+    /// of flats, and the net over it with its weight where that is its own.
     fn surface(
         job: &Job,
         table: &Cleaned,
         found: &Suspects,
-        noise: f64,
+        (noise, own): (f64, bool),
         before: &Hull,
-    ) -> Result<(Vec<Proposal>, Hull, FairSurface, Option<Search>), JobError> {
+    ) -> Result<(Vec<Proposal>, Option<Hull>, Hull, FairSurface, Option<Search>), JobError> {
         let Cleaned { clean, charted, .. } = table;
-        let list = proposed_lines(charted, found);
+        let mut list = proposed_lines(charted, found);
+        list.retain(|line| !has_line(before, line));
         if let Accepted::These(numbers) = &job.accepted
             && let Some(&number) = numbers.iter().find(|number| !(1..=list.len()).contains(number))
         {
@@ -162,9 +172,9 @@ impl Modelled {
         let proposals = proposals(clean, before, &list, job.energy, noise, &job.accepted)?;
         let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
-        let refitted =
-            if lined.lines.len() > charted.lines.len() { Hull::fit(&lined, &FitMethod::Graded).ok() } else { None };
-        let mut start = refitted.map_or_else(|| before.clone(), |fitted| fitted.hull);
+        let more = lined.lines.len() > charted.lines.len();
+        let refitted = if more { Hull::fit(&lined, &FitMethod::Graded).ok().map(|fitted| fitted.hull) } else { None };
+        let mut start = refitted.as_ref().unwrap_or(before).clone();
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
             start = with_line(&start, &proposal.line)?.unwrap_or(start);
         }
@@ -173,11 +183,11 @@ impl Modelled {
                 start = edged(&start, *x, *z)?;
             }
         }
-        let own = !job.rules.iter().any(Rule::keeps_the_fit);
+        let own = own && !job.rules.iter().any(Rule::keeps_the_fit);
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
         let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;
-        Ok((proposals, start, surface, search))
+        Ok((proposals, refitted, start, surface, search))
     }
 
     /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through

@@ -119,6 +119,13 @@ pub struct Progress {
 }
 
 impl Problem {
+    /// The same rows and limits, with nothing to minimise.
+    #[must_use]
+    pub fn without_objective(&self) -> Self {
+        let n = self.linear.len();
+        Self { quadratic: SparseRows::from_entries(n, n, &[]), linear: vec![0.0; n], ..self.clone() }
+    }
+
     /// Checks shapes and numbers.
     ///
     /// # Errors

@@ -18,6 +18,7 @@ use crate::exchange::{
 };
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
+use crate::fairing::infeasible::Reach;
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
 use crate::hull::{Functional, Hull, OffsetTable, StatedParticulars, TableLayout};
@@ -327,6 +328,9 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
     })
 }
 
+/// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
+const NEAR: f64 = 1e-6;
+
 /// The unit of what is held after a number, and where it is counted from.
 fn unit(constraint: &Constraint) -> String {
     let from = match constraint {
@@ -348,35 +352,49 @@ impl FairOutputs {
             let [wide, now] = [factor * typical, typical].map(millimetres);
             format!(" {factor:.3} times as wide ({wide} mm where it is widest now {now} mm) would do;")
         });
-        let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
+        let reached = |reach: &Reach| {
             let held = self.outcome.held.get(reach.constraint)?;
-            let [low, high] = self.outcome.reached_values(reach)?;
-            let (words, target, unit) = (held.constraint.words(), held.constraint.target(), unit(&held.constraint));
-            let missing = 100.0 * reach.missing?;
-            let of = held.constraint.relative_to();
-            Some(format!(
-                " {words} alone would have to give by {missing:.3} % of {of}: it could be {low:.6} to {high:.6}{unit} where \
-                 {target:.6}{unit} is asked for"
-            ))
+            let [low, high] = reach.values?;
+            let (target, unit) = (held.constraint.target(), unit(&held.constraint));
+            Some(format!("it could be {low:.6} to {high:.6}{unit} where {target:.6}{unit} is asked for"))
+        };
+        let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
+            let constraint = self.outcome.held.get(reach.constraint)?.constraint;
+            let (words, of, missing) = (constraint.words(), constraint.relative_to(), 100.0 * reach.missing?);
+            Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", reached(reach)?))
         });
+        // No single one would do: what each could be without the others.
+        let each = found.filter(|_| cheapest.is_none()).into_iter().flat_map(|found| &found.reaches);
+        let each = each.filter_map(|reach| {
+            let held = self.outcome.held.get(reach.constraint)?;
+            let far = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
+            far.then_some(())?;
+            Some(format!(" of {} without the other targets: {};", held.constraint.words(), reached(reach)?))
+        });
+        let each: String = each.collect();
         // Rules whose giving alone would do, the nearest first.
         let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
         let rule = rule.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(rule, give)| {
-            let words = self.outcome.rules.get(rule)?.rule.words();
-            Some(format!(" {words} would have to give by {give:.1e} (m of half-breadth, or slope);"))
+            let rule = &self.outcome.rules.get(rule)?.rule;
+            let words = rule.words();
+            Some(format!(" {words} would have to give by {give:.1e}{};", rule.unit()))
         });
+        let given_up = self.outcome.rules.iter().filter(|rule| rule.given_up).map(|rule| rule.rule.words());
+        let given_up = given_up.collect::<Vec<_>>().join(", ");
+        let given_up = if given_up.is_empty() { String::new() } else { format!(" given up was {given_up};") };
         let (code, message, help) = match self.outcome.status {
             Status::Optimal => return Ok(()),
             Status::Infeasible => (
                 "E401",
                 "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
-                match [least, rule, cheapest].map(Option::unwrap_or_default).concat() {
+                match [least, rule, cheapest, Some(each), Some(given_up)].map(Option::unwrap_or_default).concat() {
                     none if none.is_empty() => {
                         "Widen the tolerance, unlock cells, drop a rule or free one of the targets; no single one of \
                                                 them would do, or none was found that would"
                             .to_owned()
                     }
                     which => {
+                        let which = which.trim_end_matches(';');
                         format!("Widen the tolerance, unlock cells, drop a rule or free one of the targets:{which}")
                     }
                 },

@@ -56,6 +56,8 @@ pub struct FairedCurve {
     pub fair: FairCurve,
     /// What was assumed.
     pub notes: Vec<String>,
+    /// Whether ordinates are lengths; else they are areas.
+    pub lengths: bool,
     /// Time taken \[s\].
     pub seconds: f64,
     path: PathBuf,
@@ -90,6 +92,8 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
             if what == "lock" { point.locked = true } else { point.knuckle = true }
         }
     }
+    let mut notes = table.notes;
+    notes.extend(closed_ends(&mut points));
     let clock = Instant::now();
     let refused = |error: crate::fairing::curve::CurveError| input("E342", None, error.to_string(), String::new());
     let given = if job.area.is_some() || job.centroid.is_some() {
@@ -112,10 +116,32 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
         ..job.settings.clone()
     };
     let fair = fair_curve(&points, &settings).map_err(refused)?;
-    Ok(FairedCurve { points, fair, notes: table.notes, seconds: clock.elapsed().as_secs_f64(), path: path.clone() })
+    let (seconds, lengths, path) = (clock.elapsed().as_secs_f64(), table.lengths, path.clone());
+    Ok(FairedCurve { points, fair, notes, lengths, seconds, path })
+}
+
+/// Locks the ends that are 0 of a curve that is nowhere below: a waterline closes there, a curve of areas begins.
+fn closed_ends(points: &mut [CurvePoint]) -> Option<String> {
+    let positive = points.iter().all(|point| point.y.is_none_or(|y| y >= 0.0));
+    let last = points.len().checked_sub(1)?;
+    let mut held = Vec::new();
+    for k in [0, last] {
+        let point = &mut points[k];
+        if positive && point.y == Some(0.0) && point.tolerance.is_none() && !point.locked {
+            point.locked = true;
+            held.push(format!("x = {}", point.x));
+        }
+    }
+    let ends = held.join(" and ");
+    (!held.is_empty()).then(|| format!("closed at {ends}: the 0 there is held; give it a tolerance to let it move"))
 }
 
 impl FairedCurve {
+    /// An ordinate with its unit.
+    fn size(&self, value: f64) -> String {
+        if self.lengths { metres(value) } else { format!("{value:.4} m2") }
+    }
+
     /// The failure that ends the program when the wishes could not be had.
     ///
     /// # Errors
@@ -124,15 +150,32 @@ impl FairedCurve {
         if self.fair.status != FairStatus::Infeasible {
             return Ok(());
         }
-        let (message, help) = if self.fair.widening.is_finite() {
-            let widest = self.fair.points.iter().filter_map(|p| p.tolerance).fold(0.0, f64::max);
+        let widest = self.fair.points.iter().filter_map(|p| p.tolerance).fold(0.0, f64::max);
+        let wider = |factor: f64| {
+            let [wide, now] = [factor * widest, widest].map(|value| self.size(value));
+            format!("{factor:.4} times as wide, {wide} where they are {now}")
+        };
+        let (message, help) = if self.fair.nearest {
+            let found = self.fair.diagnosis.as_ref();
+            let alone = found.into_iter().flat_map(|found| &found.reaches).filter_map(|reach| {
+                let (wish, [low, high]) = (self.fair.lines.get(reach.constraint)?, reach.values?);
+                let missed = reach.missing.is_some_and(|missing| missing > 0.0);
+                let words = wish.kind.key().replace('_', " ");
+                let target = wish.target;
+                missed.then(|| format!("; {words} alone could be {low:.6} to {high:.6} where {target:.6} is asked for"))
+            });
+            let least = found.and_then(|found| found.widening);
+            let least = least.map(|factor| format!("; tolerances {} would do", wider(factor))).unwrap_or_default();
+            (
+                format!("what is wished cannot be had within the tolerances{}{least}", alone.collect::<String>()),
+                "Wish for less; the curve that was written is within the tolerances and comes near to what was wished"
+                    .to_owned(),
+            )
+        } else if self.fair.widening.is_finite() {
             (
                 format!(
-                    "what is wished cannot be had within the tolerances: they would have to be {:.4} times as wide, {} \
-                     where they are {}",
-                    self.fair.widening,
-                    metres(widest * self.fair.widening),
-                    metres(widest)
+                    "what is wished cannot be had within the tolerances: they would have to be {}",
+                    wider(self.fair.widening)
                 ),
                 "Give this tolerance, or wish for less; the curve that was written takes it.".to_owned(),
             )
@@ -191,12 +234,12 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     line(format!("status        {}", fair.status.as_str()));
     line(format!(
         "moves         RMS {}, largest {} at x = {at:.3} m; {} of {} points at their tolerance",
-        metres(rms),
-        metres(most),
+        done.size(rms),
+        done.size(most),
         fair.points.iter().filter(|point| point.active).count(),
         fair.points.len()
     ));
-    line(format!("noise         {}", metres(fair.sigma)));
+    line(format!("noise         {}", done.size(fair.sigma)));
     line(format!("energy        order {}: {:.4e} -> {:.4e}", fair.order, fair.energy[1], fair.energy[0]));
     let [before, after] = &fair.inflections;
     let places = if after.is_empty() { String::new() } else { format!(" at x = {} m", list(after)) };
@@ -227,7 +270,7 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
             wish.before,
             wish.after,
             wish.target,
-            metres(wish.price)
+            done.size(wish.price)
         ));
     }
     let c = &fair.certificate;

@@ -47,7 +47,7 @@ pub(super) fn millimetres(length: f64) -> String {
 fn accuracy(job: &FairJob, outcome: &Outcome) -> (f64, &'static str) {
     let steps = 2.0 * job.table.form.quantum().unwrap_or(0.0);
     let noise = 2.0 * outcome.faired.sigma;
-    if noise > steps { (noise, " (twice the noise)") } else { (steps, "") }
+    if noise > steps { (noise, " (twice what is taken for noise)") } else { (steps, "") }
 }
 
 fn counted(n: usize, one: &str, many: &str) -> String {
@@ -81,10 +81,10 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     let (rms, largest, at) = outcome.moves();
     let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
     line.push_str(&format!(
-        ". Moves: {} mm RMS, {} mm at most{at}; noise of the table {} mm.",
+        ". Moves: {} mm RMS, {} mm at most{at}; {}.",
         millimetres(rms),
         millimetres(largest),
-        millimetres(outcome.faired.sigma)
+        noise(outcome)
     ));
     page.push_str(&wrapped(&line, 2));
     for change in more.iter().take(MOST_LINES) {
@@ -122,13 +122,25 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     }
 }
 
+/// The noise of the table, and what was taken of it.
+fn noise(outcome: &Outcome) -> String {
+    let [taken, found] = [outcome.faired.sigma, outcome.table_noise].map(millimetres);
+    if outcome.faired.sigma < 0.995 * outcome.table_noise {
+        format!(
+            "noise of the table {found} mm, of which {taken} mm are taken for errors and the rest for the hull's own"
+        )
+    } else {
+        format!("noise of the table {taken} mm")
+    }
+}
+
 fn signed(length: f64) -> String {
     let text = millimetres(length);
     if text.starts_with('-') { text } else { format!("+{text}") }
 }
 
 /// A constraint before and after, and what holding it costs.
-fn held_line(held: &Held, length: f64) -> String {
+fn held_line(held: &Held, length: f64, nearest: bool) -> String {
     let target = held.constraint.target();
     let (unit, decimals) = match held.constraint {
         Constraint::Displacement(_) => (" m3", 3),
@@ -147,6 +159,19 @@ fn held_line(held: &Held, length: f64) -> String {
     };
     let words = held.constraint.words();
     let off = match held.after - target {
+        off if nearest && off.abs() > held.constraint.band() + 1e-9 * target.abs() => {
+            format!(
+                "{} were asked for and are out of reach: this is near the nearest that the tolerances leave",
+                fixed(target, decimals) + unit
+            )
+        }
+        off if off.abs() > 0.0 && held.constraint.band() > 0.0 => {
+            format!(
+                "{} from the middle of its band of {}",
+                fixed_sign(off, decimals, unit),
+                fixed(held.constraint.band(), decimals) + unit
+            )
+        }
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
@@ -193,11 +218,12 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         page.push_str("Nothing of the whole hull is held.\n");
     }
     for held in &outputs.outcome.held {
-        page.push_str(&wrapped(&held_line(held, length), 2));
+        page.push_str(&wrapped(&held_line(held, length, outputs.outcome.nearest), 2));
     }
     for held in &outputs.outcome.rules {
         let words = held.rule.words();
         let binds = match held.binding {
+            _ if held.given_up => "GIVEN UP, it cannot be had with the other wishes".to_owned(),
             0 => "does not bind".to_owned(),
             n if n == held.rows => priced("it", held.price),
             n => format!("binds in {n} of {} rows; {}", held.rows, priced("it", held.price)),

@@ -120,6 +120,17 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
         }
     }
     let xs = || table.stations.iter().map(|s| s.station.x);
+    if let Some((low, high)) = xs().reduce(f64::min).zip(xs().reduce(f64::max))
+        && table.stations.len() > 2
+        && (low + high).abs() < 0.5 * (high - low)
+    {
+        let message = format!(
+            "the stations stand from x = {low:.3} to {high:.3} m, and x counts from AP: LCB, C_M and L_PP are those of a hull \
+             with AP at x = 0"
+        );
+        let help = "Name the column x_from_midship if they count from there";
+        problems.warning("W311", Place::FILE, message, help);
+    }
     if let (Some(length), Some(low), Some(high)) =
         (stated.length_between_perpendiculars, xs().reduce(f64::min), xs().reduce(f64::max))
         && table.stations.len() > 2

@@ -180,13 +180,33 @@ impl Constraint {
         }
     }
 
-    /// What an error of the quantity is relative to: the target, or KM_T for a GM_T, which may be small.
+    /// What an error of the quantity is measured in, as [`Constraint::relative_to`] says in words.
     #[must_use]
     pub fn scale(&self, hull: &Hull) -> f64 {
+        let p = hull.particulars();
         match *self {
+            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => p.length_between_perpendiculars,
+            Self::HeightOfBuoyancy(_) => p.draught,
+            Self::MidshipCoefficient(_) => 1.0,
+            Self::SectionArea { .. } => p.breadth * p.draught,
+            // GM_T may be small.
             Self::Metacentre { .. } => metacentre::height(hull),
             _ => self.target().abs(),
         }
+    }
+
+    /// How far the quantity may be from its target, in its unit.
+    #[must_use]
+    pub fn band(&self) -> f64 {
+        if let Self::SectionArea { band, .. } = self { *band } else { 0.0 }
+    }
+
+    /// The same wish where a hull meets it; else that for what the hull has.
+    #[must_use]
+    pub fn if_had(self, hull: &Hull) -> Self {
+        let value = self.value(hull);
+        let off = (value - self.target()).abs() - self.band();
+        if off > 1e-9 * self.scale(hull) { self.with_target(value) } else { self }
     }
 
     /// Whether the quantity is linear in the net: its row is then that of any hull on the chart.

@@ -100,6 +100,16 @@ fn ranged(line: &Line, [from, to]: [f64; 2]) -> String {
 }
 
 impl Rule {
+    /// The unit of its rows, after a number.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Tangent(..) | Self::Monotone { .. } => " in slope",
+            Self::Curvature { .. } | Self::Inflections { .. } => " of the size of a row of curvature",
+            _ => " m of half-breadth",
+        }
+    }
+
     /// Name in files.
     #[must_use]
     pub fn key(&self) -> &'static str {

@@ -1,7 +1,8 @@
 //! The whole job of fairing a curve.
 
+use super::super::infeasible::least_widening;
 use super::super::inflections::{Bands, BandsError, Inflections, minimum_inflections};
-use super::super::model::{Limit, Model, Row, value};
+use super::super::model::{Model, value};
 use super::super::pattern::{Pattern, SignForms};
 use super::super::program::{Program, RowName, Solved, Wishes};
 use super::super::smoothing::{Smoothed, Smoother, Trial};
@@ -9,7 +10,8 @@ use super::given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
 use super::result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind, inflections};
 use super::signs::{Signs, scores};
 use super::space::{CurveSpace, checked};
-use crate::qp::{LeastFactor, Status};
+use super::wishes::{Wished, between, limits, quantity};
+use super::within::Within;
 use crate::spline::{BsplineCurve, Condition, Energy, KnotVector};
 
 /// Dearest pattern, in units of sigma^2.
@@ -25,18 +27,18 @@ const MOVES: usize = 40;
 /// Noise levels of a tolerance that is not given.
 const LEVELS: f64 = 3.0;
 /// Rounding that a tolerance forgives, as a part of it.
-const SLACK: f64 = 1e-6;
+pub(super) const SLACK: f64 = 1e-6;
 
 /// The programs of one job.
-struct Job<'a> {
-    settings: &'a CurveSettings,
-    space: CurveSpace,
+pub(super) struct Job<'a> {
+    pub(super) settings: &'a CurveSettings,
+    pub(super) space: CurveSpace,
     forms: [SignForms; 2],
-    model: Model,
-    smoother: Smoother,
+    pub(super) model: Model,
+    pub(super) smoother: Smoother,
     lambda: f64,
-    wishes: Wishes,
-    programs: usize,
+    pub(super) wishes: Wishes,
+    pub(super) programs: usize,
     iterations: usize,
 }
 
@@ -47,14 +49,14 @@ struct Patterned {
 }
 
 impl Job<'_> {
-    fn program(&self, wishes: &Wishes, pattern: Option<&Pattern>) -> Program {
+    pub(super) fn program(&self, wishes: &Wishes, pattern: Option<&Pattern>) -> Program {
         let none = Pattern { signs: Vec::new(), imposed: Vec::new(), flipped: Vec::new() };
         let patterns = pattern.map(|pattern| [pattern.clone(), none]);
         let signs = patterns.as_ref().map(|patterns| (&self.forms, patterns));
         Program::new(&self.model, &self.smoother, self.lambda, wishes, signs)
     }
 
-    fn solve(&mut self, wishes: &Wishes, pattern: Option<&Pattern>) -> Result<Solved, CurveError> {
+    pub(super) fn solve(&mut self, wishes: &Wishes, pattern: Option<&Pattern>) -> Result<Solved, CurveError> {
         let program = self.program(wishes, pattern);
         let solved = program.solve(&self.model, &self.smoother, self.lambda, &self.settings.solver)?;
         self.programs += 1;
@@ -104,34 +106,6 @@ impl Job<'_> {
         let misfit = self.model.misfit(net, self.smoother.weights());
         Ok(misfit + self.lambda * self.smoother.unit * energy)
     }
-
-    /// The smallest factor on the tolerances with which a program has a solution; none when there is none at all.
-    fn widening(&mut self, pattern: Option<&Pattern>) -> Result<Option<f64>, CurveError> {
-        let program = self.program(&self.wishes, pattern);
-        let n = program.problem.linear.len();
-        let tolerance = |k: usize| self.model.readings[k].tolerance.unwrap_or_default();
-        let widest = (0..self.model.readings.len()).fold(0.0_f64, |most, k| most.max(tolerance(k)));
-        if widest <= 0.0 {
-            return Ok(None);
-        }
-        let mut factor = LeastFactor::new(n);
-        for (index, name) in program.names.iter().enumerate() {
-            let (columns, values) = program.problem.rows.row(index);
-            let row = columns.iter().copied().zip(values.iter().copied());
-            let limits = [program.problem.lower[index], program.problem.upper[index]];
-            match *name {
-                RowName::Tolerance(k) if tolerance(k) > 0.0 => {
-                    let middle = 0.5 * (limits[0] + limits[1]);
-                    factor.push_giving(row, [middle, middle], tolerance(k) / widest);
-                }
-                _ => factor.push(row, limits[0], limits[1]),
-            }
-        }
-        let solution = factor.into_problem().solve(&self.settings.solver)?;
-        self.programs += 1;
-        self.iterations += solution.iterations;
-        Ok((solution.status == Status::Optimal).then(|| solution.x[n] / widest))
-    }
 }
 
 /// Fairs a curve; points must have rising abscissae.
@@ -180,23 +154,9 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
     let knuckles: Vec<f64> = points.iter().filter(|p| p.knuckle).map(|p| p.x).collect();
     let starts = job.space.stretches(&knuckles);
 
-    let mut wishes = job.wishes.clone();
-    let mut free = job.solve(&wishes, None)?;
-    let mut status = FairStatus::Optimal;
-    let mut contradictory = false;
-    if free.solution.status == Status::Infeasible || (!free.is_optimal() && free.certificate.max_violation > SLACK) {
-        status = FairStatus::Infeasible;
-        match job.widening(None)? {
-            Some(factor) => job.wishes.widening = factor * (1.0 + SLACK),
-            // No tolerance would do: what is locked and wished contradicts itself.
-            None => {
-                job.wishes.constraints.clear();
-                contradictory = true;
-            }
-        }
-        wishes = job.wishes.clone();
-        free = job.solve(&wishes, None)?;
-    }
+    let reference = job.smoother.reduced.expand(&smoothed.free);
+    let sites = between(&job.space, points, &tolerances, settings, &reference);
+    let Within { free, mut status, diagnosis, nearest, mut contradictory } = job.within(&wished, &sites, &reference)?;
     let z = scores(&job.forms[0], &job.smoother, &smoothed, &free.net);
     let choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
     let (mut solved, pattern) = match choice.taken {
@@ -249,6 +209,8 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
         price: choice.price,
         refused: choice.refused,
         widening: if contradictory { f64::INFINITY } else { job.wishes.widening },
+        diagnosis,
+        nearest,
         work: [job.programs, job.iterations],
         refreshes,
         curve,
@@ -340,56 +302,6 @@ pub fn area_and_centroid(points: &[CurvePoint]) -> Result<[f64; 2], CurveError> 
     Ok([quantity(LineKind::Area, &batten), quantity(LineKind::Centroid, &batten)])
 }
 
-/// A constraint of the whole curve.
-struct Wished {
-    kind: LineKind,
-    target: f64,
-    limit: Limit,
-}
-
-fn limits(space: &CurveSpace, settings: &CurveSettings) -> Vec<Wished> {
-    let mut list = Vec::new();
-    let dense = |row: Vec<f64>, scale: f64| -> Row {
-        row.into_iter().enumerate().map(|(i, v)| (i, v / scale)).filter(|entry| entry.1 != 0.0).collect()
-    };
-    let (from, to) = space.knots.domain();
-    for (kind, x, slope) in
-        [(LineKind::FirstSlope, from, settings.slopes[0]), (LineKind::LastSlope, to, settings.slopes[1])]
-    {
-        if let Some(target) = slope {
-            list.push(Wished { kind, target, limit: Limit { row: space.row(x, 1), lower: target, upper: target } });
-        }
-    }
-    // In units of a mean ordinate over the whole length.
-    let length = to - from;
-    if let Some(target) = settings.area {
-        let row = dense(space.moment(0), length);
-        let right = target / length;
-        list.push(Wished { kind: LineKind::Area, target, limit: Limit { row, lower: right, upper: right } });
-    }
-    if let Some(target) = settings.centroid {
-        // int (x - target) y dx = 0 with the area that the points have.
-        let row: Vec<f64> = space.moment(1).iter().zip(space.moment(0)).map(|(m, a)| m - target * a).collect();
-        let limit = Limit { row: dense(row, length * length), lower: 0.0, upper: 0.0 };
-        list.push(Wished { kind: LineKind::Centroid, target, limit });
-    }
-    list
-}
-
-/// The quantity of a constraint for a curve.
-fn quantity(kind: LineKind, curve: &BsplineCurve<1>) -> f64 {
-    let (from, to) = curve.knots().domain();
-    let moment = |power: u32| -> f64 {
-        curve.knots().moments(power, from, to).iter().zip(curve.points()).map(|(m, c)| m * c[0]).sum()
-    };
-    match kind {
-        LineKind::Area => moment(0),
-        LineKind::Centroid => moment(1) / moment(0),
-        LineKind::FirstSlope => curve.derivatives::<2>(from)[1][0],
-        LineKind::LastSlope => curve.derivatives::<2>(to)[1][0],
-    }
-}
-
 /// The lines of the list of constraints; each is priced by leaving it out.
 fn priced(
     job: &mut Job,
@@ -428,7 +340,9 @@ fn priced(
 fn moved(points: &[CurvePoint], curve: &BsplineCurve<1>, tolerances: &[Option<f64>], widening: f64) -> Vec<CurveMove> {
     let one = |(point, tolerance): (&CurvePoint, &Option<f64>)| {
         let d = curve.derivatives::<3>(point.x);
-        let after = d[0][0];
+        // What is locked is met to rounding.
+        let met = point.y.filter(|y| point.locked && (d[0][0] - y).abs() <= 1e-12 * (1.0 + y.abs()));
+        let after = met.unwrap_or(d[0][0]);
         let active = match (point.y, tolerance) {
             (Some(y), Some(t)) => (after - y).abs() >= t * widening * (1.0 - 1e-4),
             _ => false,
@@ -511,7 +425,11 @@ fn choose(
 /// The tolerances that make a wished number of changes possible, and the best curve with them.
 fn widen(job: &mut Job, z: &[f64], starts: &[usize], counts: &[usize], choice: &mut Choice) -> Result<(), CurveError> {
     let Some(mut best) = Signs::best(z, starts, counts) else { return Ok(()) };
-    let factor_of = |job: &mut Job, signs: &Signs| job.widening(Some(&signs.pattern(z)));
+    let factor_of = |job: &mut Job, signs: &Signs| {
+        let plain = Wishes { widening: 1.0, ..job.wishes.clone() };
+        job.programs += 1;
+        least_widening(&job.program(&plain, Some(&signs.pattern(z))), &job.settings.solver, |_, _| None)
+    };
     let Some(mut factor) = factor_of(job, &best)? else {
         choice.widening = f64::INFINITY;
         return Ok(());

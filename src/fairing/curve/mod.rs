@@ -23,6 +23,8 @@ mod given;
 mod result;
 mod signs;
 mod space;
+mod wishes;
+mod within;
 
 pub use fair::{PRICE, area_and_centroid, fair_curve};
 pub use given::{CurveError, CurvePoint, CurveSettings, InflectionWish};

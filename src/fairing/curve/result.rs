@@ -1,5 +1,6 @@
 //! What fairing a curve comes to.
 
+use super::super::infeasible::Diagnosis;
 use super::super::inflections::Inflections;
 use super::super::smoothing::Trial;
 use crate::qp::Certificate;
@@ -16,7 +17,7 @@ pub enum FairStatus {
     /// The optimum of the convex program.
     Optimal,
     /// The wishes contradict each other within the tolerances: the curve is the best with the tolerances multiplied by
-    /// [`FairCurve::widening`].
+    /// [`FairCurve::widening`], or the one that comes nearest to them ([`FairCurve::nearest`]).
     Infeasible,
     /// The solver stopped early.
     Limit,
@@ -144,6 +145,10 @@ pub struct FairCurve {
     pub refused: Vec<(usize, f64)>,
     /// Factor on all tolerances; 1 unless infeasible.
     pub widening: f64,
+    /// Why area, centroid and slopes cannot be had, in numbers.
+    pub diagnosis: Option<Diagnosis>,
+    /// Whether these gave way to the nearest that can be had.
+    pub nearest: bool,
     /// Convex programs solved, and iterations of the solver in them.
     pub work: [usize; 2],
     /// Times the metric of curvature was refreshed.

@@ -5,6 +5,10 @@ use super::newton::{Newton, Right, Step, inverse};
 use super::point::{Direction, Point, Residuals, Side};
 use super::scaled::Scaled;
 
+/// Residuals and complementarity within this multiple of the tolerance count when no iteration lowers them any more: the
+/// precision of the Newton systems is reached. So many iterations that do not halve them show it.
+const ENOUGH: f64 = 100.0;
+const STANDSTILL: usize = 8;
 /// Part of the way to the boundary that a step may go.
 const FRACTION: f64 = 0.995;
 /// Iterations beyond the tolerance, as long as each divides the duality gap by the factor.
@@ -125,6 +129,8 @@ pub(super) fn iterate(
     let mut finishing: Option<(usize, Point, f64)> = None;
     let mut residuals = point.residuals(scaled);
     let (mut short, mut slow, mut least) = (0, 0, f64::INFINITY);
+    // The best iterate within reach of the tolerance, and iterations since.
+    let mut near: Option<(f64, Point, usize)> = None;
     for count in 0..most {
         let mean = residuals.complementarity / sides.max(1) as f64;
         let size = residuals.objective.abs().max(scaled.objective_scale);
@@ -159,16 +165,30 @@ pub(super) fn iterate(
         if hopeless(scaled, point, &residuals) {
             return (count, End::Stalled);
         }
+        let off = residuals.primal_size.max(residuals.dual_size).max(relative);
+        near = match near.take() {
+            Some((best, at, since)) if 2.0 * off > best => Some((best, at, since + 1)),
+            _ if off <= ENOUGH * tolerance => Some((off, point.clone(), 0)),
+            none => none,
+        };
+        if let Some((_, at, since)) = &near
+            && finishing.is_none()
+            && *since >= STANDSTILL
+        {
+            point.clone_from(at);
+            return (count, End::Optimal);
+        }
         slow = if residuals.complementarity < PROGRESS * least { 0 } else { slow + 1 };
         least = least.min(residuals.complementarity);
         let weights = point.weights();
         let failed = finishing.is_some();
-        let ended = |point: &mut Point, finishing: Option<(usize, Point, f64)>| match finishing {
-            Some((_, best, _)) => {
+        let ended = |point: &mut Point, finishing: Option<(usize, Point, f64)>| {
+            let best = finishing.map(|(_, best, _)| best).or(near.as_ref().map(|(_, best, _)| best.clone()));
+            let end = if best.is_some() { End::Optimal } else { End::Stalled };
+            if let Some(best) = best {
                 *point = best;
-                (count, End::Optimal)
             }
-            None => (count, End::Stalled),
+            (count, end)
         };
         if !newton.factor(scaled, &weights) {
             return ended(point, finishing);
@@ -188,7 +208,7 @@ pub(super) fn iterate(
         let after = point.mean_after(&affine, reach, sides);
         let ratio = if mean > 0.0 { after / mean } else { 0.0 };
         // Below what the tolerance asks for, the products wait for the residuals.
-        let enough = if finishing.is_some() || residuals.primal_size > tolerance {
+        let enough = if finishing.is_some() || residuals.primal_size > 1e3 * tolerance {
             0.0
         } else {
             (WAIT * tolerance * size / sides.max(1) as f64).min(mean)
@@ -242,6 +262,12 @@ pub(super) fn iterate(
         if !residuals.dual_size.is_finite() || !residuals.primal_size.is_finite() {
             return ended(point, finishing);
         }
+    }
+    if finishing.is_none()
+        && let Some((_, best, _)) = near
+    {
+        *point = best;
+        return (most, End::Optimal);
     }
     (most, if finishing.is_some() { End::Optimal } else { End::Stalled })
 }
