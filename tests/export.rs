@@ -320,7 +320,7 @@ fn the_page_says_what_its_angles_are() {
     let hull = read_source(&config("bulk-carrier.toml")).unwrap().hull;
     let page = export(&hull, "b", &[ExportFormat::Stl], &ExportSettings::default()).unwrap().page;
     assert!(
-        page.contains("degrees (bound 15, 0 triangles below it but at 1 sharper corners of the body: bottom "),
+        page.contains("degrees (bound 15, 0 triangles below it but at 1 sharper corner of the body: bottom "),
         "{page}"
     );
     let hull = read_source(&config("wigley.toml")).unwrap().hull;

@@ -260,7 +260,7 @@ fn heights_at_buttocks_are_met() {
         station.heights = table.buttocks.iter().map(|&b| Cell::from(height(b))).collect();
     }
     let fitted = fit(&table);
-    says(&fitted, "heights at buttocks are met");
+    says(&fitted, "heights at buttocks; the surface");
     let mut count = 0;
     for station in &table.stations {
         for (cell, &b) in station.heights.iter().zip(&table.buttocks) {

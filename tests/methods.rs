@@ -450,14 +450,14 @@ fn what_cannot_be_fitted_is_said() {
     let narrow = table(&FISHING_X, &FISHING_Z, |i, j| if j == 0 && i > 0 { f64::NAN } else { FISHING_Y[i][j] });
     says(
         refused(&narrow, FitMethod::ParametricStations(ParametricStations::default())),
-        "kind: the waterline at 0.7 m has 1 points, its ends counted. Each waterline needs two",
+        "kind: the waterline at 0.7 m has 1 point, its ends counted. Each waterline needs two",
     );
     let one = table(&FISHING_X, &FISHING_Z[..1], |i, j| FISHING_Y[i][j]);
     assert_eq!(
         Hull::fit(&one, &FitMethod::Bilinear).unwrap_err(),
         FitError::TooFew { stations: 5, waterlines: 1, least: 2 }
     );
-    says(refused(&one, FitMethod::Bilinear), "5 stations with 1 waterlines; a surface needs at least 2 of each");
+    says(refused(&one, FitMethod::Bilinear), "5 stations with 1 waterline; a surface needs at least 2 of each");
     let mut small = fishing();
     small.stated.breadth = Some(0.1);
     says(refused(&small, FitMethod::Bilinear), "half-breadths of the net, row 0, column 1: 2.36 m; with B 0.1 m");

@@ -155,7 +155,7 @@ fn the_command_refuses_a_matrix_of_points() {
     assert!(matrix.stdout.is_empty());
     assert!(String::from_utf8(matrix.stderr).unwrap().contains("--layout tidy"));
     let feet = convert(&[&path, "--notation", "mm"]);
-    assert!(String::from_utf8(feet.stderr).unwrap().contains("9 points are written as a tidy table"));
+    assert!(String::from_utf8(feet.stderr).unwrap().contains("a tidy table of 9 points"));
     fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -8,6 +8,7 @@ use clap::Args;
 use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{Failure, FairJob, FairOutputs, fair_line, fair_outputs, fair_page, read_fair, write_run};
+use crate::units::counted;
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -173,7 +174,13 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         return (Some(job.clone()), Err(Failure::Usage(words)));
     }
     let [stations, waterlines, offsets] = job.size();
-    progress(format!("{}: {stations} stations, {waterlines} waterlines, {offsets} offsets", job.table.name));
+    progress(format!(
+        "{}: {}, {}, {}",
+        job.table.name,
+        counted(stations, "station"),
+        counted(waterlines, "waterline"),
+        counted(offsets, "offset")
+    ));
     let outputs = match fair_outputs(&job, !arguments.files.no_figures) {
         Ok(outputs) => outputs,
         Err(failure) => return (Some(job), Err(failure)),

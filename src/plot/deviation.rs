@@ -7,6 +7,7 @@ use super::label::LabelPlacer;
 use super::scale::nice_step;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
+use crate::units::counted;
 
 /// Size of the sheet \[mm\].
 const SHEET: [f64; 2] = [240.0, 160.0];
@@ -62,8 +63,8 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let mean = moves.iter().sum::<f64>() / moves.len() as f64;
     let words = format!(
-        "{} offsets, {:.3} mm RMS, mean {mean:+.3} mm; assumed noise {sigma:.3} mm{}",
-        moves.len(),
+        "{}, {:.3} mm RMS, mean {mean:+.3} mm; assumed noise {sigma:.3} mm{}",
+        counted(moves.len(), "offset"),
         1e3 * rms,
         if shown { "" } else { ", too narrow or too high to be drawn" }
     );

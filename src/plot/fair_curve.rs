@@ -9,6 +9,7 @@ use super::scale::{decimals, multiples, nice_step, sheet_scale};
 use super::{PlotError, Svg, caption};
 use crate::fairing::curve::FairCurve;
 use crate::spline::BsplineCurve;
+use crate::units::counted;
 
 /// Width and height of the sheet \[mm\].
 const SHEET: [f64; 2] = [297.0, 222.0];
@@ -101,8 +102,7 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
         }
         canvas.end_group();
         canvas.rectangle(&window, &Pen::new(0.2, GREY));
-        let label =
-            format!("{name}: {} inflection{}", inflections.len(), if inflections.len() == 1 { "" } else { "s" });
+        let label = format!("{name}: {}", counted(inflections.len(), "inflection"));
         canvas.text([SIDES[0] + 2.0, panel[0] + 3.5], &label, &TextStyle::new(3.0, Anchor::Start).halo());
         scale_marks(&mut canvas, [low, high], |y| panel[1] - ROOM - (y - low) * scale_y);
     }

@@ -12,7 +12,7 @@ use super::suspects::{Expected, small_plot};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::{Doubt, FairRecord};
-use crate::units::Notation;
+use crate::units::{Notation, counted};
 
 /// Room above and below the plan and at its sides \[mm\].
 const HEAD: f64 = 34.0;
@@ -209,9 +209,9 @@ fn head(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2], n: u32) {
     canvas.text([0.5 * paper[0], 9.0], &format!("SUSPECTS – {name}"), &TextStyle::new(4.5, Anchor::Middle));
     let left_out = record.changes.iter().filter(|change| change.suspect).count();
     let words = format!(
-        "doubted: {} of {} offsets    left out of the fairing: {left_out}    body plan 1:{n}, after fairing",
+        "doubted: {} of {}    left out of the fairing: {left_out}    body plan 1:{n}, after fairing",
         record.doubts.len(),
-        record.changes.len()
+        counted(record.changes.len(), "offset")
     );
     canvas.text([0.5 * paper[0], 16.0], &words, &TextStyle::new(3.2, Anchor::Middle));
     let y = paper[1] - 7.0;

@@ -14,6 +14,7 @@ use super::{PlotError, Svg, caption};
 use crate::fairing::{Suspect, Suspects, height_grid};
 use crate::hull::OffsetTable;
 
+use crate::units::counted;
 pub use points::suspect_points_figure;
 
 /// Width of the sheet \[mm\].
@@ -42,7 +43,7 @@ const GREY: &str = "#808080";
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Words {
     title: &'static str,
-    plural: &'static str,
+    one: &'static str,
     /// The lines across the stations.
     across: &'static str,
     /// Axes of their positions and of the numbers.
@@ -54,7 +55,7 @@ pub(super) struct Words {
 
 pub(super) const OFFSETS: Words = Words {
     title: "SUSPECT OFFSETS",
-    plural: "offsets",
+    one: "offset",
     across: "waterline",
     place: "z [m]",
     value: "half-breadth [m]",
@@ -63,7 +64,7 @@ pub(super) const OFFSETS: Words = Words {
 
 const HEIGHTS: Words = Words {
     title: "SUSPECT HEIGHTS",
-    plural: "heights",
+    one: "height",
     across: "buttock",
     place: "half-breadth [m]",
     value: "z [m]",
@@ -123,12 +124,11 @@ fn headline(result: &Suspects, words: &Words) -> String {
     let judged = result.verdicts.iter().flatten().flatten().count();
     let count = match result.suspects.len() {
         0 => "no suspects".to_owned(),
-        1 => "1 suspect".to_owned(),
-        n => format!("{n} suspects"),
+        n => counted(n, "suspect"),
     };
     format!(
-        "{count} among {judged} {} that their neighbours can judge    noise of the table {}",
-        words.plural,
+        "{count} among {} that their neighbours can judge    noise of the table {}",
+        counted(judged, words.one),
         length(result.noise)
     )
 }

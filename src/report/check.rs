@@ -15,6 +15,7 @@ use crate::fairing::{
 };
 use crate::hull::{Cell, Entry, OffsetTable, TableForm, Written};
 use crate::plot::{suspect_heights_figure, suspect_points_figure, suspects_figure};
+use crate::units::counted;
 
 /// Resolution of the picture \[dots per inch\].
 const DOTS_PER_INCH: f64 = 160.0;
@@ -183,10 +184,6 @@ impl Check {
     }
 }
 
-fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
 fn points(table: &OffsetTable) -> usize {
     table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum()
 }
@@ -236,27 +233,30 @@ pub fn check_page(check: &Check) -> String {
         let [judged, heights, points] = check.judged();
         let name = if table.name.is_empty() { "table" } else { &table.name };
         page.push_str(&format!(
-            "{name}: {} stations, {} waterlines, {judged} offsets judged; noise {:.2} mm\n",
-            table.stations.len(),
-            table.waterlines.len(),
+            "{name}: {}, {}, {} judged; noise {:.2} mm\n",
+            counted(table.stations.len(), "station"),
+            counted(table.waterlines.len(), "waterline"),
+            counted(judged, "offset"),
             1000.0 * result.noise
         ));
         if let Some(found) = &check.heights {
             page.push_str(&format!(
-                "{heights} heights at {} buttocks judged; noise {:.2} mm\n",
-                table.buttocks.len(),
+                "{} at {} judged; noise {:.2} mm\n",
+                counted(heights, "height"),
+                counted(table.buttocks.len(), "buttock"),
                 1000.0 * found.noise
             ));
         }
         if let Some(found) = &check.points {
             page.push_str(&format!(
-                "{points} points of sections judged along their sections; noise {:.2} mm\n",
+                "{} of sections judged along their sections; noise {:.2} mm\n",
+                counted(points, "point"),
                 1000.0 * found.noise
             ));
         }
         let left = check.points_not_judged();
         if left > 0 {
-            page.push_str(&format!("{left} points of sections are NOT judged: too few points beside them\n"));
+            page.push_str(&format!("{} of sections NOT judged: too few points beside them\n", counted(left, "point")));
         }
         for (grid, suspect) in check.cells() {
             page.push_str(&suspect_lines(table, grid, suspect));

@@ -12,6 +12,7 @@ use crate::exchange::{
     write_table,
 };
 use crate::hull::{HullMesh, OffsetTable, Region, TableForm, TableLayout};
+use crate::units::counted;
 
 /// A converted table, and what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,22 +45,25 @@ pub fn convert_table(path: &Path, said: &Said, writing: TableWriting) -> Result<
         notes.iter().filter(|n| n.severity != Severity::Warning || n.code == "W320").map(ToString::to_string).collect();
     let r = written.rounding;
     messages.push(format!(
-        "rounding: {} offsets, {} as they were written; largest change {:.3} mm, RMS {:.3} mm; of positions {:.3} mm",
-        r.cells,
+        "rounding: {}, {} as they were written; largest change {:.3} mm, RMS {:.3} mm; of positions {:.3} mm",
+        counted(r.cells, "offset"),
         r.kept,
         1e3 * r.largest,
         1e3 * r.root_mean_square,
         1e3 * r.largest_of_positions
     ));
     if !table.lines.is_empty() && written.text.matches(",KN,").count() + written.text.matches(",TL,").count() == 0 {
-        messages.push(format!("{} lines are not written; a tidy table holds them (--layout tidy)", table.lines.len()));
+        messages.push(format!(
+            "not written: {}; a tidy table holds lines (--layout tidy)",
+            counted(table.lines.len(), "line")
+        ));
     }
     let points = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
     let tidy = sections || writing.layout.unwrap_or(table.form.layout) == TableLayout::Tidy;
     // Every tidy table has this column; none of the other programs' formats has it.
     let own = sections && !written.text.contains("curve");
     if sections && !own && writing.layout.is_none() && table.form.layout != TableLayout::Tidy {
-        messages.push(format!("sections as points: {points} points are written as a tidy table"));
+        messages.push(format!("sections as points: a tidy table of {}", counted(points, "point")));
     } else if points > 0 && !tidy && !own {
         messages.push("sections given as points are not written; a tidy table holds them (--layout tidy)".to_owned());
     }

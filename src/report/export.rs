@@ -15,7 +15,7 @@ use crate::hull::{
     Solid, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
-use crate::units::Notation;
+use crate::units::{Notation, counted};
 
 /// What is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -249,16 +249,16 @@ fn lowered(points: &mut [[f64; 3]], datum: f64) {
 fn angles(mesh: &HullMesh, report: &MeshReport) -> String {
     let degrees = 180.0 / PI;
     let mut said = format!(
-        "least angle {:.2} degrees (bound {:.0}, {} triangles below it",
+        "least angle {:.2} degrees (bound {:.0}, {} below it",
         report.least_angle * degrees,
         LEAST_ANGLE * degrees,
-        mesh.slivers()
+        counted(mesh.slivers(), "triangle")
     );
     if mesh.sharp_corners.is_empty() {
         said.push(')');
         return said;
     }
-    said.push_str(&format!(" but at {} sharper corners of the body: ", mesh.sharp_corners.len()));
+    said.push_str(&format!(" but at {} of the body: ", counted(mesh.sharp_corners.len(), "sharper corner")));
     let corner = |corner: &SharpCorner| {
         let [x, y, z] = mesh.vertices[corner.vertex];
         format!("{} {:.2} degrees at ({x:.3}, {y:.3}, {z:.3}) m", corner.region.name(), corner.angle * degrees)
@@ -276,7 +276,11 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
         mesh.vertices.len(),
         mesh.triangles.len(),
         report.edges,
-        if report.closed { "closed".to_owned() } else { format!("NOT closed ({} open edges)", report.open_edges) },
+        if report.closed {
+            "closed".to_owned()
+        } else {
+            format!("NOT closed ({})", counted(report.open_edges, "open edge"))
+        },
         angles(mesh, report),
         report.volume,
         report.volume / volume - 1.0,

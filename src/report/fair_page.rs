@@ -69,8 +69,11 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let excluded: Vec<&Change> = outcome.changes.iter().filter(|change| change.suspect).collect();
     let shown = small(limit, job.table.form.notation);
-    let mut line =
-        format!("{} of {} offsets kept within {shown}{what}", kept.len() - more.len(), outcome.changes.len());
+    let mut line = format!(
+        "{} of {} kept within {shown}{what}",
+        kept.len() - more.len(),
+        counted(outcome.changes.len(), "offset", "offsets")
+    );
     if !more.is_empty() {
         line.push_str(&format!("; {} moved more (listed)", more.len()));
     }

@@ -25,6 +25,7 @@ use crate::hull::{
 };
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
+use crate::units::counted;
 
 /// What is to be fitted, and how.
 #[derive(Debug, Clone)]
@@ -281,11 +282,14 @@ fn misfit_lines(job: &FitJob, fitted: &Fitted) -> String {
             let waterline = job.table.waterlines.get(cell.waterline)?;
             Some(format!(" (station {}, x {} m, waterline {waterline} m)", station.name, station.x))
         });
-        let predicted =
-            if misfit.predicted > 0 { format!("; {} cells predicted", misfit.predicted) } else { String::new() };
+        let predicted = if misfit.predicted > 0 {
+            format!("; {} predicted", counted(misfit.predicted, "cell"))
+        } else {
+            String::new()
+        };
         let line = format!(
-            "{} cells, missed by {} m at most{}, {} m RMS{predicted}.",
-            misfit.given,
+            "{}, missed by {} m at most{}, {} m RMS{predicted}.",
+            counted(misfit.given, "cell"),
             small(misfit.largest()),
             worst.filter(|_| misfit.largest() >= 5e-7).unwrap_or_default(),
             small(misfit.rms)
@@ -296,8 +300,8 @@ fn misfit_lines(job: &FitJob, fitted: &Fitted) -> String {
         let worst = &points.worst;
         let station = job.table.stations.get(worst.station).map(|s| s.station.words()).unwrap_or_default();
         let line = format!(
-            "{} points of sections, missed in half-breadth by {} m at most ({station}, z {:.3} m), {} m RMS.",
-            points.count,
+            "{} of sections, missed in half-breadth by {} m at most ({station}, z {:.3} m), {} m RMS.",
+            counted(points.count, "point"),
             small(worst.residual().abs()),
             worst.height,
             small(points.rms)
@@ -331,7 +335,7 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
     }
     if job.reading.len() > MOST_REMARKS {
         let more = job.reading.len() - MOST_REMARKS;
-        page.push_str(&format!("- {more} more remarks about the table: fit.json, \"reading\"\n"));
+        page.push_str(&format!("- {} about the table: fit.json, \"reading\"\n", counted(more, "more remark")));
     }
     page.push('\n');
     page.push_str(&quantities(&outputs.design_row, conventions, length));

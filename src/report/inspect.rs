@@ -8,6 +8,7 @@ use super::page::fixed;
 use crate::fairing::inspect::{CurvatureAt, CurveReport, Inspection, kind};
 use crate::hull::Cut;
 use crate::numeric::median;
+use crate::units::counted;
 
 /// Share of a sum from which one curve rules it, and the least number of curves of which that is said.
 const RULING: f64 = 0.5;
@@ -179,7 +180,7 @@ fn write_page(page: &mut String, name: &str, inspection: &Inspection) -> std::fm
         writeln!(page, "{:<12} least {}, greatest {}", range.name, end(&range.least), end(&range.greatest))?;
     }
     if surface.degenerate > 0 {
-        writeln!(page, "{} points without a tangent plane are left out", surface.degenerate)?;
+        writeln!(page, "left out: {} without a tangent plane", counted(surface.degenerate, "point"))?;
     }
     Ok(())
 }

@@ -15,6 +15,7 @@ use crate::exchange::{
 use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};
+use crate::units::counted;
 
 /// A result, read back.
 #[derive(Debug, Clone)]
@@ -140,7 +141,7 @@ pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
             _ if value["hull"].is_null() => {
                 "found hydrostatics without their hull; expected the member `hull`".to_owned()
             }
-            n => format!("found {n} draughts; expected two at least"),
+            n => format!("found {}; expected two at least", counted(n, "draught")),
         };
         return Err(Failure::Input(vec![problem(
             "E182",
@@ -275,7 +276,8 @@ fn first_column(path: &Path, text: &str) -> Result<Vec<f64>, Failure> {
     let draughts: Vec<f64> =
         cells.filter_map(|cell| cell.parse().ok()).filter(|value: &f64| value.is_finite()).collect();
     if draughts.len() < 2 {
-        let message = format!("found {} draughts in its first column; expected two at least", draughts.len());
+        let message =
+            format!("found {} in its first column; expected two at least", counted(draughts.len(), "draught"));
         return Err(unread(path, &message));
     }
     Ok(draughts)

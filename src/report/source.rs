@@ -12,6 +12,7 @@ use crate::fairing::suspects;
 use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section, StatedParticulars};
 use crate::hydrostatics::{Assumed, Conventions};
 use crate::parametric::{Family, Generated};
+use crate::units::counted;
 
 /// A hull with the conventions of its tables.
 #[derive(Debug, Clone)]
@@ -305,10 +306,10 @@ pub fn offsets(hull: &Hull, stations: &[f64], waterlines: &[f64], buttocks: &[f6
     let cells = stations.len() * (waterlines.len() + buttocks.len());
     if cells > MOST_CELLS {
         return Err(Failure::Usage(format!(
-            "{} stations with {} waterlines and {} buttocks make {cells} cells; a table has at most {MOST_CELLS}",
-            stations.len(),
-            waterlines.len(),
-            buttocks.len()
+            "{} with {} and {} make {cells} cells; a table has at most {MOST_CELLS}",
+            counted(stations.len(), "station"),
+            counted(waterlines.len(), "waterline"),
+            counted(buttocks.len(), "buttock")
         )));
     }
     let stations: Vec<OffsetStation> = stations.iter().map(|&x| OffsetStation { name: format!("{x}"), x }).collect();

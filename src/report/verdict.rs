@@ -6,6 +6,7 @@ use super::page::{fixed, fixed_sign};
 use super::result::JobResult;
 use super::result_page::{list, text};
 use crate::hydrostatics::{Conventions, Hydrostatics};
+use crate::units::counted;
 
 /// Curves whose inflections are counted, as files name them.
 const KINDS: [&str; 4] = ["waterlines", "stations", "buttocks", "diagonals"];
@@ -70,8 +71,8 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     lines.push((
         false,
         format!(
-            "{} offsets moved {} mm RMS and {} mm at most; the assumed noise is {} mm. {left_out} left out as suspects.",
-            record.changes.len() - left_out,
+            "{} moved {} mm RMS and {} mm at most; the assumed noise is {} mm. {left_out} left out as suspects.",
+            counted(record.changes.len() - left_out, "offset"),
             fixed(1e3 * rms, 2),
             fixed(1e3 * largest, 2),
             fixed(1e3 * record.sigma, 2)

@@ -10,3 +10,9 @@ pub use cell::{CellEntry, CellError, CellReading, CellRules, CellWriting, LONGES
 pub use list::{ListError, MAX_ITEMS, decimal, parse_list};
 pub use notation::{Notation, feet_inches_eighths};
 pub use quantity::{Dimension, Measure, UnitError, parse, parse_length};
+
+/// A number and its noun, which takes an `s` where the number is not one: `1 station`, `3 stations`.
+#[must_use]
+pub fn counted(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}

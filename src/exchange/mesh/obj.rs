@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use super::super::fault::{Faults, RecordFault};
 use super::{MOST_TRIANGLES, regions};
 use crate::hull::{HullMesh, TriangleMesh};
+use crate::units::counted;
 
 /// Whether this is the beginning of an OBJ file: lines of vertices before anything that has no place in one.
 #[must_use]
@@ -54,7 +55,7 @@ pub(in super::super) fn read_obj(bytes: &[u8]) -> Result<TriangleMesh, Vec<Recor
                     }
                 }
                 if face.len() < 3 && faults.list.len() == before {
-                    faults.add(Some(k + 1), line, format!("a face of {} corners", face.len()));
+                    faults.add(Some(k + 1), line, format!("a face of {}", counted(face.len(), "corner")));
                 }
                 corners.extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
             }

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use super::super::fault::{Faults, RecordFault};
 use super::{MOST_TRIANGLES, normal, regions};
 use crate::hull::{HullMesh, TriangleMesh};
+use crate::units::counted;
 
 /// Bytes before the triangles of a binary file, and bytes of each.
 const HEADER: usize = 84;
@@ -89,7 +90,11 @@ fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
             Some("outer") => triangle.clear(),
             Some("endloop") => match triangle[..] {
                 [a, b, c] => corners.push([a, b, c]),
-                _ => faults.add(Some(k + 1), line, format!("a loop of {} corners, expected 3", triangle.len())),
+                _ => faults.add(
+                    Some(k + 1),
+                    line,
+                    format!("a loop of {}, expected 3", counted(triangle.len(), "corner")),
+                ),
             },
             None | Some("solid" | "facet" | "endfacet" | "endsolid") => {}
             Some(_) => {

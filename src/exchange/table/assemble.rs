@@ -10,7 +10,7 @@ use super::settings::Settings;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, SideKind, SideLine, StationOffsets, TableForm, Written,
 };
-use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
+use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, counted, parse_cell};
 
 /// Two positions nearer than this are one \[m\].
 pub(super) const SAME: f64 = 1e-6;
@@ -281,8 +281,11 @@ fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
     let what = if block.across == Axis::Waterline { "waterline" } else { "buttock" };
     let lines: Vec<Field> = block.stations.iter().map(|line| line.head.clone()).collect();
     if block.stations.len().max(block.heads.len()) > MOST_LINES {
-        let message =
-            format!("{} stations and {} {what}s; a table has at most {MOST_LINES}", lines.len(), block.heads.len());
+        let message = format!(
+            "{} and {}; a table has at most {MOST_LINES}",
+            counted(lines.len(), "station"),
+            counted(block.heads.len(), what)
+        );
         reader.problems.error("E312", &block.first, message, "");
         return None;
     }

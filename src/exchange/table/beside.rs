@@ -10,6 +10,7 @@ use super::problem::{Field, Problems};
 use super::ratio::slot;
 use super::settings::{KEYS, Settings, Value, length, nearest};
 use crate::hull::{FeatureLine, LineKind, StatedParticulars, TransomPlane};
+use crate::units::counted;
 
 /// Longer files are no conventions \[bytes\].
 const LARGEST: usize = 1 << 20;
@@ -255,7 +256,12 @@ impl<'a> Beside<'a> {
             }
         }
         if line.points.len() < 2 {
-            self.problem("line", span, format!("a line of {} points", line.points.len()), "Give two points at least");
+            self.problem(
+                "line",
+                span,
+                format!("a line of {}", counted(line.points.len(), "point")),
+                "Give two points at least",
+            );
         } else {
             line.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             settings.lines.push(line);

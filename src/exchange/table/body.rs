@@ -19,6 +19,7 @@ use super::settings::{BodyFrame, Settings};
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
 use crate::spline::BsplineSurface;
+use crate::units::counted;
 
 /// What points of sections that are left out are off by at most, over the breadth.
 const THINNED: f64 = 2e-5;
@@ -285,7 +286,7 @@ fn framed(
         let (oriented, turned) = std::mem::take(mesh).oriented();
         *mesh = oriented;
         if turned > 0 && k == 0 && !surfaces {
-            problems.note(format!("{turned} triangles are turned outward"));
+            problems.note(format!("{} turned outward", counted(turned, "triangle")));
         }
     }
     let Some([least, greatest]) = meshes[0].bounds() else { return meshes };
@@ -315,8 +316,8 @@ fn framed(
     if !open.is_empty() {
         let lowest = open.iter().flatten().map(|&k| meshes[0].vertices[k][2]).fold(f64::INFINITY, f64::min);
         let message = format!(
-            "{} edges are open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
-            open.len()
+            "{} open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
+            counted(open.len(), "edge")
         );
         problems.warning("W351", Place::FILE, message, "");
     }

@@ -9,6 +9,7 @@ use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
+use crate::units::counted;
 use std::fmt::Write as _;
 
 /// Whether this is a BRITFAIR file: its third line is `n x x` with equal x.
@@ -129,7 +130,7 @@ fn points(
         }
     }
     if let Some(count) = count.filter(|&count| count != found) {
-        let message = format!("the section announces {count} points, {found} follow");
+        let message = format!("the section announces {}, {found} there", counted(count, "point"));
         problems.error("E322", (Place::row(head.row), head.text), message, "Correct the count, or the points.");
     }
     match rows.get(*index).map(|line| (&line.fields[..], line.row)) {

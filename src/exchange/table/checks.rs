@@ -4,6 +4,7 @@ use super::assemble::{Reader, SAME};
 use super::problem::{Field, Place, Problems};
 use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable};
+use crate::units::counted;
 
 /// Half-breadths are all positive, or all negative (starboard): then their sign is turned.
 pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
@@ -78,7 +79,8 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     if let Some(draught) = table.stated.draught {
         let below = table.waterlines.iter().filter(|&&z| z <= draught + SAME).count();
         if (1..6).contains(&below) {
-            let message = format!("only {below} waterlines up to T {draught} m: volumes from this table are coarse");
+            let message =
+                format!("only {} up to T {draught} m: volumes from this table are coarse", counted(below, "waterline"));
             problems.warning("W307", Place::FILE, message, "");
         }
     }

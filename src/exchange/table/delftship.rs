@@ -14,6 +14,7 @@ use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
 };
+use crate::units::counted;
 
 /// Numbers of the head.
 const HEAD: usize = 10;
@@ -109,7 +110,9 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         .saturating_add(waterlines_at);
     if wanted != stream.fields.len() {
         let message = format!(
-            "{n} waterlines, {m} stations and these flags make {wanted} numbers after the head; {} follow",
+            "{} and {} with these flags make {wanted} numbers after the head; {} there",
+            counted(n, "waterline"),
+            counted(m, "station"),
             stream.fields.len()
         );
         problems.error("E322", waterlines, message, "Correct the counts, the flags or the rows.");

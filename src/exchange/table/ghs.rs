@@ -14,6 +14,7 @@ use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
+use crate::units::counted;
 use std::fmt::Write as _;
 
 /// More shapes, components or parts than this are no ship.
@@ -197,13 +198,15 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
     let mut sections: Vec<ShapeSection> = Vec::new();
     for k in 0..announced {
         let Some(head) = reader.data() else {
-            let what =
-                format!("shape '{name}' (row {count_row}) announces {announced} sections, the file has {k}; section");
+            let what = format!(
+                "shape '{name}' (row {count_row}) announces {}, the file has {k}; section",
+                counted(announced, "section")
+            );
             missing(&what, reader, problems);
             return None;
         };
         let blame = sections.last().map_or_else(String::new, |before: &ShapeSection| {
-            format!(" (row {} announces {} points)", before.row, before.points.len())
+            format!(" (row {} announces {})", before.row, counted(before.points.len(), "point"))
         });
         let [x, count] = head.fields[..] else {
             let message = format!("section {} of '{name}': x and number of points expected{blame}", k + 1);
@@ -215,7 +218,11 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         let mut points = Vec::new();
         for i in 0..count {
             let Some(line) = reader.data() else {
-                let what = format!("the section in row {} announces {count} points, the file has {i}; y, z", head.row);
+                let what = format!(
+                    "the section in row {} announces {}, the file has {i}; y, z",
+                    head.row,
+                    counted(count, "point")
+                );
                 missing(&what, reader, problems);
                 return None;
             };

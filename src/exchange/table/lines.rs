@@ -16,6 +16,7 @@ use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table
 use super::settings::Settings;
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::OutlinePoint;
+use crate::units::counted;
 
 /// A curve whose extent in a direction is less than this part of the size is in a plane across it; planes nearer to
 /// each other are one.
@@ -61,7 +62,8 @@ pub(super) fn read(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> Option<
     }
     notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
     let unit = unit.unwrap_or(1.0);
-    problems.note(format!("{} curves (IGES) without surfaces; the unit of the file is {unit} m", curves.len()));
+    problems
+        .note(format!("{} (IGES) without surfaces; the unit of the file is {unit} m", counted(curves.len(), "curve")));
     let mut lines = Vec::new();
     if !problems.any_errors()
         && let Some(placed) = placed(&curves, &settings, unit, &mut problems)
@@ -119,9 +121,9 @@ fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
         let made = of_waterlines(&level, slack, problems);
         if made.is_empty() {
             let message = format!(
-                "of {} curves {} are at one x and {} at one height; sections at two x at least, or {LEAST_WATERLINES} waterlines, make \
+                "{}: {} at one x, {} at one height; sections at two x at least, or {LEAST_WATERLINES} waterlines, make \
                  a table",
-                lines.len(),
+                counted(lines.len(), "curve"),
                 across.len(),
                 level.len()
             );
@@ -132,7 +134,7 @@ fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
         }
     }
     if left > 0 && !list.is_empty() {
-        let message = format!("{left} curves that are no sections are left out");
+        let message = format!("left out: {}, in no plane of a section", counted(left, "curve"));
         problems.warning("W332", Place::FILE, message, "");
     }
     list

@@ -8,6 +8,7 @@ use super::header::{Axis, Corner, axis_of, side_of};
 use super::problem::{Field, Place, Problems};
 use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
+use crate::units::counted;
 
 /// One station, or one ending, of a block.
 #[derive(Debug, Clone, Default)]
@@ -230,7 +231,8 @@ fn is_positions(field: &Field, stations: bool) -> bool {
 fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> Option<Block> {
     let (fields, trailing) = rectangle(part, problems)?;
     if fields.len() < 2 || fields[0].len() < 2 {
-        let message = format!("{} rows of {} fields are no table of offsets", fields.len(), fields[0].len());
+        let message =
+            format!("{} of {}: no table of offsets", counted(fields.len(), "row"), counted(fields[0].len(), "field"));
         problems.error("E300", &fields[0][0], message, "A matrix has a row of headers and rows of offsets below it");
         return None;
     }

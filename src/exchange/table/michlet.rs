@@ -13,6 +13,7 @@ use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
 };
+use crate::units::counted;
 use std::fmt::Write as _;
 
 /// Stations and waterlines of a grid at most.
@@ -111,13 +112,14 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     };
     if block.len() != stations {
         let row = block.first().map_or(1, |line| line.row);
-        let message = format!("{stations} stations are announced, {} rows of offsets follow", block.len());
+        let message =
+            format!("{} announced, {} of offsets read", counted(stations, "station"), counted(block.len(), "row"));
         problems.error("E322", Place::row(row), message, "Correct the number, or the rows.");
     }
     let mut list = Vec::new();
     for (k, line) in block.iter().enumerate() {
         if line.fields.len() != waterlines {
-            let message = format!("{waterlines} waterlines are announced, the row has {}", line.fields.len());
+            let message = format!("{} announced, the row has {}", counted(waterlines, "waterline"), line.fields.len());
             problems.error("E322", (Place::row(line.row), line.text), message, "Correct the number, or the row.");
             continue;
         }

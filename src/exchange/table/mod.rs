@@ -57,7 +57,7 @@ use self::grid::Grid;
 use self::problem::{Field, Place, Problems};
 use self::settings::Settings;
 use crate::hull::{OffsetTable, Order, Rows, TableForm, TableLayout};
-use crate::units::{CellRules, CellWriting, Notation, parse_cell};
+use crate::units::{CellRules, CellWriting, Notation, counted, parse_cell};
 
 /// A table with what should be known about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -217,15 +217,15 @@ fn matrix(
 ) -> Option<OffsetTable> {
     let (blocks, titles) = matrix::blocks(&grid.rows, settings, problems);
     let first = blocks.first()?;
-    let across = if first.across == header::Axis::Buttock { "buttocks" } else { "waterlines" };
+    let across = if first.across == header::Axis::Buttock { "buttock" } else { "waterline" };
     let (rows, columns) = match first.rows {
-        Rows::Stations => ("stations", across),
-        Rows::Waterlines => (across, "stations"),
+        Rows::Stations => ("station", across),
+        Rows::Waterlines => (across, "station"),
     };
     problems.note(format!(
-        "{} stations and {} {across}; rows are {rows}, columns are {columns} ({}); fields are separated by {}{}",
-        first.stations.len(),
-        first.heads.len(),
+        "{} and {}; rows are {rows}s, columns are {columns}s ({}); fields are separated by {}{}",
+        counted(first.stations.len(), "station"),
+        counted(first.heads.len(), across),
         first.reason,
         match grid.separator {
             '\t' => "tabs".to_owned(),

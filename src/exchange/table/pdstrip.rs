@@ -11,6 +11,7 @@ use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, note_asymmetry, refuse_negative, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
+use crate::units::counted;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -78,7 +79,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         sections.push(Section { name: None, x, place, branches, deck: None });
     }
     if let Some(announced) = announced.filter(|&n| n != sections.len() && !problems.any_errors()) {
-        let message = format!("the file announces {announced} sections, {} follow", sections.len());
+        let message = format!("the file announces {}, {} there", counted(announced, "section"), sections.len());
         problems.error("E322", count, message, "Correct the count; was the file cut off?");
     }
     note_asymmetry(&gaps, &mut problems);
@@ -150,8 +151,12 @@ fn list<'a>(
         *index += 1;
     }
     if fields.len() > count {
-        let message =
-            format!("{count} points announced in row {}, the lines of {what} hold {}", head.row, fields.len());
+        let message = format!(
+            "{} announced in row {}, the lines of {what} hold {}",
+            counted(count, "point"),
+            head.row,
+            fields.len()
+        );
         problems.error("E322", (Place::row(row), fields[count].text), message, "Correct the count, or the line.");
         return None;
     }

@@ -10,6 +10,7 @@ use super::problem::{Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{Marks, OffsetTable, OutlinePoint, StatedParticulars};
+use crate::units::counted;
 use std::fmt::Write as _;
 
 /// Whether this is a PIAS hull: three lines of one number, then lines of three of which the last is whole.
@@ -78,7 +79,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             }
         }
         if let Some(count) = count.filter(|&count| count != found) {
-            let message = format!("the section announces {count} points, {found} follow");
+            let message = format!("the section announces {}, {found} there", counted(count, "point"));
             problems.error("E322", (place, head.text), message, "Correct the count, or the points.");
         }
         let x = x.unwrap_or(0.0);
@@ -86,11 +87,11 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         sections.push(Section { name: None, x, place, branches: vec![points], deck: None });
     }
     if let Some(announced) = announced.filter(|&n| n != sections.len()) {
-        let message = format!("the file announces {announced} sections, {} follow", sections.len());
+        let message = format!("the file announces {}, {} there", counted(announced, "section"), sections.len());
         problems.error("E322", (Place::row(1), rows[0].text), message, "Correct the count; was the file cut off?");
     }
     if knuckles > 0 {
-        let message = format!("{knuckles} points have a flag other than 1 and are read as knuckles");
+        let message = format!("{} with a flag other than 1: read as knuckles", counted(knuckles, "point"));
         problems.warning("W334", Place::FILE, message, "");
     }
     let stated = StatedParticulars::default();

@@ -32,6 +32,7 @@
 use std::fmt;
 
 use crate::hull::Cell;
+use crate::units::counted;
 
 /// How serious a problem of a table is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -246,7 +247,7 @@ impl Problems {
         {
             if count > MOST_LISTED {
                 let file = self.file.clone();
-                let message = format!("{} more problems are not shown", count - MOST_LISTED);
+                let message = format!("{} not shown", counted(count - MOST_LISTED, "more problem"));
                 let (found, remedy) = (String::new(), String::new());
                 let at = self.list.iter().position(|p| p.severity > severity).unwrap_or(self.list.len());
                 let more = TableProblem { severity, code, file, row: None, column: None, found, message, remedy };
@@ -275,7 +276,7 @@ mod tests {
         assert!(errors.windows(2).take(MOST_LISTED - 1).all(|pair| pair[0].row < pair[1].row));
         assert_eq!(
             (errors[MOST_LISTED].code, errors[MOST_LISTED].message.as_str()),
-            ("E312", "900 more problems are not shown")
+            ("E312", "900 more problems not shown")
         );
         assert_eq!(remarks[MOST_LISTED].code, "W312");
         assert_eq!(list.len(), 2 * MOST_LISTED + 2);

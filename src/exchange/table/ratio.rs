@@ -20,7 +20,7 @@ use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
 };
-use crate::units::parse_length;
+use crate::units::{counted, parse_length};
 
 /// The separator of a table of cells: the most frequent of tab, semicolon and comma.
 pub(super) fn separator(text: &str) -> char {
@@ -256,7 +256,7 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
         problems.warning("W335", field.place(), message, "Is a decimal point missing?");
     }
     if read.len() < 2 {
-        let message = format!("{} stations are no hull", read.len());
+        let message = format!("only {}", counted(read.len(), "station"));
         problems.error("E328", Place::FILE, message, "At least two are needed.");
         return None;
     }

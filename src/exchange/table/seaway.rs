@@ -10,6 +10,7 @@ use super::problem::{Field, Place, Problems};
 use super::sections::{Body, Origin, Section, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::StatedParticulars;
+use crate::units::counted;
 
 /// Whether this is a SEAWAY hull file.
 pub(super) fn recognise(name: &str, text: &str) -> bool {
@@ -145,7 +146,8 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
     let knuckle = stream.take(&what, problems)?;
     problems.number(knuckle, &format!("{what}: the knuckle"));
     if 2 * points > stream.left() {
-        let message = format!("{what} announces {points} points, {} numbers follow", stream.left());
+        let message =
+            format!("{what} announces {}, {} left", counted(points, "point"), counted(stream.left(), "number"));
         problems.error("E322", count, message, "Correct the count; was the file cut off?");
         return None;
     }
@@ -159,7 +161,7 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
     let place = Place { column: None, ..station.place() };
     // A section ends with its line: a wrong count does not go unnoticed where the numbers happen to fit.
     if let Some(after) = stream.fields.get(stream.next).filter(|field| field.place().column != Some(1)) {
-        let message = format!("{what} announces {points} points, which end within a line");
+        let message = format!("{what} announces {}, the last of them within a line", counted(points, "point"));
         problems.error("E322", after, message, "Correct the count, or the points.");
         return None;
     }

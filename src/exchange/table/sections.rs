@@ -5,6 +5,7 @@ use super::outline::{Deck, Halves, branches, deviation, halves};
 use super::problem::{Place, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
+use crate::units::counted;
 
 /// A section as a file gives it.
 #[derive(Debug, Clone)]
@@ -118,7 +119,7 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
     }
     check_order(&mut sections, &mut problems);
     if sections.len() < 2 && !problems.any_errors() {
-        let message = format!("{} sections are no hull", sections.len());
+        let message = format!("only {}", counted(sections.len(), "section"));
         problems.error("E328", Place::FILE, message, "At least two are needed.");
     }
     if problems.any_errors() {

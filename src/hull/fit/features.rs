@@ -4,6 +4,7 @@ use super::Chart;
 use super::monotone::monotone_cubic;
 use crate::hull::cell::{Cell, FeatureLine, LineKind};
 use crate::hull::offsets::{OffsetTable, StationOffsets};
+use crate::units::counted;
 
 /// Half-breadths on the flat of side agree to this \[m\].
 const SAME: f64 = 1e-9;
@@ -71,7 +72,8 @@ impl FlatOfSide {
         let others: usize = runs.iter().map(Vec::len).sum::<usize>() - kept;
         if others > 0 {
             notes.push(format!(
-                "flat of side: {others} stations are apart from the {kept} that follow each other, and only these are used"
+                "flat of side: {} apart from the {kept} that follow each other, and only these are used",
+                counted(others, "station")
             ));
         }
         let edge = runs.into_iter().find(|run| run.len() == kept)?;
@@ -213,7 +215,8 @@ pub(super) fn unused(table: &OffsetTable, flat: Option<&FlatOfSide>, notes: &mut
     let count = single.filter(|(j, c)| c.marks.tangent && !runs_along(table, *j, LineKind::Tangent)).count();
     if count > 0 {
         notes.push(format!(
-            "{count} offsets marked as points of a tangent line are neither on a waterline of such nor below a flat of side: their marks were not used"
+            "{} marked as points of a tangent line, but neither on a waterline of such nor below a flat of side: such marks were not used",
+            counted(count, "offset")
         ));
     }
 }
@@ -228,7 +231,8 @@ pub(super) fn not_held(table: &OffsetTable, chart: Chart) -> Vec<String> {
     let count = table.stations.iter().filter(cambered).count();
     if count > 0 {
         notes.push(format!(
-            "heights of the deck on the centreline are given at {count} stations: the body ends level at the deck at side, camber is no part of it"
+            "heights of the deck on the centreline are given at {}: the body ends level at the deck at side, camber is no part of it",
+            counted(count, "station")
         ));
     }
     if let (Chart::Upright, Some(plane)) = (chart, table.transom) {

@@ -26,6 +26,7 @@ use super::cell::Entry;
 use super::form::{Hull, HullError};
 use super::offsets::OffsetTable;
 use crate::spline::SplineError;
+use crate::units::counted;
 pub use estimate::{Thinned, VolumeEstimate};
 pub use method::{
     FitMethod, LeastSquares, NetKnots, ParametricStations, QuadraticNet, SettingProblem, SettingProblems,
@@ -74,7 +75,11 @@ pub struct Fitted {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// Too few lines.
-    #[error("{stations} stations with {waterlines} waterlines; a surface needs at least {least} of each")]
+    #[error(
+        "{} with {}; a surface needs at least {least} of each",
+        counted(*.stations, "station"),
+        counted(*.waterlines, "waterline")
+    )]
     TooFew {
         /// Stations with offsets.
         stations: usize,

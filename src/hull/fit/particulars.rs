@@ -5,7 +5,7 @@ use super::FitError;
 use super::rows::Row;
 use crate::numeric::median;
 use crate::spline::KnotVector;
-use crate::units::decimal;
+use crate::units::{counted, decimal};
 
 /// Design draught over the height of the table where none is stated.
 const DRAUGHT_SHARE: f64 = 0.7;
@@ -146,7 +146,7 @@ pub(super) fn deck(
     heights.sort_by(|a, b| a.0.total_cmp(&b.0));
     heights.dedup_by(|a, b| a.0 - b.0 <= 1e-9 * (fore - aft));
     if assumed > 0 {
-        notes.push(format!("the deck at side of {assumed} stations is taken at their highest offset"));
+        notes.push(format!("the deck at side of {} is taken at the highest offset there", counted(assumed, "station")));
     }
     let level = heights.iter().all(|h| h.1 >= top - 1e-9 * (top - bottom));
     let points: Vec<[f64; 2]> = if level || heights.len() < 2 {

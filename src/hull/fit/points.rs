@@ -16,6 +16,7 @@ use crate::hull::cell::Entry;
 use crate::hull::form::{Hull, HullError};
 use crate::hull::offsets::OffsetTable;
 use crate::spline::{BsplineSurface, KnotVector, basis_row, energy};
+use crate::units::counted;
 
 /// A reading nearer to the bottom than this part of the height of the hull, or to another datum of its station, says
 /// nothing new.
@@ -54,11 +55,12 @@ struct Reading {
 pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -> Result<Hull, FitError> {
     let (readings, beyond, bottom) = readings(table, &hull);
     if beyond > 0 {
-        notes.push(format!("{beyond} heights at buttocks lie where the surface does not reach and were not used"));
+        notes.push(format!("{} at buttocks not used: the surface does not reach there", counted(beyond, "height")));
     }
     if bottom > 0 {
         notes.push(format!(
-            "{bottom} heights at buttocks lie on the bottom or on a waterline with an offset, which rules"
+            "{} at buttocks not used: the bottom, or an offset on a waterline, rules there",
+            counted(bottom, "height")
         ));
     }
     if readings.is_empty() {
@@ -77,7 +79,10 @@ pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -
         .collect();
     let flat = FlatOfSide::new(table, &mut Vec::new()).map(|flat| flat.half);
     let Some(moves) = least_moves(&fine, &rows, flat) else {
-        notes.push(format!("the {} heights at buttocks cannot be followed between the waterlines", readings.len()));
+        notes.push(format!(
+            "the {} at buttocks cannot be followed between the waterlines",
+            counted(readings.len(), "height")
+        ));
         return Ok(hull);
     };
     let points = fine.points().iter().zip(&moves).map(|(&[x, y, z], d)| [x, y + d, z]).collect();
@@ -89,15 +94,15 @@ pub(super) fn follow(table: &OffsetTable, hull: Hull, notes: &mut Vec<String>) -
     let allowed = SWING * before[1];
     if missed > 10.0 * MET || after[0] < before[0] - allowed || after[1] > before[1] + allowed {
         notes.push(format!(
-            "the {} heights at buttocks contradict the offsets on waterlines, or ask for a section that swings: they are not followed (the \
+            "not followed: {} at buttocks: they contradict the offsets on waterlines, or ask for a section that swings (the \
              surface is up to {largest:.3} m away in half-breadth)",
-            readings.len()
+            counted(readings.len(), "height")
         ));
         return Ok(hull);
     }
     notes.push(format!(
-        "{} heights at buttocks are met; the surface through the offsets alone was up to {largest:.3} m away in half-breadth",
-        readings.len()
+        "met: {} at buttocks; the surface through the offsets alone was up to {largest:.3} m away in half-breadth",
+        counted(readings.len(), "height")
     ));
     Ok(Hull::new(hull.name(), *hull.particulars(), moved, hull.deck().clone())?)
 }

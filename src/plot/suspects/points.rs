@@ -5,6 +5,7 @@ use crate::fairing::{PointSuspect, PointSuspects};
 use crate::hull::OffsetTable;
 use crate::plot::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use crate::plot::{PlotError, Svg, caption};
+use crate::units::counted;
 
 /// Height over the plots \[mm\].
 const HEAD: f64 = 28.0;
@@ -33,12 +34,11 @@ fn compose(table: &OffsetTable, result: &PointSuspects) -> Result<Canvas, PlotEr
     canvas.text([0.5 * WIDTH, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let count = match result.suspects.len() {
         0 => "no suspects".to_owned(),
-        1 => "1 suspect".to_owned(),
-        n => format!("{n} suspects"),
+        n => counted(n, "suspect"),
     };
     let words = format!(
-        "{count} among {} points that their neighbours can judge    noise of the table {}",
-        result.judged,
+        "{count} among {} that their neighbours can judge    noise of the table {}",
+        counted(result.judged, "point"),
         length(result.noise)
     );
     canvas.text([0.5 * WIDTH, 15.0], &words, &TextStyle::new(2.8, Anchor::Middle));

@@ -56,7 +56,7 @@ fn frames_are_stated_or_found() {
     assert!(said.contains("lowest point is -1.000 m"), "{said}");
     // A mirrored frame is turned outward.
     let (found, said) = volume(&brick(|[x, y, z]| [x, -y, z]), "[table]\nscale = 2\n").unwrap();
-    assert!((found - 8.0 * 960.0).abs() < 1e-9 && said.contains("12 triangles are turned"), "{found} {said}");
+    assert!((found - 8.0 * 960.0).abs() < 1e-9 && said.contains("12 triangles turned"), "{found} {said}");
     let (_, said) = volume(&brick(|[x, y, z]| [x + 100.0, y, z]), "").unwrap();
     assert!(said.contains("taken as AP"), "{said}");
     let read = body(&brick(|[x, y, z]| [x + 100.0, y, z]), "[table]\nx_origin = -99\nz_origin = 0.5\n").unwrap();
@@ -91,7 +91,7 @@ fn an_open_body_is_told() {
     let text: String =
         brick(|p| p).lines().filter(|line| *line != "f 5 6 8 7").map(|line| format!("{line}\n")).collect();
     let read = body(&text, "").unwrap();
-    assert!(notes(&read.notes).contains("W351") && notes(&read.notes).contains("4 edges are open"), "{:?}", read.notes);
+    assert!(notes(&read.notes).contains("W351") && notes(&read.notes).contains("4 edges open"), "{:?}", read.notes);
     let table = read.table().unwrap().table;
     // The sections end at the edge.
     assert!(table.stations.iter().all(|station| (station.outlines[0][2].z - 4.0).abs() < 1e-12));

@@ -48,10 +48,7 @@ fn curves_at_one_x_are_sections() {
     curves.push((0..5).map(|i| wedge(4.0 * f64::from(i), 3.0 + 0.01 * f64::from(i))).collect());
     let read = read_table("a.igs", iges(&curves).as_bytes()).unwrap();
     let said = read.notes.iter().map(ToString::to_string).collect::<String>();
-    assert!(
-        said.contains("7 curves (IGES) without surfaces") && said.contains("1 curves that are no sections"),
-        "{said}"
-    );
+    assert!(said.contains("7 curves (IGES) without surfaces") && said.contains("left out: 1 curve,"), "{said}");
     assert_eq!(read.table.stations.len(), 5);
     for (i, station) in read.table.stations.iter().enumerate() {
         assert_eq!(station.outlines.len(), 1);
@@ -81,10 +78,7 @@ fn other_curves_are_refused_with_their_numbers() {
     let deck: Vec<[f64; 3]> = (0..6).map(|i| wedge(4.0 * f64::from(i), 3.0 + 0.1 * f64::from(i * i))).collect();
     let text = iges(&[deck]);
     let problems = read_table("a.igs", text.as_bytes()).unwrap_err();
-    assert!(
-        problems.iter().any(|p| p.code == "E328" && p.message.contains("of 1 curves 0 are at one x")),
-        "{problems:?}"
-    );
+    assert!(problems.iter().any(|p| p.code == "E328" && p.message.contains("1 curve: 0 at one x")), "{problems:?}");
     // A weight of zero names its entity.
     let faulty = text.replacen("1.,1.,1.,1.", "0.,1.,1.,1.", 1);
     assert_ne!(faulty, text);

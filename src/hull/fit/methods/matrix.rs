@@ -10,6 +10,7 @@ use crate::hull::form::{Hull, HullError};
 use crate::hull::offsets::{OffsetTable, StationOffsets};
 use crate::hull::particulars::PrincipalParticulars;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use crate::units::counted;
 
 /// Half-breadths at every station and waterline.
 pub(super) struct Matrix {
@@ -126,7 +127,8 @@ impl Matrix {
         let cut =
             table.stations.iter().filter(|s| s.deck_height.is_some_and(|z| z > top + 1e-9 * (top - bottom))).count();
         if cut > 0 {
-            self.notes.push(format!("the deck is cut at the highest waterline, {top} m, at {cut} stations"));
+            self.notes
+                .push(format!("the deck is cut at the highest waterline, {top} m, at {}", counted(cut, "station")));
         }
         if points.len() < 2 {
             points = vec![[self.xs[0], top], [self.xs[self.xs.len() - 1], top]];

@@ -12,6 +12,7 @@ use super::matrix::Matrix;
 use crate::hull::cell::Entry;
 use crate::hull::offsets::OffsetTable;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, Parametrization, SplineError};
+use crate::units::counted;
 
 /// Most parts in one direction; finer than this, a surface is no smaller in error.
 const MOST_PARTS: usize = 1000;
@@ -109,7 +110,8 @@ pub(super) fn surface(
         let (points, without_end) = waterline(table, matrix, j);
         open += without_end;
         if points.len() < 2 {
-            let message = format!("the waterline at {} m has {} points, its ends counted", matrix.zs[j], points.len());
+            let message =
+                format!("the waterline at {} m has {}, its ends counted", matrix.zs[j], counted(points.len(), "point"));
             few.add("kind", message, "Each waterline needs two: give its ends, or leave it out.");
             continue;
         }
