@@ -6,7 +6,7 @@ mod read;
 
 pub(in super::super) use read::{is_step, read_step};
 
-use super::{CadUnit, multiplicities, plain, real};
+use super::{CadUnit, multiplicities, real};
 use crate::hull::{Region, Solid};
 use crate::spline::{BsplineCurve, BsplineSurface};
 
@@ -76,10 +76,36 @@ fn colour(region: Region) -> [f64; 3] {
     }
 }
 
+/// A text as it stands between quotes: what is not printable ASCII as `\X2\`, four hexadecimal digits a character, or
+/// beyond 16 bits as `\X4\`, eight.
+fn encoded(text: &str) -> String {
+    let (mut written, mut open) = (String::new(), "");
+    for c in text.chars() {
+        let directive = match u32::from(c) {
+            0x20..=0x7e => "",
+            0..=0xffff => "\\X2\\",
+            _ => "\\X4\\",
+        };
+        if directive != open {
+            written.push_str(if open.is_empty() { "" } else { "\\X0\\" });
+            written.push_str(directive);
+            open = directive;
+        }
+        match (directive, c) {
+            ("", '\'' | '\\') => written.extend([c, c]),
+            ("", _) => written.push(c),
+            ("\\X2\\", _) => written.push_str(&format!("{:04X}", u32::from(c))),
+            _ => written.push_str(&format!("{:08X}", u32::from(c))),
+        }
+    }
+    written.push_str(if open.is_empty() { "" } else { "\\X0\\" });
+    written
+}
+
 /// Text of a STEP file of the solid.
 #[must_use]
 pub fn write_step(solid: &Solid, name: &str, unit: CadUnit) -> String {
-    let name = plain(name).replace('\'', "''").replace('\\', "\\\\");
+    let name = encoded(name);
     let mut data = Data { text: String::new(), last: 0, scale: unit.in_a_metre() };
     let context = data.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
     data.add(&format!("APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{context})"));

@@ -29,7 +29,10 @@ fn barge() -> Solid {
 fn a_step_file_refers_only_to_what_it_has() {
     let text = write_step(&barge(), "it's a barge\n", CadUnit::Millimetre);
     assert!(text.starts_with("ISO-10303-21;\n") && text.ends_with("END-ISO-10303-21;\n"));
-    assert!(text.contains("MANIFOLD_SOLID_BREP('it''s a barge_'") && text.contains("SI_UNIT(.MILLI.,.METRE.)"));
+    assert!(
+        text.contains("MANIFOLD_SOLID_BREP('it''s a barge\\X2\\000A\\X0\\'")
+            && text.contains("SI_UNIT(.MILLI.,.METRE.)")
+    );
     assert!(text.contains("60000.") && text.is_ascii());
     let mut defined = std::collections::BTreeSet::new();
     for line in text.lines().filter(|line| line.starts_with('#')) {
@@ -44,6 +47,12 @@ fn a_step_file_refers_only_to_what_it_has() {
     assert_eq!(text.matches("EDGE_CURVE").count(), 12);
     assert_eq!(text.matches("VERTEX_POINT").count(), 8);
     assert_eq!(text.matches("STYLED_ITEM").count(), 6);
+}
+
+#[test]
+fn a_step_file_names_its_hull_in_any_script() {
+    let text = write_step(&barge(), "Æ\\b 船船 🚢", CadUnit::Metre);
+    assert!(text.contains("FILE_NAME('\\X2\\00C6\\X0\\\\\\b \\X2\\82398239\\X0\\ \\X4\\0001F6A2\\X0\\',"), "{text}");
 }
 
 #[test]
