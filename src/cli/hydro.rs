@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
-use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection};
+use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
 use crate::report::{Failure, hydrostatics_page, read_floating_with};
 use crate::units::{Dimension, parse};
 
@@ -37,7 +37,7 @@ pub(super) struct Arguments {
     #[arg(long, value_enum, value_name = "SECTION")]
     section_for_cp: Option<SectionWord>,
     /// Height of the centre of gravity above the base line, for GM and MTC [default: of the hull]
-    #[arg(long, value_parser = length, value_name = "KG", allow_hyphen_values = true)]
+    #[arg(long, value_parser = height_of_gravity, value_name = "KG", allow_hyphen_values = true)]
     kg: Option<f64>,
     /// Where the LCB of the table is measured from [default: of the hull]
     #[arg(long, value_parser = lcb_reference, value_name = "AP|midship|FP|percent")]
@@ -69,10 +69,15 @@ fn density(text: &str) -> Result<f64, String> {
     if !matches!(measure.dimension, Dimension::None | Dimension::Density) {
         return Err(format!("{text} is {}, expected a density", measure.dimension.as_str()));
     }
-    if (0.9..=1.3).contains(&measure.value) {
+    if DENSITIES.contains(&measure.value) {
         return Ok(measure.value);
     }
     Err("expected 0.9 to 1.3 t/m3, or with its unit as 1025kg/m3".to_owned())
+}
+
+fn height_of_gravity(text: &str) -> Result<f64, String> {
+    let height = length(text)?;
+    if GRAVITY_HEIGHTS.contains(&height) { Ok(height) } else { Err("expected -1000 to 1000 m".to_owned()) }
 }
 
 fn lcb_reference(word: &str) -> Result<LcbReference, String> {

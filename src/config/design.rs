@@ -5,7 +5,10 @@ use super::document::{Document, Raw, nearest};
 use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
 use super::wishes::wishes;
-use crate::hydrostatics::{CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell};
+use crate::hydrostatics::{
+    CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection, SHELL_FACTORS,
+    SHELL_THICKNESSES, Shell,
+};
 use crate::parametric::{Family, Infeasible, analytic, ucl_cosh};
 
 /// Where stations are counted from in drawings.
@@ -276,8 +279,7 @@ fn conventions(document: &mut Document<'_>) -> Conventions {
     let mut conventions = Conventions::default();
     if let Some(density) = document.number("water.density") {
         conventions.density = density;
-        // Outside this band it is another unit, not another water: fresh 0.995, Dead Sea 1.24.
-        if !(0.9..=1.3).contains(&density) {
+        if !DENSITIES.contains(&density) {
             let span = document.entry("water.density").map_or(0..0, |e| e.span.clone());
             let help = if (900.0..=1300.0).contains(&density) {
                 "Write it in t/m3, or as \"1025 kg/m3\"."
@@ -298,6 +300,12 @@ fn conventions(document: &mut Document<'_>) -> Conventions {
         conventions.keel_thickness = thickness;
     }
     conventions.centre_of_gravity_height = document.number("weight.KG");
+    if let Some(height) = conventions.centre_of_gravity_height.filter(|height| !GRAVITY_HEIGHTS.contains(height)) {
+        let span = document.entry("weight.KG").map_or(0..0, |e| e.span.clone());
+        let message =
+            format!("weight.KG is {height} m, expected {} to {}", GRAVITY_HEIGHTS.start(), GRAVITY_HEIGHTS.end());
+        document.problem("E124", "weight.KG", &span, message, "Write it in metres, or with its unit.".into());
+    }
     if document.word("conventions.coefficient_length") == Some("Lwl") {
         conventions.coefficient_length = CoefficientLength::Waterline;
     }
@@ -328,8 +336,8 @@ fn shell(document: &mut Document<'_>) -> Option<Shell> {
     let [thickness] = document.fields(path, &of("thickness"), ["thickness"], Kind::Length)?;
     let [factor] = document.fields(path, &of("factor"), ["factor"], Kind::Number)?;
     match (thickness, factor) {
-        (Some(thickness), None) if (0.0..=1.0).contains(&thickness) => Some(Shell::Thickness(thickness)),
-        (None, Some(factor)) if (1.0..=1.1).contains(&factor) => Some(Shell::Factor(factor)),
+        (Some(thickness), None) if SHELL_THICKNESSES.contains(&thickness) => Some(Shell::Thickness(thickness)),
+        (None, Some(factor)) if SHELL_FACTORS.contains(&factor) => Some(Shell::Factor(factor)),
         (Some(_), Some(_)) => {
             document.problem(
                 "E126",

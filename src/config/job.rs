@@ -28,6 +28,7 @@ use super::value::Scalar;
 use crate::fairing::job::{Holding, Job};
 use crate::fairing::proposals::Accepted;
 use crate::hull::{OffsetTable, StatedParticulars};
+use crate::hydrostatics::DENSITIES;
 
 const HOLD: [&str; 2] = ["table", "free"];
 const AUTO: [&str; 1] = ["auto"];
@@ -309,7 +310,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
             draught: positive(document, "dimensions.T", "length"),
             depth: positive(document, "dimensions.D", "length"),
         },
-        density: positive(document, "water.density", "density"),
+        density: density(document),
         order: document.integer("energy.order").map(|order| order as usize),
         anisotropy: positive(document, "energy.anisotropy", "number"),
         weight: weight(document),
@@ -334,6 +335,18 @@ fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> 
     }
     let span = document.entry(path).map_or(0..0, |e| e.span.clone());
     document.problem("E124", path, &span, format!("{path} is {value}"), format!("Expected a positive {noun}."));
+    None
+}
+
+/// The density of a water.
+fn density(document: &mut Document<'_>) -> Option<f64> {
+    let value = document.number("water.density")?;
+    if DENSITIES.contains(&value) {
+        return Some(value);
+    }
+    let span = document.entry("water.density").map_or(0..0, |e| e.span.clone());
+    let help = format!("Expected {} to {} t/m3.", DENSITIES.start(), DENSITIES.end());
+    document.problem("E124", "water.density", &span, format!("water.density is {value} t/m3"), help);
     None
 }
 

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::fairing::{kind_word, status_word};
+use super::hull_json::json_message;
 use crate::fairing::job::Change;
 use crate::fairing::record::{Crossing, Doubt, TableLines};
 use crate::fairing::smoothing::Trial;
@@ -255,9 +256,8 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
 }
 
 fn json(error: &serde_json::Error, field: String) -> FairingFileError {
-    let message = error.to_string();
-    let message = message.split(" at line ").next().unwrap_or("");
-    FairingFileError::Json { line: error.line(), column: error.column(), message: format!("{field}{message}") }
+    let message = format!("{field}{}", json_message(error));
+    FairingFileError::Json { line: error.line(), column: error.column(), message }
 }
 
 /// The columns of `changes.csv` that are read.

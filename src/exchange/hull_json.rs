@@ -63,6 +63,9 @@ pub enum HullFileError {
         /// What is wrong.
         error: SplineError,
     },
+    /// Dimensions and conventions that no ship has, each with its member.
+    #[error("{}", .0.join("; "))]
+    Values(Vec<String>),
     /// Splines that make no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
@@ -182,11 +185,31 @@ fn json<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, HullFileError> {
     Ok(value)
 }
 
+/// What is wrong with a text that is no JSON, without the position, which stands before the message already.
+pub fn json_message(error: &serde_json::Error) -> String {
+    if error.is_eof() {
+        return "the file ends before its value is complete, as if it were cut off".to_owned();
+    }
+    error.to_string().split(" at line ").next().unwrap_or("").to_owned()
+}
+
 fn json_error(error: &serde_json::Error, field: String) -> HullFileError {
-    let message = error.to_string();
-    // The position stands before the message already.
-    let message = message.split(" at line ").next().unwrap_or("").to_owned();
-    HullFileError::Json { line: error.line(), column: error.column(), field, message }
+    HullFileError::Json { line: error.line(), column: error.column(), field, message: json_message(error) }
+}
+
+/// Main dimensions and conventions that no ship has.
+fn faults(p: &PrincipalParticulars, conventions: &Conventions) -> Vec<String> {
+    let dimensions =
+        [("Lpp", p.length_between_perpendiculars), ("B", p.breadth), ("T", p.draught), ("D", p.depth)].into_iter();
+    let mut list: Vec<String> = dimensions
+        .filter(|(_, value)| *value <= 0.0)
+        .map(|(key, value)| format!("particulars.{key} is {value} m, expected more than 0"))
+        .collect();
+    if list.is_empty() && p.draught_exceeds_depth() {
+        list.push(format!("particulars.T is {} m, expected at most particulars.D, {} m", p.draught, p.depth));
+    }
+    list.extend(conventions.faults().into_iter().map(|fault| format!("conventions.{fault}")));
+    list
 }
 
 fn size(field: &str, found: usize, expected: usize) -> Result<(), HullFileError> {
@@ -220,6 +243,12 @@ pub fn read_hull(text: &str) -> Result<HullFile, HullFileError> {
         return Err(HullFileError::Version(head.version));
     }
     let record: Record = json(text)?;
+    let particulars = PrincipalParticulars::from(&record.particulars);
+    let conventions: Conventions = record.conventions.into();
+    let faults = faults(&particulars, &conventions);
+    if !faults.is_empty() {
+        return Err(HullFileError::Values(faults));
+    }
     let [degree_u, degree_v] = record.surface.degree;
     let [knots_u, knots_v] = record.surface.knots;
     let u = knots("surface.knots[0]", degree_u, knots_u)?;
@@ -241,8 +270,8 @@ pub fn read_hull(text: &str) -> Result<HullFile, HullFileError> {
     size("deck.z", record.deck.z.len(), deck_knots.basis_count())?;
     let points = record.deck.x.iter().zip(&record.deck.z).map(|(x, z)| [*x, *z]).collect();
     let deck = BsplineCurve::new(deck_knots, points).map_err(|error| HullFileError::Spline { field: "deck", error })?;
-    let hull = Hull::new(&record.name, PrincipalParticulars::from(&record.particulars), surface, deck)?;
-    Ok(HullFile { hull, conventions: record.conventions.into() })
+    let hull = Hull::new(&record.name, particulars, surface, deck)?;
+    Ok(HullFile { hull, conventions })
 }
 
 #[cfg(test)]
@@ -266,8 +295,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn read_back_bit_for_bit(net in proptest::collection::vec(-1.0f64..10.0, 25), width in 1e-3f64..1e3) {
-            let conventions = Conventions { density: width, ..Conventions::default() };
+        fn read_back_bit_for_bit(
+            net in proptest::collection::vec(-1.0f64..10.0, 25),
+            width in 1e-3f64..1e3,
+            density in 0.9f64..1.3,
+        ) {
+            let conventions = Conventions { density, ..Conventions::default() };
             let written = hull(&net, width);
             let text = write_hull(&written, &conventions).unwrap();
             let read = read_hull(&text).unwrap();
@@ -291,7 +324,7 @@ mod tests {
     fn every_message() {
         let message = |text: &str| read_hull(text).unwrap_err().to_string();
         let sample = sample();
-        assert_eq!(message("{"), "line 1, column 1: EOF while parsing an object");
+        assert_eq!(message("{"), "line 1, column 1: the file ends before its value is complete, as if it were cut off");
         assert_eq!(
             message(&sample.replace("loftsman-hull", "other")),
             "format is \"other\", expected \"loftsman-hull\""
@@ -309,7 +342,24 @@ mod tests {
             message(&sample.replace("\"degree\": [3,2]", "\"degree\": [9,2]"))
                 .starts_with("surface.knots[0]: degree 9")
         );
-        assert!(message(&sample.replace("\"D\":6.0", "\"D\":-6.0")).starts_with("D is -6 m"));
+        let sunk = sample.replace("\"D\":6.0", "\"D\":2.5").replace("\"density\":1.025", "\"density\":0.0");
+        assert_eq!(
+            message(&sunk.replace("\"KG\":null", "\"KG\":1e300")),
+            format!(
+                "particulars.T is 3 m, expected at most particulars.D, 2.5 m; conventions.density is 0 t/m3, expected 0.9 to 1.3; \
+                 conventions.KG is {} m, expected -1000 to 1000",
+                1e300
+            )
+        );
+        let negative = sample.replace("\"D\":6.0", "\"D\":-6.0").replace("\"T\":3.0", "\"T\":0.0");
+        assert_eq!(
+            message(&negative),
+            "particulars.T is 0 m, expected more than 0; particulars.D is -6 m, expected more than 0"
+        );
+        for (shell, expected) in [("factor\":0.5", "1 to 1.1"), ("thickness\":-1.0", "0 to 1")] {
+            let said = message(&sample.replace("\"shell\":null", &format!("\"shell\":{{\"{shell}}}")));
+            assert!(said.starts_with("conventions.shell") && said.ends_with(expected), "{said}");
+        }
         assert!(message(&sample.replace("\"name\"", "\"nome\"")).contains("missing field `name`"));
         let long: Vec<String> = (0..5000).map(|k| k.to_string()).collect();
         let many = sample.replacen("\"knots\": [[", &format!("\"knots\": [[{},", long.join(",")), 1);

@@ -26,7 +26,7 @@ pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
 pub use fairing::{NO_MOVE, RoundingEffect, changes_csv, fairing_json, priced, reached, status_word};
 pub use fairing_read::{FairingFile, FairingFileError, read_changes, read_fairing};
 pub use hgf::{HgfError, HgfShip, read_hgf};
-pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, read_hull, write_hull};
+pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, json_message, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
 pub use manifest::{Manifest, ManifestEntry, read_manifest_input, read_manifest_outputs, sha256};
 pub use mesh::{write_gdf, write_glb, write_nemoh, write_obj, write_pnl, write_stl, write_stl_ascii};

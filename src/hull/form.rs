@@ -37,6 +37,17 @@ pub enum HullError {
         /// Its value \[m\].
         value: f64,
     },
+    /// The design draught is above the depth.
+    #[error(
+        "the design draught of {draught:.3} m lies above the depth of {depth:.3} m: state one within it (--draught, T under \
+         [dimensions]), or the depth that the ship has"
+    )]
+    Draught {
+        /// T \[m\].
+        draught: f64,
+        /// D \[m\].
+        depth: f64,
+    },
     /// The heights of the net do not rise from bottom to top.
     #[error("heights of the net, row {row}, column {column}: {problem}")]
     Heights {
@@ -135,10 +146,9 @@ impl Hull {
     /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, a point lies a hundred times the largest dimension from the
-    /// origin along x or z, a control half-breadth outside -B to 10 B, z does not rise
-    /// with v or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the
-    /// surface.
+    /// [`HullError`] when a dimension is not positive, T lies above D, a point a hundred times the largest dimension
+    /// from the origin along x or z, a control half-breadth outside -B to 10 B, z does not rise with v or x with u, the
+    /// chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
     pub fn new(
         name: &str,
         particulars: PrincipalParticulars,
@@ -152,6 +162,9 @@ impl Hull {
             if !(value.is_finite() && value > 0.0) {
                 return Err(HullError::Dimension { name: label, value });
             }
+        }
+        if p.draught_exceeds_depth() {
+            return Err(HullError::Draught { draught: p.draught, depth: p.depth });
         }
         let [rows, columns] = surface.shape();
         let (mut level, mut upright) = (true, true);

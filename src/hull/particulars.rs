@@ -13,3 +13,12 @@ pub struct PrincipalParticulars {
     /// D, depth to the deck at side amidships \[m\]
     pub depth: f64,
 }
+
+impl PrincipalParticulars {
+    /// Whether the design draught is above the depth, by more than a hundredth: the upper edge of a table that ends at
+    /// the design waterline may be as far from it.
+    #[must_use]
+    pub fn draught_exceeds_depth(&self) -> bool {
+        self.draught > 1.01 * self.depth
+    }
+}

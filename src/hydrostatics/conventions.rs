@@ -1,5 +1,7 @@
 //! Conventions of a hydrostatic table: what is switchable, and is printed with every result.
 
+use std::ops::RangeInclusive;
+
 use crate::hull::StatedParticulars;
 
 /// Length that coefficients are referred to.
@@ -88,6 +90,18 @@ pub enum Shell {
     Thickness(f64),
 }
 
+/// Densities of water \[t/m^3\]. Outside this band it is another unit, not another water: fresh 0.995, Dead Sea 1.24.
+pub const DENSITIES: RangeInclusive<f64> = 0.9..=1.3;
+
+/// Heights of centres of gravity above the base line \[m\]. Outside this band it is another unit.
+pub const GRAVITY_HEIGHTS: RangeInclusive<f64> = -1e3..=1e3;
+
+/// Mean thicknesses of the shell \[m\].
+pub const SHELL_THICKNESSES: RangeInclusive<f64> = 0.0..=1.0;
+
+/// Extreme volumes over moulded ones.
+pub const SHELL_FACTORS: RangeInclusive<f64> = 1.0..=1.1;
+
 /// What the coefficients and masses of a table are referred to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conventions {
@@ -174,6 +188,27 @@ pub struct Statement {
 }
 
 impl Conventions {
+    /// Values that no ship and no water have, each with its name in files, what it is and what it may be.
+    #[must_use]
+    pub fn faults(&self) -> Vec<String> {
+        let (factor, thickness) = match self.shell {
+            Shell::None => (None, None),
+            Shell::Factor(factor) => (Some(factor), None),
+            Shell::Thickness(thickness) => (None, Some(thickness)),
+        };
+        let values = [
+            ("density", Some(self.density), " t/m3", DENSITIES),
+            ("KG", self.centre_of_gravity_height, " m", GRAVITY_HEIGHTS),
+            ("shell.factor", factor, "", SHELL_FACTORS),
+            ("shell.thickness", thickness, " m", SHELL_THICKNESSES),
+        ];
+        let fault = |(name, value, unit, range): (&str, Option<f64>, &str, RangeInclusive<f64>)| {
+            let value = value.filter(|value| !range.contains(value))?;
+            Some(format!("{name} is {value}{unit}, expected {} to {}", range.start(), range.end()))
+        };
+        values.into_iter().filter_map(fault).collect()
+    }
+
     /// ` (assumed)` where the design draught is, for what follows the draught in a line of text.
     #[must_use]
     pub fn draught_mark(&self) -> &'static str {

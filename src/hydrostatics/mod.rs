@@ -16,7 +16,8 @@ mod volume;
 mod waterplane;
 
 pub use conventions::{
-    Assumed, CoefficientLength, Conventions, LcbReference, PrismaticSection, Shell, Statement, assumed_mark,
+    Assumed, CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection, SHELL_FACTORS,
+    SHELL_THICKNESSES, Shell, Statement, assumed_mark,
 };
 pub use draughts::default_draughts;
 pub use quantity::{QUANTITIES, Quantity};

@@ -21,7 +21,7 @@ use crate::exchange::{
 };
 use crate::fairing::{Suspects, suspects};
 use crate::hull::{
-    Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
+    Chart, FitError, FitMethod, Fitted, Hull, HullError, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
 };
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
@@ -158,7 +158,11 @@ fn refusal(job: &FitJob, error: FitError) -> Failure {
         FitError::Settings(problems) => job.method.diagnose(&problems.0, &file.display().to_string()),
         FitError::Hull(error) => {
             let message = format!("the {} surface over this table is no hull: {error}", job.method.method.as_str());
-            vec![problem("E163", file, message, "Another method, or other settings of it, may do".to_owned())]
+            let help = match error {
+                HullError::Draught { .. } => "",
+                _ => "Another method, or other settings of it, may do",
+            };
+            vec![problem("E163", file, message, help)]
         }
         other => vec![problem("E162", file, other.to_string(), String::new())],
     };

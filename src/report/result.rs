@@ -7,9 +7,9 @@ use serde_json::Value;
 
 use super::failure::{Failure, problem};
 use super::generate::manifest_entry;
-use super::source::{read_bytes, utf8};
+use super::source::{AGAIN, hull_faults, read_bytes, utf8};
 use crate::exchange::{
-    FairingFile, HullFile, ManifestEntry, read_changes, read_fairing, read_hull, read_manifest_input,
+    FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
     read_manifest_outputs,
 };
 use crate::fairing::record::{Doubt, FairRecord};
@@ -89,15 +89,18 @@ impl Reader {
 }
 
 fn hull_of(path: &Path, text: &str) -> Result<HullFile, Failure> {
-    read_hull(text).map_err(|error| unread(path, &error.to_string()))
+    read_hull(text).map_err(|error| Failure::Input(hull_faults("E182", path, &error)))
 }
 
 fn unread(path: &Path, message: &str) -> Failure {
-    Failure::Input(vec![problem("E182", path, message.to_owned(), "Run the command that wrote it again")])
+    Failure::Input(vec![problem("E182", path, message.to_owned(), AGAIN)])
 }
 
 fn json(path: &Path, text: &str) -> Result<Value, Failure> {
-    serde_json::from_str(text).map_err(|error| unread(path, &error.to_string()))
+    serde_json::from_str(text).map_err(|error| {
+        let place = format!("line {}, column {}", error.line(), error.column());
+        unread(path, &format!("{place}: {}", json_message(&error)))
+    })
 }
 
 /// Reads a result.

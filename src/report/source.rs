@@ -161,10 +161,26 @@ pub(super) fn source_of(file: &Path, bytes: Vec<u8>, said: &Said) -> Result<Sour
     match exchange::read_hull(&text) {
         Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions, notes: Vec::new() }),
         Err(HullFileError::Json { line, column, field, message }) => {
-            Err(Failure::Input(vec![diagnostic("E140", file, Some(line), Some(column), format!("{field}{message}"))]))
+            let found = diagnostic("E140", file, Some(line), Some(column), format!("{field}{message}"));
+            Err(Failure::Input(vec![Diagnostic { help: AGAIN.to_owned(), ..found }]))
         }
-        Err(error) => Err(Failure::Input(vec![diagnostic("E141", file, None, None, error.to_string())])),
+        Err(error) => Err(Failure::Input(hull_faults("E141", file, &error))),
     }
+}
+
+/// What helps where a file of this program is damaged.
+pub(super) const AGAIN: &str = "Run the command that wrote it again";
+
+/// What is wrong with a hull file, each fault for itself.
+pub(super) fn hull_faults(code: &'static str, file: &Path, error: &HullFileError) -> Vec<Diagnostic> {
+    let (faults, help) = match error {
+        HullFileError::Values(faults) => {
+            (faults.clone(), "Correct it in the file, or run the command that wrote it again")
+        }
+        HullFileError::Version(_) => (vec![error.to_string()], ""),
+        error => (vec![error.to_string()], AGAIN),
+    };
+    faults.into_iter().map(|fault| problem(code, file, fault, help)).collect()
 }
 
 /// Conventions of a table or a body that stand over those of the TOML beside it: a value for each key of its `[table]`.
