@@ -178,6 +178,7 @@ fn what_cannot_be_meant_is_refused() {
         (["-f", "step,obj,step", "--datum", "0"], "--format names step twice"),
         (["-f", "step", "--datum", "1e300"], "expected at most 1000 m from the base line"),
         (["-f", "dxf", "--deviation", "1e-9"], "a millionth of the breadth"),
+        (["-f", "stl", "--deviation", "1e9"], "a tenth of the lesser of breadth and depth"),
     ] {
         let refused = program(&[&["export", hull.as_str()], &arguments[..]].concat());
         assert_eq!(refused.status.code(), Some(2), "{arguments:?}");

@@ -28,8 +28,8 @@ pub(super) struct Arguments {
     /// Version of DXF files: r12 or r2000
     #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
     dxf: DxfVersion,
-    /// What meshes, polylines and sections leave the surface by at most, no less than a millionth of the breadth;
-    /// without it a thousandth of it
+    /// What meshes, polylines and sections leave the surface by at most, no less than a millionth of the breadth and
+    /// no more than a tenth of the lesser of breadth and depth; without it a thousandth of the breadth
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     deviation: Option<f64>,
     /// Edges of a mesh across deck, bottom and transom, about

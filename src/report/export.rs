@@ -223,6 +223,9 @@ const DEVIATION: f64 = 1e-3;
 /// The least deviation over the breadth.
 const LEAST_DEVIATION: f64 = 1e-6;
 
+/// The greatest deviation over the lesser of breadth and depth: beyond it faces are left out, and at last all of them.
+const MOST_DEVIATION: f64 = 0.1;
+
 /// The farthest that z = 0 of the files may be from the base line, over the depth.
 const FARTHEST_DATUM: f64 = 100.0;
 
@@ -365,6 +368,14 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
             "--deviation {deviation} m: expected at least {least:.1e} m, a millionth of the breadth; step and iges have the surface itself"
         )));
     }
+    // What is printed is taken.
+    let most = (1e4 * MOST_DEVIATION * breadth.min(depth)).floor() / 1e4;
+    if let Some(deviation) = settings.deviation.filter(|deviation| *deviation > most) {
+        return Err(Failure::Usage(format!(
+            "--deviation {deviation} m: expected at most {most} m, a tenth of the lesser of breadth and depth; a coarser mesh is no \
+             longer this hull"
+        )));
+    }
     let most = FARTHEST_DATUM * depth;
     if settings.datum.is_nan() || settings.datum.abs() > most {
         return Err(Failure::Usage(format!(
@@ -379,8 +390,8 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 ///
 /// # Errors
 /// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the
-/// draught, a format is named twice, the deviation is less than a millionth of the breadth or asks for too many
-/// triangles, or the datum is a hundred depths away.
+/// draught, a format is named twice, the deviation is less than a millionth of the breadth, more than a tenth of the
+/// lesser of breadth and depth or asks for too many triangles, or the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,
     name: &str,
