@@ -192,11 +192,63 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected start.json"]);
     copy("start.json");
     let changes = fs::read_to_string(fair.join("changes.csv")).unwrap();
-    fs::write(path.join("changes.csv"), changes.replacen("-50", "fifty", 1)).unwrap();
-    refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv", "line 2, column"]);
+    let cut: String = changes.split_inclusive('\n').take(3).collect();
+    let rows = changes.lines().count() - 1;
+    let ends = format!("line 4: the file ends after 2 offsets, expected the {rows} of fairing.json");
+    let far = changes.lines().nth(5).unwrap().replacen(",0.", ",1000000.", 1);
+    for (text, part) in [
+        (changes.replacen("-50", "fifty", 1), "line 2, column"),
+        (cut, &ends),
+        (changes.replacen(changes.lines().nth(5).unwrap(), &far, 1), "line 6, column"),
+    ] {
+        fs::write(path.join("changes.csv"), text).unwrap();
+        refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv", part, "Run the command that wrote it again"]);
+    }
     copy("changes.csv");
+    let start = fs::read_to_string(fair.join("start.json")).unwrap();
+    fs::write(path.join("start.json"), start.replace("\"Lpp\":100.0", "\"Lpp\":90.0")).unwrap();
+    let other = "another ship: found Lpp 90 m where hull.json has 100 m";
+    refused(&[path.to_str().unwrap()], 3, &["E182", "start.json", other]);
+    copy("start.json");
+    for (lines, part) in [
+        ("buttock 99", "'buttock 99' does not cut the hull"),
+        ("station 5, diagonal 99", "'diagonal 99' does not cut the hull"),
+        (" , ", "expected lines, as \"station 5, waterline 2.0\""),
+    ] {
+        refused(&[path.to_str().unwrap(), "--combs", lines], 2, &["--combs", part]);
+    }
     refused(&[path.to_str().unwrap(), "-o", path.to_str().unwrap()], 2, &["a folder of its own"]);
-    refused(&[path.to_str().unwrap(), "--dpi", "5000"], 2, &["20 to 1200"]);
+    refused(&[path.to_str().unwrap(), "--dpi", "5000"], 2, &["20 to 600"]);
+}
+
+#[test]
+fn what_is_missing_from_a_result_is_told() {
+    let notes = |of: &Path, gone: &[&str]| {
+        let path = folder("missing");
+        for entry in fs::read_dir(of).unwrap().map(|entry| entry.unwrap()).filter(|entry| entry.path().is_file()) {
+            if gone.iter().all(|name| entry.file_name() != *name) {
+                fs::copy(entry.path(), path.join(entry.file_name())).unwrap();
+            }
+        }
+        read_result(&path).unwrap().notes
+    };
+    let (fair, _) = faired();
+    let design = generated("missing-of");
+    for (of, gone, parts) in [
+        (fair.as_path(), &["summary.json"][..], &[][..]),
+        (fair, &["fairing.json"], &["fairing.json is missing: the report has nothing of the fairing"]),
+        (
+            fair,
+            &["fairing.json", "manifest.json"],
+            &["manifest.json is missing: the report does not name", "fairing.json is"],
+        ),
+        (&design, &["summary.json"], &["summary.json is missing: the report has no targets"]),
+        (&design, &["hydrostatics.csv"], &["hydrostatics.csv is missing: the report has the usual draughts"]),
+    ] {
+        let notes = notes(of, gone);
+        assert_eq!(notes.len(), parts.len(), "{gone:?}: {notes:?}");
+        assert!(parts.iter().zip(&notes).all(|(part, note)| note.contains(part)), "{gone:?}: {notes:?}");
+    }
 }
 
 #[test]

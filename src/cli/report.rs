@@ -17,7 +17,8 @@ pub(super) struct Arguments {
     /// Folder for the report [default: `report` in the folder of the result, else out/<name of the file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Resolution of the pictures, dots per inch; 300 for print
+    /// Resolution of the pictures, 20 to 600 dots per inch; 300 for print. Memory grows with its square: about 1 GB at
+    /// 600; what is to be larger is drawn from the SVG
     #[arg(long, value_parser = dpi, value_name = "DPI", default_value = "150")]
     dpi: f64,
     /// Sheets of report.pdf: A3, or A1 with larger drawings and the charts four to a sheet
@@ -25,8 +26,8 @@ pub(super) struct Arguments {
     sheet: Sheet,
     /// Lines of a faired table that bear combs, by kind and name or distance in metres: "station 5, waterline 2.0,
     /// buttock 1.5, diagonal 3"
-    #[arg(long, value_name = "LINES", default_value = "", hide_default_value = true)]
-    combs: String,
+    #[arg(long, value_parser = combs, value_name = "LINES")]
+    combs: Option<String>,
     /// Date for the title blocks, as it is to stand there; without it they have none, so that the same result gives the
     /// same bytes
     #[arg(long, value_parser = date, value_name = "TEXT")]
@@ -49,11 +50,24 @@ after with combs (one scale for each kind of line), moves against the assumed no
 Tables: offsets, heights and diagonals in metres, millimetres and feet-inches-eighths; hydrostatics as CSV, JSON and XLSX with its \
 conventions; Bonjean areas; changes.";
 
+/// Resolution at which the pictures of a report take about 1 GB of memory [dots per inch].
+const MOST_DPI: f64 = 600.0;
+
 fn dpi(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if (20.0..=1200.0).contains(&value) => Ok(value),
-        _ => Err("expected 20 to 1200 dots per inch".to_owned()),
+        Ok(value) if (20.0..=MOST_DPI).contains(&value) => Ok(value),
+        Ok(value) if value > MOST_DPI => {
+            Err(format!("expected 20 to {MOST_DPI} dots per inch, which takes 1 GB; draw larger pictures from the SVG"))
+        }
+        _ => Err(format!("expected 20 to {MOST_DPI} dots per inch")),
     }
+}
+
+fn combs(text: &str) -> Result<String, String> {
+    if text.split(',').all(|word| word.trim().is_empty()) {
+        return Err("expected lines, as \"station 5, waterline 2.0\"; without --combs some of all bear them".to_owned());
+    }
+    Ok(text.to_owned())
 }
 
 fn sheet(text: &str) -> Result<Sheet, String> {
@@ -83,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let settings = ReportSettings {
         dots_per_inch: arguments.dpi,
         sheet: arguments.sheet,
-        combs: arguments.combs.clone(),
+        combs: arguments.combs.clone().unwrap_or_default(),
         date: arguments.date.clone(),
     };
     let files = report_outputs(&result, &settings)?;

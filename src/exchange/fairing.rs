@@ -266,7 +266,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
         "lines": outcome.proposals.iter().map(proposed).collect::<Vec<_>>(),
         "infeasible": diagnosis(outcome),
-        "moves": { "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)) },
+        "moves": { "offsets": outcome.changes.len(), "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)) },
         "tolerance": {
             "least": json_number(range.map(|r| r[0])), "largest": json_number(range.map(|r| r[1])),
             "reached": reached(outcome).count(),

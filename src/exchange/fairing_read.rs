@@ -11,7 +11,7 @@ use crate::fairing::smoothing::Trial;
 use crate::fairing::surface::Origin;
 use crate::hull::{LineKind, OffsetStation};
 use crate::qp::{Progress, Status};
-use crate::units::Notation;
+use crate::units::{Notation, counted};
 
 /// Why a text is no file of `fair`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -35,6 +35,16 @@ pub enum FairingFileError {
         found: String,
         /// What may.
         expected: String,
+    },
+    /// Another number of offsets than the fairing moved.
+    #[error("line {line}: the file ends after {found}, expected the {expected} of fairing.json")]
+    Rows {
+        /// The line after the last, from 1.
+        line: usize,
+        /// Offsets that are there, in words.
+        found: String,
+        /// How many there should be.
+        expected: usize,
     },
     /// Not the columns of `changes.csv`.
     #[error("line 1: found no column \"{0}\"")]
@@ -68,6 +78,8 @@ pub struct FairingFile {
     pub energy: [f64; 2],
     /// Noise of an offset \[m\].
     pub sigma: f64,
+    /// Rows of `changes.csv`, where it is known.
+    pub offsets: Option<usize>,
     /// Effective degrees of freedom.
     pub edf: f64,
     /// The net at the weight that was taken.
@@ -86,12 +98,19 @@ struct Record {
     status: String,
     table: LinesRecord,
     noise: Noise,
+    #[serde(default)]
+    moves: Moves,
     smoothing: Smoothing,
     energy: Energy,
     #[serde(default)]
     convergence: Vec<Iterate>,
     #[serde(default)]
     suspects: Vec<SuspectRecord>,
+}
+
+#[derive(Deserialize, Default)]
+struct Moves {
+    offsets: Option<usize>,
 }
 
 #[derive(Deserialize)]
@@ -227,6 +246,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
             crossings,
         },
         sigma: record.noise.sigma,
+        offsets: record.moves.offsets,
         edf: smoothing.edf,
         chosen: Trial {
             lambda: smoothing.weight,
@@ -264,11 +284,18 @@ fn json(error: &serde_json::Error, field: String) -> FairingFileError {
 const COLUMNS: [&str; 9] =
     ["waterline", "x [m]", "z [m]", "before [m]", "after [m]", "tolerance [m]", "locked", "suspect", "station"];
 
-/// Reads `changes.csv`; stations and waterlines are found among those of the table by their places.
+/// No offset is farther from the centreplane, no place farther from the origin \[m\].
+const FARTHEST: f64 = 1e5;
+
+/// No offset moves farther \[m\].
+const FARTHEST_MOVE: f64 = 1e3;
+
+/// Reads `changes.csv`; stations and waterlines are found among those of the table by their places. `offsets` is how
+/// many rows it should have, where that is known.
 ///
 /// # Errors
 /// [`FairingFileError`] with line and column.
-pub fn read_changes(text: &str, lines: &TableLines) -> Result<Vec<Change>, FairingFileError> {
+pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> Result<Vec<Change>, FairingFileError> {
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
     let heads = reader.headers().cloned().unwrap_or_default();
     let mut at = [0; COLUMNS.len()];
@@ -287,8 +314,9 @@ pub fn read_changes(text: &str, lines: &TableLines) -> Result<Vec<Change>, Fairi
         };
         let field = |column: usize| record.get(at[column]).unwrap_or_default();
         let number = |column: usize| {
-            let value = field(column).parse::<f64>().ok().filter(|value| value.is_finite());
-            value.ok_or_else(|| wrong(column, "a number"))
+            let value = field(column).parse::<f64>().map_err(|_| wrong(column, "a number"))?;
+            // Not a number is neither.
+            if value.abs() <= FARTHEST { Ok(value) } else { Err(wrong(column, "a number of at most 100000 m")) }
         };
         let x = number(1)?;
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
@@ -310,19 +338,27 @@ pub fn read_changes(text: &str, lines: &TableLines) -> Result<Vec<Change>, Fairi
                 Origin::HalfBreadth { station, waterline }
             }
         };
+        let [before, after] = [number(3)?, number(4)?];
+        if (after - before).abs() > FARTHEST_MOVE {
+            return Err(wrong(4, "an offset that moves by at most 1000 m"));
+        }
         changes.push(Change {
             station,
             origin,
             x,
             z: number(2)?,
-            before: number(3)?,
-            after: number(4)?,
+            before,
+            after,
             tolerance: if field(5).is_empty() { None } else { Some(number(5)?) },
             suspect: field(7) == "yes",
             locked: field(6) == "yes",
         });
     }
-    Ok(changes)
+    let found = changes.len();
+    match offsets.unwrap_or(found.max(1)) {
+        expected if expected == found => Ok(changes),
+        expected => Err(FairingFileError::Rows { line: found + 2, found: counted(found, "offset"), expected }),
+    }
 }
 
 #[cfg(test)]
@@ -347,7 +383,7 @@ mod tests {
         let text = format!(
             "{HEAD}\n1,1.25,5,1.25,2,2.001,0.001,0.002,0.5,yes,\n1,deck,5,3,2.5,2.4,-0.1,,,,yes\n1,point 2.7,5,3,2,2,0,,,,\n"
         );
-        let changes = read_changes(&text, &lines()).unwrap();
+        let changes = read_changes(&text, &lines(), None).unwrap();
         let waterline = Some(1);
         assert_eq!(
             (changes[0].origin.waterline(), changes[0].tolerance, changes[0].locked),
@@ -356,12 +392,12 @@ mod tests {
         let deck = Origin::Deck { station: 0 };
         assert_eq!((changes[1].origin, changes[1].tolerance, changes[1].suspect), (deck, None, true));
         assert_eq!(changes[2].origin, Origin::Point { station: 0, outline: 1, point: 6 });
-        assert!(read_changes(&text.replace("2.7", "0.7"), &lines()).is_err());
+        assert!(read_changes(&text.replace("2.7", "0.7"), &lines(), None).is_err());
     }
 
     #[test]
     fn every_fault_has_its_place() {
-        let message = |text: &str| read_changes(text, &lines()).unwrap_err().to_string();
+        let message = |text: &str| read_changes(text, &lines(), Some(2)).unwrap_err().to_string();
         assert_eq!(message("station,x\n"), "line 1: found no column \"waterline\"");
         assert_eq!(
             message(&format!("{HEAD}\n1,0.6,5,0.6,2,2,0,,,,\n")),
@@ -371,6 +407,18 @@ mod tests {
             message(&format!("{HEAD}\n1,0.5,5,0.5,two,2,0,,,,\n")),
             "line 2, column \"before [m]\": found \"two\", expected a number"
         );
+        let row = |after: &str| format!("{HEAD}\n1,0.5,5,0.5,2,{after},0,,,,\n");
+        assert_eq!(message(&row("2")), "line 3: the file ends after 1 offset, expected the 2 of fairing.json");
+        for (after, expected) in [
+            ("nan", "a number of at most 100000 m"),
+            ("-inf", "a number of at most 100000 m"),
+            ("1e300", "a number of at most 100000 m"),
+            ("1002.1", "an offset that moves by at most 1000 m"),
+        ] {
+            let said = format!("line 2, column \"after [m]\": found \"{after}\", expected {expected}");
+            assert_eq!(message(&row(after)), said);
+        }
+        assert!(read_changes(&format!("{HEAD}\n"), &lines(), None).is_err());
         let head = read_fairing("{\"name\": 1}").unwrap_err().to_string();
         assert_eq!(head, "line 1, column 10: name: invalid type: integer `1`, expected a string");
     }

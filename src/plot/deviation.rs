@@ -27,7 +27,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
     let moves: Vec<f64> = kept.map(|change| 1e3 * (change.after - change.before)).collect();
     let (rms, largest, _) = record.moves();
     let range = (1e3 * largest).max(3.0 * 1e3 * record.sigma);
-    if moves.is_empty() || largest <= 0.0 || largest > 1e6 {
+    if moves.is_empty() || largest <= 0.0 {
         return Ok(None);
     }
     let step = nice_step(2.0 * range, BINS);

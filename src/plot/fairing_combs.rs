@@ -48,6 +48,21 @@ pub enum CombLine {
     Diagonal(f64),
 }
 
+impl CombLine {
+    /// The plane of the line.
+    #[must_use]
+    pub fn cut(self, record: &FairRecord) -> Cut {
+        match self {
+            Self::Station(k) => super::fairing::station_cut(record, record.lines.stations[k].x),
+            Self::Waterline(k) => Cut::Waterline { z: record.lines.waterlines[k] },
+            Self::Buttock(y) => Cut::Buttock { y },
+            Self::Diagonal(height) => {
+                Cut::Diagonal { height, angle: Planes::with_defaults(&record.after).diagonal_angle }
+            }
+        }
+    }
+}
+
 /// Evenly `most` of `count` lines, without the first and the last where there are more.
 pub(super) fn some(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
@@ -78,20 +93,13 @@ impl FairingCombs {
         let angle = planes.diagonal_angle;
         let mut buttocks: Vec<Cut> = planes.buttocks.iter().map(|&y| Cut::Buttock { y }).collect();
         let mut diagonals: Vec<Cut> = planes.diagonals.iter().map(|&height| Cut::Diagonal { height, angle }).collect();
-        let station = |k: usize| super::fairing::station_cut(record, record.lines.stations[k].x);
-        let waterline = |k: usize| Cut::Waterline { z: record.lines.waterlines[k] };
         let shown: Vec<Cut> = if chosen.is_empty() {
-            let stations = some(record.lines.stations.len(), MOST[0]).into_iter().map(station);
-            let waterlines = some(record.lines.waterlines.len(), MOST[1]).into_iter().map(waterline);
-            stations.chain(waterlines).chain(buttocks.iter().copied()).chain(diagonals.iter().copied()).collect()
+            let stations = some(record.lines.stations.len(), MOST[0]).into_iter().map(CombLine::Station);
+            let waterlines = some(record.lines.waterlines.len(), MOST[1]).into_iter().map(CombLine::Waterline);
+            let of_table = stations.chain(waterlines).map(|line| line.cut(record));
+            of_table.chain(buttocks.iter().copied()).chain(diagonals.iter().copied()).collect()
         } else {
-            let cut = |line: &CombLine| match *line {
-                CombLine::Station(k) => station(k),
-                CombLine::Waterline(k) => waterline(k),
-                CombLine::Buttock(y) => Cut::Buttock { y },
-                CombLine::Diagonal(height) => Cut::Diagonal { height, angle },
-            };
-            chosen.iter().map(cut).collect()
+            chosen.iter().map(|line| line.cut(record)).collect()
         };
         for cut in &shown {
             match cut {

@@ -67,10 +67,16 @@ pub(super) fn decimals(step: f64) -> usize {
         .map_or(6, |d| d as usize)
 }
 
-/// Multiples of `step` from `low` to `high`, both included to a billionth of the step.
+/// More lines than this are no axis.
+const MOST_MULTIPLES: f64 = 10_000.0;
+
+/// Multiples of `step` from `low` to `high`, both included to a billionth of the step; none where there are more than
+/// could be drawn, or the step is not a positive number.
 pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
-    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
-    (first..=last).map(|k| k as f64 * step).collect()
+    let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+    // From 2^53 on neighbouring numbers are no longer neighbouring multiples.
+    let counts = step > 0.0 && last - first < MOST_MULTIPLES && first.abs().max(last.abs()) < 9e15;
+    if counts { (first as i64..=last as i64).map(|k| k as f64 * step).collect() } else { Vec::new() }
 }
 
 #[cfg(test)]
@@ -134,5 +140,20 @@ mod tests {
     fn multiples_include_both_ends() {
         assert_eq!(multiples(0.1, 0.0, 0.3).len(), 4);
         assert_eq!(multiples(0.5, -0.6, 1.0).len(), 4);
+    }
+
+    #[test]
+    fn what_cannot_be_counted_has_no_multiples() {
+        for (step, low, high) in [
+            (1.0, -1e300, 1e300),
+            (1.0, 1e18, 1e18 + 512.0),
+            (1e-9, 0.0, 1.0),
+            (0.0, 0.0, 1.0),
+            (f64::NAN, 0.0, 1.0),
+            (1.0, f64::NAN, 1.0),
+            (1.0, 0.0, f64::INFINITY),
+        ] {
+            assert!(multiples(step, low, high).is_empty(), "{step} {low} {high}");
+        }
     }
 }

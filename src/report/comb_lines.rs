@@ -9,6 +9,9 @@ use crate::plot::CombLine;
 /// How near a number has to be to the place of a station or a waterline \[m\].
 const NEAR: f64 = 5e-4;
 
+/// Exactness at which a plane is tried to cut the hull \[m\].
+const FINE: f64 = 1e-6;
+
 /// The lines of the settings; none where none are named.
 ///
 /// # Errors
@@ -53,11 +56,20 @@ fn line(record: &FairRecord, word: &str) -> Result<CombLine, String> {
                 format!("'{word}' is no waterline of the table; there are {names} m")
             })
         }
-        "buttock" | "diagonal" => match number.filter(|value| *value > 0.0) {
-            Some(y) if kind == "buttock" => Ok(CombLine::Buttock(y)),
-            Some(height) => Ok(CombLine::Diagonal(height)),
-            None => Err(format!("'{word}': expected a distance in metres, as {kind} 2.5")),
-        },
+        "buttock" | "diagonal" => {
+            let place = number.filter(|value| *value > 0.0);
+            let place = place.ok_or_else(|| format!("'{word}': expected a distance in metres, as {kind} 2.5"))?;
+            let line = if kind == "buttock" { CombLine::Buttock(place) } else { CombLine::Diagonal(place) };
+            let cut = line.cut(record);
+            if [&record.before, &record.after].iter().all(|hull| hull.section(cut, FINE).branches.is_empty()) {
+                let p = record.after.particulars();
+                return Err(format!(
+                    "'{word}' does not cut the hull, which has a breadth of {} m and a depth of {} m",
+                    p.breadth, p.depth
+                ));
+            }
+            Ok(line)
+        }
         _ => Err(format!("'{word}': expected station, waterline, buttock or diagonal and its name, as waterline 2.0")),
     }
 }

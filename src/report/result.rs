@@ -181,11 +181,27 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         Some(text) => {
             let path = folder.join("fairing.json");
             let file = read_fairing(&text).map_err(|error| unread(&path, &error.to_string()))?;
-            let FairingFile { name, status, lines, doubts, energy, sigma, edf, chosen, trials, progress, whole } = file;
+            let FairingFile {
+                name,
+                status,
+                lines,
+                doubts,
+                energy,
+                sigma,
+                offsets,
+                edf,
+                chosen,
+                trials,
+                progress,
+                whole,
+            } = file;
             let text = reader.needed("changes.csv", "`fair`")?;
-            let moved =
-                read_changes(&text, &lines).map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
+            let moved = read_changes(&text, &lines, offsets)
+                .map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
             let before = reader.hull("start.json", "`fair`")?.hull;
+            if let Some(message) = another_ship(&before, &hull) {
+                return Err(unread(&folder.join("start.json"), &message));
+            }
             let after = hull.clone();
             let lambda = chosen.lambda;
             let record = FairRecord {
@@ -225,16 +241,17 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         Some(text) => first_column(&folder.join("hydrostatics.csv"), &text)?,
         None => default_draughts(p.draught, p.depth),
     };
-    let (mut notes, mut origin) = (Vec::new(), None);
+    let (mut notes, mut origin, mut written) = (Vec::new(), None, Vec::new());
     if let Some(text) = reader.there("manifest.json")? {
         origin = read_manifest_input(&text);
-        let written = read_manifest_outputs(&text);
+        written = read_manifest_outputs(&text);
         let other =
             |entry: &&ManifestEntry| written.iter().any(|one| one.file == entry.file && one.sha256 != entry.sha256);
         notes.extend(reader.inputs.iter().filter(other).map(|entry| {
             format!("{} is not what the run wrote (manifest.json has another hash)", folder.join(&entry.file).display())
         }));
     }
+    notes.extend(missing(&folder, &written, fairing.is_some()));
     Ok(JobResult {
         draughts,
         fairing,
@@ -245,6 +262,52 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         folder: Some(folder),
         ..bare(hull, conventions, reader.inputs)
     })
+}
+
+/// Main dimensions in which the hull before a fairing is not that after it, in words; none where it is.
+fn another_ship(before: &Hull, after: &Hull) -> Option<String> {
+    let dimensions = |hull: &Hull| {
+        let p = hull.particulars();
+        [("Lpp", p.length_between_perpendiculars), ("B", p.breadth), ("T", p.draught), ("D", p.depth)]
+    };
+    let pairs = dimensions(before).into_iter().zip(dimensions(after));
+    let other: Vec<String> = pairs
+        .filter(|((_, found), (_, expected))| (found - expected).abs() > 1e-6 * expected)
+        .map(|((key, found), (_, expected))| format!("{key} {found} m where hull.json has {expected} m"))
+        .collect();
+    if other.is_empty() {
+        return None;
+    }
+    Some(format!("the hull before the fairing is another ship: found {}", other.join(", ")))
+}
+
+/// Files that a report can be made without, and what it lacks then.
+const LACKS: [(&str, &str); 3] = [
+    ("fairing.json", "nothing of the fairing: before and after, moves, combs, prices"),
+    ("summary.json", "no targets"),
+    ("hydrostatics.csv", "the usual draughts, not those of the run"),
+];
+
+/// What the report lacks because files of the run, which its manifest lists, are no longer there.
+fn missing(folder: &Path, written: &[ManifestEntry], faired: bool) -> Vec<String> {
+    let there = |name: &str| folder.join(name).is_file();
+    let mut notes = Vec::new();
+    if !there("manifest.json") {
+        notes.push(format!(
+            "{} is missing: the report does not name the file that the hull was made from",
+            folder.join("manifest.json").display()
+        ));
+    }
+    for (name, lack) in LACKS {
+        let listed = written.iter().any(|entry| entry.file == name);
+        // Without a manifest the other files of a fairing tell that there was one.
+        let known = listed || (name == "fairing.json" && there("start.json"));
+        // The targets of a fairing stand in its certificate.
+        if known && !there(name) && !(faired && name == "summary.json") {
+            notes.push(format!("{} is missing: the report has {lack}", folder.join(name).display()));
+        }
+    }
+    notes
 }
 
 /// The key and the value `wanted` of every member of a list that has both; `key` is the member `key`.
