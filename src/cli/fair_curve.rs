@@ -42,13 +42,13 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = kept, value_name = "X|keep", allow_hyphen_values = true)]
     centroid: Option<Kept>,
     /// Slope dy/dx at the first point
-    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "SLOPE", allow_hyphen_values = true)]
     first_slope: Option<f64>,
     /// Slope dy/dx at the last point
-    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "SLOPE", allow_hyphen_values = true)]
     last_slope: Option<f64>,
     /// Weight of the energy instead of that of cross-validation
-    #[arg(long, value_name = "WEIGHT")]
+    #[arg(long, value_parser = weight, value_name = "WEIGHT", allow_hyphen_values = true)]
     weight: Option<f64>,
     /// Energy of derivatives with respect to x instead of that of true curvature; taken by itself for a column named area
     #[arg(long)]
@@ -99,8 +99,16 @@ fn inflections(text: &str) -> Result<InflectionWish, String> {
 fn kept(text: &str) -> Result<Kept, String> {
     match text {
         "keep" => Ok(Kept::AsGiven),
-        _ => text.parse().map(Kept::At).map_err(|_| "a number or keep".to_owned()),
+        _ => number(text).map(Kept::At).map_err(|_| "expected a number or keep".to_owned()),
     }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| "expected a number".to_owned())
+}
+
+fn weight(text: &str) -> Result<f64, String> {
+    number(text).ok().filter(|weight| *weight > 0.0).ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {

@@ -112,7 +112,7 @@ impl BodyFlags {
     fn said(&self) -> Said {
         let unit = self.input_unit.map(|unit| unit.as_str().to_owned());
         let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone())];
-        Said { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect() }
+        Said { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect(), file: None }
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::export::{ExportFormat, ExportSettings, export};
 use super::failure::Failure;
 use super::files::OutputFile;
-use super::source::{Said, beside, of_table, read_bytes, read_source_with, read_table_file_with};
+use super::source::{Said, beside, read_bytes, read_source_with, read_table_file_with};
 use crate::exchange::{
     Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship,
     write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii,
@@ -101,7 +101,7 @@ fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option
     let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
     let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
     let Some(body) = read_body(&path.display().to_string(), &bytes, list) else { return Ok(None) };
-    let body = body.map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))?;
+    let body = body.map_err(|problems| said.refused(problems))?;
     let triangles = body.meshes.first().cloned().unwrap_or_default();
     let mesh = HullMesh {
         vertices: triangles.vertices,
@@ -143,7 +143,7 @@ pub fn convert_file(
         if let (ExportFormat::Ftm, true) = (format, said.keys.is_empty())
             && let Some(read) = read_subdivision(&path.display().to_string(), &read_bytes(path)?)
         {
-            let project = read.map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))?;
+            let project = read.map_err(|problems| said.refused(problems))?;
             return Ok((file(write_ftm(&project).into_bytes()), Vec::new()));
         }
         if let Some((contents, notes)) = of_triangles(path, said, format)? {

@@ -10,7 +10,7 @@ use super::failure::{Failure, problem};
 use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
-use super::source::{Said, read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, JobFile, RuleMark};
 use crate::exchange::{
     ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv, conventions_json,
@@ -64,16 +64,12 @@ pub struct FairOutputs {
     table_file: PathBuf,
 }
 
-fn is_job(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
-}
-
 /// The table file of a job file.
 fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
-    if !is_job(path) {
+    if !is_toml(path) {
         return Ok(path.to_owned());
     }
-    match &job.table {
+    match job.table.as_ref().filter(|table| !table.trim().is_empty()) {
         Some(table) => Ok(path.parent().unwrap_or(Path::new("")).join(table)),
         None => {
             let help = "Write [table] file = \"FILE\" in it, or give the table to the command";
@@ -91,7 +87,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let (mut inputs, mut files) = (Vec::new(), Vec::new());
     let mut problems = Vec::new();
     let mut said = JobFile::default();
-    if is_job(path) {
+    if is_toml(path) {
         let bytes = read_bytes(path)?;
         inputs.push(manifest_entry(path, &bytes));
         files.push(path.to_owned());
@@ -122,7 +118,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     } else {
         None
     };
-    let (mut table, reading) = read_table_stated(&table_file, &said.stated)?;
+    let (mut table, reading) = read_table_stated(&table_file, &said.stated, path)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
@@ -196,11 +192,16 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
     table
 }
 
+/// The dimensions that the job says.
+fn said(job: &FairJob) -> Said {
+    Said::dimensions(&job.stated, job.files.first().unwrap_or(&job.table_file))
+}
+
 /// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the
 /// job says.
 fn conventions_beside(job: &FairJob) -> Option<String> {
     let beside = job.beside.as_ref().map(|(_, text)| text.clone());
-    let Some((_, said)) = Said::dimensions(&job.stated).file() else { return beside };
+    let Some((_, said)) = said(job).text() else { return beside };
     let Some(beside) = beside else { return Some(said) };
     let (mut all, over) = (beside.parse::<toml::Table>().ok()?, said.parse::<toml::Table>().ok()?);
     for (name, keys) in over {
@@ -214,7 +215,7 @@ fn conventions_beside(job: &FairJob) -> Option<String> {
 
 /// What rounding did to the offsets and to the volume; the table as it is read back.
 fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (RoundingEffect, Option<OffsetTable>) {
-    let said = Said::dimensions(&job.stated).file();
+    let said = said(job).text();
     let beside = job.beside.iter().chain(&said).map(|(name, text)| (name.as_str(), text.as_str()));
     let back = read_table_with(name, text.as_bytes(), beside).ok().map(|read| read.table);
     let volume = |table: &OffsetTable| {

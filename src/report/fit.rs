@@ -13,7 +13,7 @@ use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::result_files::source_words;
 use super::sanity;
-use super::source::{read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
     ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
@@ -63,10 +63,6 @@ pub struct FitOutputs {
     pub files: Vec<OutputFile>,
 }
 
-fn is_method(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
-}
-
 fn read_method_file(path: &Path, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFile, Failure> {
     let bytes = read_bytes(path)?;
     inputs.push(manifest_entry(path, &bytes));
@@ -80,27 +76,27 @@ fn named_method(word: &str, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFil
         return Ok(MethodFile::new(method));
     }
     let path = Path::new(word);
-    if !is_method(path) && fs::metadata(path).is_err() {
+    if !is_toml(path) && fs::metadata(path).is_err() {
         let known = METHODS.join(", ");
         return Err(Failure::Usage(format!("the method '{word}' is neither a file nor one of {known}")));
     }
     read_method_file(path, inputs)
 }
 
-/// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `method` is a word of
+/// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `said` is a word of
 /// [`METHODS`] or a method file; `draught` \[m\] stands over that of the files.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of a file; [`Failure::Usage`].
-pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
+pub fn read_fit(path: &Path, said: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
     let mut inputs = Vec::new();
-    let (method, table_file) = if is_method(path) {
-        if let Some(word) = method {
+    let (method, table_file) = if is_toml(path) {
+        if let Some(word) = said {
             let message = format!("{} is a method file already; --method {word} says it twice", path.display());
             return Err(Failure::Usage(message));
         }
         let file = read_method_file(path, &mut inputs)?;
-        let Some(table) = &file.table else {
+        let Some(table) = file.table.as_ref().filter(|table| !table.trim().is_empty()) else {
             let help =
                 "Write table = \"FILE\" in it, or give the table and the method: fit TABLE --method FILE".to_owned();
             return Err(Failure::Input(vec![problem("E161", path, "the file names no table".to_owned(), help)]));
@@ -109,14 +105,14 @@ pub fn read_fit(path: &Path, method: Option<&str>, draught: Option<f64>) -> Resu
         (file, table)
     } else {
         let file =
-            method.map_or_else(|| Ok(MethodFile::new(FitMethod::default())), |word| named_method(word, &mut inputs))?;
+            said.map_or_else(|| Ok(MethodFile::new(FitMethod::default())), |word| named_method(word, &mut inputs))?;
         (file, path.to_owned())
     };
     let bytes = read_bytes(&table_file)?;
     // The file that the command named comes first.
-    inputs.insert(if is_method(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
+    inputs.insert(if is_toml(path) { inputs.len() } else { 0 }, manifest_entry(&table_file, &bytes));
     let over = StatedParticulars { draught: draught.or(method.stated.draught), ..method.stated };
-    let (mut table, notes) = read_table_stated(&table_file, &over)?;
+    let (mut table, notes) = read_table_stated(&table_file, &over, path)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }

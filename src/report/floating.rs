@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use super::source::{Said, beside, of_table, read_bytes, read_source_with, source_of};
+use super::source::{Said, beside, read_bytes, read_source_with, source_of};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
@@ -79,7 +79,7 @@ pub fn read_floating_with(path: &Path, said: &Said) -> Result<Floating, Failure>
         let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
         let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
         if let Some(body) = read_body(&path.display().to_string(), &bytes, list) {
-            return body.map(of_body).map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()));
+            return body.map(of_body).map_err(|problems| said.refused(problems));
         }
         source_of(path, bytes, said)?
     };

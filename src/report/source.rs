@@ -188,24 +188,42 @@ pub(super) fn hull_faults(code: &'static str, file: &Path, error: &HullFileError
 pub struct Said {
     /// Keys and values, as they would stand in the file.
     pub keys: Vec<(&'static str, String)>,
+    /// The file that says them; none: the command line.
+    pub file: Option<PathBuf>,
 }
 
 impl Said {
-    /// Main dimensions \[m\].
-    pub(super) fn dimensions(stated: &StatedParticulars) -> Self {
+    /// Main dimensions \[m\] that a job or a method file says, or the command line over it.
+    pub(super) fn dimensions(stated: &StatedParticulars, path: &Path) -> Self {
         let dimensions = [
             ("Lpp", stated.length_between_perpendiculars),
             ("B", stated.breadth),
             ("T", stated.draught),
             ("D", stated.depth),
         ];
-        Self { keys: dimensions.into_iter().filter_map(|(key, value)| Some((key, format!("{} m", value?)))).collect() }
+        let keys = dimensions.into_iter().filter_map(|(key, value)| Some((key, format!("{} m", value?)))).collect();
+        Self { keys, file: is_toml(path).then(|| path.to_owned()) }
     }
 
     /// The conventions as a file: its name in messages, and its text.
-    pub(super) fn file(&self) -> Option<(String, String)> {
+    pub(super) fn text(&self) -> Option<(String, String)> {
         let lines: Vec<String> = self.keys.iter().map(|(key, value)| format!("{key} = {value:?}\n")).collect();
-        (!lines.is_empty()).then(|| ("command line".to_owned(), format!("[table]\n{}", lines.concat())))
+        (!lines.is_empty()).then(|| (self.origin(), format!("[table]\n{}", lines.concat())))
+    }
+
+    /// What says them, for messages.
+    fn origin(&self) -> String {
+        self.file.as_ref().map_or_else(|| "command line".to_owned(), |file| file.display().to_string())
+    }
+
+    /// The failure of problems of a table or a body.
+    pub(super) fn refused(&self, problems: Vec<TableProblem>) -> Failure {
+        Failure::Input(problems.into_iter().map(|problem| of_table(self.placed(problem))).collect())
+    }
+
+    /// A problem of [`Said::text`] has no place in a file.
+    fn placed(&self, problem: TableProblem) -> TableProblem {
+        if problem.file == self.origin() { TableProblem { row: None, column: None, ..problem } } else { problem }
     }
 
     /// A hull or a design says its units and axes itself.
@@ -231,7 +249,7 @@ pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, 
         let text = utf8(&beside, read_bytes(&beside)?)?;
         list.push((beside.display().to_string(), text));
     }
-    list.extend(said.file());
+    list.extend(said.text());
     Ok(list)
 }
 
@@ -252,16 +270,17 @@ pub fn read_table_file_with(path: &Path, said: &Said) -> Result<(OffsetTable, Ve
     table_of(path, &read_bytes(path)?, said)
 }
 
-/// The same, with main dimensions over those that the table states: numbered stations and ratios stand where these put
-/// them.
+/// The same, with main dimensions over those that the table states, which the job or method file `by` says, or the
+/// command line: numbered stations and ratios stand where these put them.
 ///
 /// # Errors
 /// Those of [`read_table_file`].
 pub(super) fn read_table_stated(
     path: &Path,
     over: &StatedParticulars,
+    by: &Path,
 ) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    let (mut table, notes) = read_table_file_with(path, &Said::dimensions(over))?;
+    let (mut table, notes) = read_table_file_with(path, &Said::dimensions(over, by))?;
     table.stated = over.over(&table.stated);
     Ok((table, notes))
 }
@@ -278,12 +297,17 @@ fn table_of(path: &Path, bytes: &[u8], said: &Said) -> Result<(OffsetTable, Vec<
     let beside = beside(path, said)?;
     let beside = beside.iter().map(|(name, text)| (name.as_str(), text.as_str()));
     let read = exchange::read_table_with(&path.display().to_string(), bytes, beside);
-    read.map(|ReadTable { table, notes }| (table, notes))
-        .map_err(|problems| Failure::Input(problems.into_iter().map(of_table).collect()))
+    let placed = |notes: Vec<TableProblem>| notes.into_iter().map(|note| said.placed(note)).collect();
+    read.map(|ReadTable { table, notes }| (table, placed(notes))).map_err(|problems| said.refused(problems))
+}
+
+/// Whether a file is a job, a method or a design by its name.
+pub(super) fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
 /// A problem of a table among the messages about files.
-pub(super) fn of_table(problem: TableProblem) -> Diagnostic {
+fn of_table(problem: TableProblem) -> Diagnostic {
     // A field of a table is counted, a column of a text file is not: it goes into the message.
     let place = problem.column.map(|column| format!("column {column}, ")).unwrap_or_default();
     let quoted = if problem.found.is_empty() { String::new() } else { format!("{place}'{}': ", problem.found) };
