@@ -388,3 +388,198 @@ fn what_is_too_much_is_refused() {
     assert_eq!(output.status.code(), Some(3));
     assert!(stderr(&output).contains("control character"), "{}", stderr(&output));
 }
+
+fn table() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wigley/offsets.csv")
+}
+
+#[test]
+fn no_command_writes_over_what_it_reads() {
+    let path = folder("inputs");
+    let here = |name: &str| path.join(name).display().to_string();
+    fs::copy(table(), path.join("offsets.csv")).unwrap();
+    fs::copy(table(), path.join("validation.csv")).unwrap();
+    fs::write(path.join("curve.csv"), "x,y\n0,0\n1,1\n2,1.6\n3,1.9\n4,2\n5,2.05\n").unwrap();
+    fs::write(
+        path.join("reference.toml"),
+        "[particulars]\nlpp = 100\nbeam = 10\ndraught = 6.25\ndepth = 6.25\n[exact]\ncb = 0.444\n[table]\nfile = \"validation.csv\"\n",
+    )
+    .unwrap();
+    let hull = wigley("inputs-hull").join("hull.json").display().to_string();
+    let count = fs::read_dir(&path).unwrap().count();
+    let (folder, offsets, curve) = (path.display().to_string(), here("offsets.csv"), here("curve.csv"));
+    let contents = || ["offsets.csv", "validation.csv", "curve.csv"].map(|name| fs::read(path.join(name)).unwrap());
+    let before = contents();
+    for arguments in [
+        &["fit", &offsets, "-o", &folder, "--no-figures"][..],
+        &["export", &offsets, "-f", "csv", "-o", &folder],
+        &["fair-curve", &curve, "-o", &folder, "--no-figures"],
+        &["validate", &folder, "-o", &folder],
+        &["convert", &offsets, &offsets],
+        &["convert", &offsets, "-o", &here("./offsets.csv")],
+        &["hydro", &offsets, "--draughts", "3", "-o", &offsets],
+        &["offsets", &hull, "--stations", "50", "--waterlines", "3", "-o", &hull],
+        &["section", &hull, "--station", "50", "-o", &hull],
+        &["inspect", &offsets, "-o", &offsets],
+        &["check", &offsets, "--accept", "S1", "-o", &offsets],
+    ] {
+        let output = program(&[arguments, &["--force"]].concat());
+        if arguments[0] == "check" {
+            // The table is right: nothing can be accepted, and nothing is written either.
+            assert_ne!(output.status.code(), Some(0));
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        let said = stderr(&output);
+        assert!(said.contains("is read and would be overwritten, with --force too; choose another place"), "{said}");
+    }
+    assert_eq!(contents(), before);
+    assert_eq!(fs::read_dir(&path).unwrap().count(), count);
+}
+
+#[test]
+fn what_is_read_is_not_removed_with_an_earlier_run() {
+    let path = folder("inputs-kept");
+    let table = path.join("table.csv");
+    let text = fs::read(self::table()).unwrap();
+    fs::write(&table, &text).unwrap();
+    let entry = serde_json::json!({
+        "file": "table.csv", "bytes": text.len(), "sha256": loftsman::exchange::sha256(&text)
+    });
+    let manifest = serde_json::json!({ "program": "loftsman", "version": "0", "input": entry, "outputs": [entry] });
+    fs::write(path.join("manifest.json"), manifest.to_string()).unwrap();
+    let arguments = ["fit", table.to_str().unwrap(), "-o", path.to_str().unwrap(), "--no-figures", "-q", "--force"];
+    let output = program(&arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read(&table).unwrap(), text);
+}
+
+#[test]
+fn designs_of_one_name_do_not_replace_each_other() {
+    let path = folder("stems");
+    let design = |folder: &str| {
+        fs::create_dir_all(path.join(folder)).unwrap();
+        fs::copy(config("box.toml"), path.join(folder).join("x.toml")).unwrap();
+        path.join(folder).join("x.toml").display().to_string()
+    };
+    let (a, b, out) = (design("a"), design("b"), path.join("out").display().to_string());
+    let output = program(&["generate", &a, &b, "-o", &out, "--force", "--no-figures"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains(&format!("{a} and {b} would both be written to ")), "{}", stderr(&output));
+    assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn a_long_job_asks_before_it_begins() {
+    let path = wigley("before");
+    let arguments =
+        ["fair", table().to_str().unwrap(), "-o", path.to_str().unwrap(), "--no-figures"].map(str::to_owned);
+    let output = program(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(output.status.code(), Some(6));
+    assert!(stderr(&output).contains("E601") && !stderr(&output).contains("faired in"), "{}", stderr(&output));
+}
+
+/// Every command here is refused: its arguments, its exit code, what the message holds.
+fn refused(cases: &[(&[&str], i32, &[&str])]) {
+    for (arguments, code, parts) in cases {
+        let output = program(arguments);
+        assert_eq!(output.status.code(), Some(*code), "{arguments:?}: {}", stderr(&output));
+        for part in *parts {
+            assert!(stderr(&output).contains(part), "{arguments:?}: {part} is not in {}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn dimensions_and_conventions_that_no_ship_has() {
+    let path = wigley("faults");
+    let text = fs::read_to_string(path.join("hull.json")).unwrap();
+    let write = |name: &str, text: &str| {
+        fs::write(path.join(name), text).unwrap();
+        path.join(name).display().to_string()
+    };
+    let changed = text.replace("\"density\":1.025", "\"density\":0").replace("\"KG\":null", "\"KG\":1e300");
+    assert_ne!(changed, text);
+    let faults = write("faults.json", &changed);
+    let deep = write("deep.json", &text.replace("\"T\":6.25", "\"T\":60"));
+    let cut = write("cut.json", &text[..text.find("\"surface\"").unwrap()]);
+    let heavy = write(
+        "heavy.toml",
+        "[project]\nfamily = \"box\"\n[dimensions]\nLpp = 80\nB = 10\nT = 4\n[weight]\nKG = 7500\n",
+    );
+    let table = table().display().to_string();
+    let out = path.join("out").display().to_string();
+    refused(&[
+        (
+            &["hydro", &faults, "--draughts", "1"],
+            3,
+            &[
+                "conventions.density is 0 t/m3, expected 0.9 to 1.3. Correct it",
+                "conventions.KG is ",
+                "expected -1000 to 1000",
+            ],
+        ),
+        (&["report", &faults], 3, &["E182", "conventions.density is 0", "conventions.KG is "]),
+        (&["hydro", &deep, "--draughts", "1"], 3, &["E141", "particulars.T is 60 m, expected at most particulars.D"]),
+        (
+            &["hydro", &cut, "--draughts", "1"],
+            3,
+            &["E140", "cut.json:", "cut off", "Run the command that wrote it again"],
+        ),
+        (&["report", &cut], 3, &["E182", "cut.json line ", "cut off", "Run the command that wrote it again"]),
+        (
+            &["generate", &heavy, "-o", &out],
+            3,
+            &["E124", "heavy.toml:8:", "weight.KG is 7500 m, expected -1000 to 1000"],
+        ),
+        (&["hydro", &table, "--draughts", "1", "--kg", "5000"], 2, &["--kg", "expected -1000 to 1000 m"]),
+        (
+            &["fit", &table, "--draught", "50", "-o", &out],
+            3,
+            &["E163", "the design draught of 50.000 m lies above the depth of 6.250 m: state one within it (--draught"],
+        ),
+        (&["fair", &table, "--draught", "50", "-o", &out], 3, &["E175", "lies above the depth of 6.250 m: state one"]),
+    ]);
+    assert!(!Path::new(&out).exists());
+}
+
+#[test]
+fn messages_name_the_file_the_key_or_the_option() {
+    let path = folder("names");
+    let write = |name: &str, text: &str| {
+        fs::write(path.join(name), text).unwrap();
+        path.join(name).display().to_string()
+    };
+    let table = table().display().to_string();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/box.stl").display().to_string();
+    let job = write("job.toml", "[table]\nfile = \"\"\n");
+    let method = write("method.toml", "table = \" \"\n[method]\nkind = \"graded\"\n");
+    let long = write("long.toml", &format!("[table]\nfile = \"{table}\"\n[dimensions]\nLpp = 1e9\n"));
+    let dense = write("dense.toml", &format!("[table]\nfile = \"{table}\"\n[water]\ndensity = 10\n"));
+    let curve = write("curve.csv", "x,y\n0,0\n1,1\n2,1.6\n3,1.9\n4,2\n5,2.05\n");
+    refused(&[
+        (&["fair", &job], 3, &["E174", "job.toml the file names no table. Write [table] file"]),
+        (&["fit", &method], 3, &["E161", "method.toml the file names no table"]),
+        (&["fair", &long], 3, &["E311", "long.toml 'Lpp': Lpp is 1000000000", "smaller than 100000"]),
+        (&["fair", &table, "--draught", "1e9"], 3, &["E311 command line 'T': T is 1000000000"]),
+        (&["hydro", &mesh, "--draughts", "1", "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
+        (&["inspect", &mesh, "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
+        (&["convert", &mesh, "-f", "obj", "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
+        (&["fair", &dense], 3, &["E124", "dense.toml:4:", "water.density is 10 t/m3. Expected 0.9 to 1.3 t/m3"]),
+        (&["fair-curve", &curve, "--first-slope", "nan"], 2, &["--first-slope", "expected a number"]),
+        (&["fair-curve", &curve, "--last-slope", "inf"], 2, &["--last-slope", "expected a number"]),
+        (&["fair-curve", &curve, "--weight", "-1"], 2, &["--weight", "expected a number above 0"]),
+        (&["fair-curve", &curve, "--area", "nan"], 2, &["--area", "expected a number or keep"]),
+        (&["fair-curve", &curve, "--centroid", "1e400"], 2, &["--centroid", "expected a number or keep"]),
+    ]);
+}
+
+#[test]
+fn convert_takes_its_file_as_other_commands_do() {
+    let path = folder("convert-option");
+    let (table, out) = (table().display().to_string(), path.join("out.csv").display().to_string());
+    let output = program(&["convert", &table, "-o", &out, "-q"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(fs::read(&out).unwrap(), program(&["convert", &table, "-q"]).stdout);
+    refused(&[(&["convert", &table, &out, "-o", &out], 2, &["cannot be used with"])]);
+}

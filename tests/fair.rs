@@ -101,6 +101,8 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         assert!(fs::read(out.join(name)).unwrap() == fs::read(again.join(name)).unwrap(), "{name}");
     }
     assert_eq!(program(&arguments).status.code(), Some(6));
+    let announced = read_fair(&carried(TABLE), &[]).unwrap().outputs();
+    assert!(announced.len() == 7 && announced.iter().all(|name| names.contains(name)), "{announced:?}");
 }
 
 #[test]

@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 
 use loftsman::plot::Sheet;
 use loftsman::report::{
-    OutputFile, ReportSettings, fair_outputs, generate_outputs, read_design, read_fair, read_result, report_outputs,
-    write_all,
+    Destination, OutputFile, ReportSettings, fair_outputs, generate_outputs, read_design, read_fair, read_result,
+    report_outputs,
 };
 use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
@@ -35,13 +35,17 @@ fn carried(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
+fn write(folder: &Path, files: &[OutputFile]) {
+    Destination { folder, inputs: &[], force: true }.write(files).unwrap();
+}
+
 /// A generated hull in a folder of its own.
 fn generated(test: &str) -> PathBuf {
     let path = folder(test);
     let config = carried("configs/wigley.toml");
     let (design, bytes) = read_design(&config).unwrap();
     let outputs = generate_outputs(&design, (&config, &bytes), &[]).unwrap();
-    write_all(&path, &outputs.files, true).unwrap();
+    write(&path, &outputs.files);
     path
 }
 
@@ -67,7 +71,7 @@ fn faired() -> &'static (PathBuf, Vec<OutputFile>) {
     FAIRED.get_or_init(|| {
         let path = folder("fair");
         let job = read_fair(&wrong_table(), &[]).unwrap();
-        write_all(&path, &fair_outputs(&job, false).unwrap().files, true).unwrap();
+        write(&path, &fair_outputs(&job, false).unwrap().files);
         let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
         (path, files)
     })

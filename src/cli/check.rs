@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::stream;
-use crate::report::{Failure, accept, check_files, check_json, check_page, check_table, write_all};
+use crate::report::{Destination, Failure, accept, check_files, check_json, check_page, check_table, source_files};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -44,6 +44,7 @@ of FREE!ship, tables of DELFTship, and tables of fractions of the half-breadth; 
 may say what it leaves open.";
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let inputs = source_files(&arguments.table);
     let check = check_table(&arguments.table)?;
     if !arguments.quiet {
         check.notes.iter().for_each(|note| stream::message(note));
@@ -54,11 +55,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             stream::data(&stream::json(&check_json(&check))?)?;
         }
         accepted.changes.iter().for_each(|change| stream::message(change));
-        stream::table_or_file(accepted.text, &accepted.form, arguments.output.as_deref(), arguments.force)?;
+        stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }
+            .table(accepted.text, &accepted.form)?;
         return check.verdict(&arguments.accept);
     }
     if let Some(folder) = &arguments.output {
-        write_all(folder, &check_files(&check, !arguments.no_figures)?, arguments.force)?;
+        Destination { folder, inputs: &inputs, force: arguments.force }
+            .write(&check_files(&check, !arguments.no_figures)?)?;
     }
     stream::data(&if arguments.json { stream::json(&check_json(&check))? } else { check_page(&check) })?;
     check.verdict(&[])

@@ -7,7 +7,7 @@ use clap::Args;
 use super::stream;
 use crate::exchange::TableWriting;
 use crate::hull::TableLayout;
-use crate::report::{ExportFormat, ExportSettings, Failure, convert_file, convert_table};
+use crate::report::{ExportFormat, ExportSettings, Failure, convert_file, convert_table, source_files};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
@@ -17,7 +17,11 @@ pub(super) struct Arguments {
     table: PathBuf,
     /// File to write instead of stdout. Its ending says the format: .csv, .xlsx (a workbook); or one of those of
     /// `export`: .step, .igs, .dxf, .stl, .obj, .glb, .gdf, .mar, .pnl, .gf, .bri, .ftm, .mlt
+    #[arg(value_name = "OUT")]
     output: Option<PathBuf>,
+    /// The same file, as other commands name theirs
+    #[arg(short, long = "output", value_name = "OUT", conflicts_with = "output")]
+    output_file: Option<PathBuf>,
     /// Format of the file, one of those of `export`, where its ending does not say it
     #[arg(short, long, value_parser = super::export::format, value_name = "FORMAT")]
     format: Option<ExportFormat>,
@@ -67,30 +71,33 @@ fn known_ending(output: &Path, table: Option<&Path>) -> Result<(), Failure> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let output = arguments.output.as_deref().or(arguments.output_file.as_deref());
+    let inputs = source_files(&arguments.table);
+    let target = stream::Target { file: output, inputs: &inputs, force: arguments.force };
     let said = arguments.said.said();
-    let of_name = || arguments.output.as_deref().and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
+    let of_name = || output.and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
     let hull = arguments.table.is_dir()
         || arguments.table.extension().is_some_and(|e| HULLS.iter().any(|known| e.eq_ignore_ascii_case(known)));
     let table = hull.then(|| {
-        let workbook = arguments.output.as_ref().and_then(|path| path.extension()).is_some_and(|e| e == "xlsx");
+        let workbook = output.and_then(|path| path.extension()).is_some_and(|e| e == "xlsx");
         if workbook { ExportFormat::Xlsx } else { ExportFormat::Csv }
     });
     let said_format = arguments.format.or_else(of_name);
-    if let (None, Some(output)) = (said_format, arguments.output.as_deref()) {
+    if let (None, Some(output)) = (said_format, output) {
         known_ending(output, Some(arguments.table.as_path()).filter(|_| !hull))?;
     }
     if let Some(format) = said_format.or(table) {
-        let name = arguments.output.as_deref().unwrap_or(&arguments.table).to_string_lossy().into_owned();
+        let name = output.unwrap_or(&arguments.table).to_string_lossy().into_owned();
         let (file, messages) = convert_file(&arguments.table, &said, &name, format, &ExportSettings::default())?;
         if !arguments.quiet {
             messages.iter().for_each(|message| stream::message(message));
         }
-        return stream::bytes_or_file(file.contents, arguments.output.as_deref(), arguments.force);
+        return target.bytes(file.contents);
     }
     let writing = TableWriting { notation: arguments.notation, layout: arguments.layout };
     let converted = convert_table(&arguments.table, &said, writing)?;
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }
-    stream::table_or_file(converted.written.text, &converted.form, arguments.output.as_deref(), arguments.force)
+    target.table(converted.written.text, &converted.form)
 }

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
-use crate::report::{ExportFormat, ExportSettings, Failure, export, read_source_with, write_all};
+use crate::report::{Destination, ExportFormat, ExportSettings, Failure, export, read_source_with, source_files};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -134,7 +134,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         flatness: arguments.flatness,
     };
     let exported = export(&source.hull, &stem, &arguments.format, &settings)?;
-    write_all(&folder, &exported.files, arguments.force)?;
+    let inputs = source_files(&arguments.hull);
+    Destination { folder: &folder, inputs: &inputs, force: arguments.force }.write(&exported.files)?;
     if arguments.quiet {
         return Ok(());
     }

@@ -1,13 +1,13 @@
 //! `loftsman fair TABLE|JOB`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
 use clap::Args;
 
 use super::run_files::RunFiles;
 use super::stream;
-use crate::report::{Failure, FairJob, FairOutputs, fair_line, fair_outputs, fair_page, read_fair, write_run};
+use crate::report::{Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs, fair_page, read_fair};
 use crate::units::counted;
 
 #[derive(Debug, Args)]
@@ -169,9 +169,9 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         Err(failure) => return (None, Err(failure)),
     };
     let folder = arguments.files.folder(&arguments.input, false);
-    if let Some(file) = job.files().iter().find(|file| is_written(file, &folder)) {
-        let words = format!("{} is read and would be overwritten; -o another folder", file.display());
-        return (Some(job.clone()), Err(Failure::Usage(words)));
+    let destination = Destination { folder: &folder, inputs: job.files(), force };
+    if let Err(failure) = destination.check(job.outputs().iter().map(String::as_str)) {
+        return (Some(job), Err(failure));
     }
     let [stations, waterlines, offsets] = job.size();
     progress(format!(
@@ -187,17 +187,8 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     let seconds = start.elapsed().as_secs_f64();
     progress(format!("faired in {seconds:.2} s"));
-    match write_run(&folder, &outputs.files, force) {
-        Ok(()) => (Some(job), Ok((outputs, seconds))),
-        Err(failure) => (Some(job), Err(failure)),
-    }
-}
-
-/// Whether a file has a name that `fair` writes into the folder, and is in it.
-fn is_written(file: &Path, folder: &Path) -> bool {
-    let stems = ["offsets", "changes", "hull", "start", "fairing", "summary", "manifest"];
-    let named = file.file_stem().is_some_and(|stem| stems.iter().any(|own| stem == *own));
-    named && file.parent().is_some_and(|parent| super::same(parent, folder))
+    let written = destination.write_run(&outputs.files).map(|()| (outputs, seconds));
+    (Some(job), written)
 }
 
 /// When the files were written last; a file that is not there has no time.
@@ -246,7 +237,9 @@ fn watch(
             print(arguments, job, &outputs, seconds)?;
             said(&outputs.verdict());
         }
-        (Err(failure @ (Failure::Exists(_) | Failure::FileSystem { .. })), _) => return Err(failure),
+        (Err(failure @ (Failure::Usage(_) | Failure::Exists(_) | Failure::FileSystem { .. })), _) => {
+            return Err(failure);
+        }
         (done, _) => said(&done.map(|_| ())),
     }
     // What was written since the first run began has not been seen.

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, stream};
 use crate::fairing::curve::{CurveSettings, InflectionWish};
 use crate::report::{
-    CurveJob, Failure, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve, write_all,
+    CurveJob, Destination, Failure, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve,
 };
 use crate::units::Notation;
 
@@ -141,7 +141,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         done.notes.iter().for_each(|note| stream::message(note));
     }
     if let Some(folder) = &arguments.output {
-        write_all(folder, &fair_curve_files(&done, !arguments.no_figures)?, arguments.force)?;
+        Destination { folder, inputs: std::slice::from_ref(&arguments.curve), force: arguments.force }
+            .write(&fair_curve_files(&done, !arguments.no_figures)?)?;
     }
     stream::data(&if arguments.json { stream::json(&fair_curve_json(&done))? } else { fair_curve_page(&done) })?;
     done.verdict()

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::run_files::{Figures, RunFiles};
 use super::stream;
-use crate::report::{Failure, generate_outputs, read_design, summary_page, write_run};
+use crate::report::{Destination, Failure, generate_outputs, read_design, summary_page};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -20,15 +20,26 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    arguments.designs.iter().try_for_each(|design| generate(arguments, design))
+    let several = arguments.designs.len() > 1;
+    let folders: Vec<PathBuf> = arguments.designs.iter().map(|path| arguments.files.folder(path, several)).collect();
+    for (k, folder) in folders.iter().enumerate() {
+        if let Some(other) = folders[..k].iter().position(|other| other == folder) {
+            let [first, second] = [other, k].map(|k| arguments.designs[k].display());
+            return Err(Failure::Usage(format!(
+                "{first} and {second} would both be written to {}; rename one, or generate each with its own -o",
+                folder.display()
+            )));
+        }
+    }
+    arguments.designs.iter().zip(&folders).try_for_each(|(design, folder)| generate(arguments, design, folder))
 }
 
-fn generate(arguments: &Arguments, path: &Path) -> Result<(), Failure> {
+fn generate(arguments: &Arguments, path: &Path, folder: &Path) -> Result<(), Failure> {
     let (design, bytes) = read_design(path)?;
     let figures = arguments.figures.chosen(&arguments.files, &design.output.figures);
-    let folder = arguments.files.folder(path, arguments.designs.len() > 1);
     let outputs = generate_outputs(&design, (path, &bytes), &figures)?;
-    write_run(&folder, &outputs.files, arguments.files.force)?;
+    let destination = Destination { folder, inputs: &arguments.designs, force: arguments.files.force };
+    destination.write_run(&outputs.files)?;
     if !arguments.files.quiet {
         for remark in &outputs.remarks {
             stream::message(&remark.to_string());

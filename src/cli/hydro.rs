@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
 use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
-use crate::report::{Failure, hydrostatics_page, read_floating_with};
+use crate::report::{Failure, hydrostatics_page, read_floating_with, source_files};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -119,5 +119,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         hydrostatics_page(&table, source.particulars.length_between_perpendiculars)
     };
-    stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
+    let inputs = source_files(&arguments.hull);
+    stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Lengths, lengths, positive, section, stream};
 use crate::fairing::inspect::{Inspection, Planes, Resolution};
 use crate::hull::Cut;
-use crate::report::{Failure, inspection_json, inspection_page, read_source_with};
+use crate::report::{Failure, inspection_json, inspection_page, read_source_with, source_files};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -109,5 +109,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         inspection_page(hull.name(), &inspection)
     };
-    stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
+    let inputs = source_files(&arguments.hull);
+    stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)
 }

@@ -21,7 +21,6 @@ mod stream;
 mod validate;
 
 use std::ffi::OsString;
-use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -118,12 +117,6 @@ impl BodyFlags {
 
 fn length(text: &str) -> Result<f64, String> {
     crate::units::parse_length(text).map_err(|error| error.to_string())
-}
-
-/// Whether two paths are one folder; an empty one is the folder that the program runs in.
-fn same(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| Path::new(".").join(path).canonicalize();
-    matches!((real(a), real(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// A length that is more than 0 [m].

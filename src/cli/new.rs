@@ -34,14 +34,9 @@ fn also(name: &str) -> String {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    match &arguments.preset {
-        Some(name) => {
-            stream::data_or_file(template(name).unwrap_or_default(), arguments.output.as_deref(), arguments.force)
-        }
-        None => {
-            let list: String =
-                TEMPLATES.iter().map(|t| format!("{:<14} {}{}\n", t.name, t.title, also(t.name))).collect();
-            stream::data_or_file(list, arguments.output.as_deref(), arguments.force)
-        }
-    }
+    let text = match &arguments.preset {
+        Some(name) => template(name).unwrap_or_default(),
+        None => TEMPLATES.iter().map(|t| format!("{:<14} {}{}\n", t.name, t.title, also(t.name))).collect(),
+    };
+    stream::Target { file: arguments.output.as_deref(), inputs: &[], force: arguments.force }.text(text)
 }

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::{Lengths, lengths, stream};
 use crate::exchange::{heights_csv, offsets_csv};
-use crate::report::{Failure, offsets, read_source_with};
+use crate::report::{Failure, offsets, read_source_with, source_files};
 use crate::units::Notation;
 
 #[derive(Debug, Args)]
@@ -50,5 +50,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         text.push('\n');
         text.push_str(&heights_csv(&table, arguments.notation));
     }
-    stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
+    let inputs = source_files(&arguments.hull);
+    stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)
 }

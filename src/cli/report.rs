@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::stream;
 use crate::plot::Sheet;
-use crate::report::{Failure, ReportSettings, read_result, report_outputs, write_run};
+use crate::report::{Destination, Failure, ReportSettings, read_result, report_outputs, same_path};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -88,7 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         (None, Some(folder)) => folder.join("report"),
         (None, None) => Path::new("out").join(arguments.result.file_stem().unwrap_or_else(|| "report".as_ref())),
     };
-    if result.folder.as_ref().is_some_and(|of| super::same(of, &folder)) {
+    if result.folder.as_ref().is_some_and(|of| same_path(of, &folder)) {
         return Err(Failure::Usage(format!(
             "{} is the folder of the result; a report has a folder of its own (-o DIR)",
             folder.display()
@@ -100,8 +100,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         combs: arguments.combs.clone().unwrap_or_default(),
         date: arguments.date.clone(),
     };
+    let inputs = std::slice::from_ref(&arguments.result);
+    let destination = Destination { folder: &folder, inputs, force: arguments.force };
+    destination.check(["report.html", "report.pdf", "manifest.json"])?;
     let files = report_outputs(&result, &settings)?;
-    write_run(&folder, &files, arguments.force)?;
+    destination.write_run(&files)?;
     if arguments.quiet {
         return Ok(());
     }

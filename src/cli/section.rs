@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{section_csv, section_json};
 use crate::hull::Cut;
-use crate::report::{Failure, read_source_with, sections_of};
+use crate::report::{Failure, read_source_with, sections_of, source_files};
 
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
@@ -86,5 +86,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         section_csv(&section, arguments.deviation)
     };
-    stream::data_or_file(text, arguments.output.as_deref(), arguments.force)
+    let inputs = source_files(&arguments.hull);
+    stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)
 }

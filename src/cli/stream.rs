@@ -1,10 +1,10 @@
 //! The standard streams. A reader that stops early is not an error.
 
 use std::io::{ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::hull::TableForm;
-use crate::report::{Failure, OutputFile, write_all};
+use crate::report::{Destination, Failure, OutputFile};
 
 /// Writes data to stdout.
 pub(super) fn data(text: &str) -> Result<(), Failure> {
@@ -26,31 +26,48 @@ pub(super) fn message(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Writes data to a file, or to stdout when there is none.
-pub(super) fn data_or_file(text: String, file: Option<&Path>, force: bool) -> Result<(), Failure> {
-    let Some(path) = file else { return data(&text) };
-    into(path, force, |name| Ok(OutputFile::text(name, text)))
+/// Where the data of a command go: a file, or stdout when there is none.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target<'a> {
+    /// The file.
+    pub(super) file: Option<&'a Path>,
+    /// Files that the command reads; none of them is written over.
+    pub(super) inputs: &'a [PathBuf],
+    /// Whether a file that is there already is overwritten.
+    pub(super) force: bool,
 }
 
-/// The same of bytes.
-pub(super) fn bytes_or_file(contents: Vec<u8>, file: Option<&Path>, force: bool) -> Result<(), Failure> {
-    let Some(path) = file else { return raw(&contents) };
-    into(path, force, |name| Ok(OutputFile { name: name.to_owned(), contents }))
-}
+impl Target<'_> {
+    /// Writes text.
+    pub(super) fn text(&self, text: String) -> Result<(), Failure> {
+        self.bytes(text.into_bytes())
+    }
 
-/// The same of a table; a file whose name ends in `.xlsx` becomes a workbook.
-pub(super) fn table_or_file(text: String, form: &TableForm, file: Option<&Path>, force: bool) -> Result<(), Failure> {
-    let Some(path) = file else { return data(&text) };
-    into(path, force, |name| OutputFile::table(name, text, form))
-}
+    /// Writes bytes.
+    pub(super) fn bytes(&self, contents: Vec<u8>) -> Result<(), Failure> {
+        match self.file {
+            None => raw(&contents),
+            Some(path) => self.into(path, |name| Ok(OutputFile { name: name.to_owned(), contents })),
+        }
+    }
 
-fn into(path: &Path, force: bool, contents: impl FnOnce(&str) -> Result<OutputFile, Failure>) -> Result<(), Failure> {
-    let Some(name) = path.file_name() else {
-        let error = std::io::Error::new(ErrorKind::InvalidInput, "not the name of a file");
-        return Err(Failure::FileSystem { act: "write", path: path.to_owned(), error });
-    };
-    let folder = path.parent().unwrap_or(Path::new(""));
-    write_all(folder, &[contents(&name.to_string_lossy())?], force)
+    /// Writes a table; a file whose name ends in `.xlsx` becomes a workbook.
+    pub(super) fn table(&self, text: String, form: &TableForm) -> Result<(), Failure> {
+        match self.file {
+            None => data(&text),
+            Some(path) => self.into(path, |name| OutputFile::table(name, text, form)),
+        }
+    }
+
+    fn into(&self, path: &Path, contents: impl FnOnce(&str) -> Result<OutputFile, Failure>) -> Result<(), Failure> {
+        let Some(name) = path.file_name() else {
+            let error = std::io::Error::new(ErrorKind::InvalidInput, "not the name of a file");
+            return Err(Failure::FileSystem { act: "write", path: path.to_owned(), error });
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let destination = Destination { folder, inputs: self.inputs, force: self.force };
+        destination.write(&[contents(&name.to_string_lossy())?])
+    }
 }
 
 /// A JSON value as text with a line end.

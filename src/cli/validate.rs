@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::stream;
-use crate::report::{Failure, OutputFile, validate, validation_csv, validation_json, validation_page, write_all};
+use crate::report::{Destination, Failure, OutputFile, validate, validation_csv, validation_json, validation_page};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -42,7 +42,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(folder) = &arguments.output {
         let page = format!("# Fitted tables against published figures\n\n{}", validation_page(&cases));
         let files = [OutputFile::text("report.md", page), OutputFile::text("validation.csv", validation_csv(&cases))];
-        write_all(folder, &files, arguments.force)?;
+        let inputs: Vec<PathBuf> = cases.iter().map(|case| case.folder.join(&case.table)).collect();
+        Destination { folder, inputs: &inputs, force: arguments.force }.write(&files)?;
     }
     let text = if arguments.json { stream::json(&validation_json(&cases))? } else { validation_page(&cases) };
     stream::data(&text)?;

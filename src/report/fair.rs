@@ -150,7 +150,17 @@ fn fitted(table: &OffsetTable, file: &Path) -> Result<Hull, Failure> {
     fitted.map(|fitted| fitted.hull).map_err(|error| Failure::Input(vec![problem("E175", file, error.to_string(), "")]))
 }
 
+/// Files that every fairing writes, besides the table.
+const FILES: [&str; 6] = ["hull.json", "start.json", "changes.csv", "fairing.json", "summary.json", "manifest.json"];
+
 impl FairJob {
+    /// Names of the files that the job writes, whatever comes of it; figures are not among them.
+    #[must_use]
+    pub fn outputs(&self) -> Vec<String> {
+        let conventions = conventions_beside(self).map(|_| "offsets.toml".to_owned());
+        FILES.map(str::to_owned).into_iter().chain([offsets_name(self)]).chain(conventions).collect()
+    }
+
     /// The files that were read.
     #[must_use]
     pub fn files(&self) -> &[PathBuf] {

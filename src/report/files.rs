@@ -41,58 +41,95 @@ pub(super) fn is_workbook(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xlsx"))
 }
 
-/// Writes the files of one run with [`write_all`]. With `force`, files that the manifest of an earlier run in the folder
-/// lists and this run does not write are removed, when they are still what that run wrote.
-///
-/// # Errors
-/// [`Failure::Exists`], [`Failure::FileSystem`].
-pub fn write_run(folder: &Path, files: &[OutputFile], force: bool) -> Result<(), Failure> {
-    let earlier =
-        if force { fs::read_to_string(folder.join("manifest.json")).unwrap_or_default() } else { String::new() };
-    write_all(folder, files, force)?;
-    for entry in read_manifest_outputs(&earlier) {
-        // Names of files in this folder, and nothing else.
-        let plain = Path::new(&entry.file).file_name().is_some_and(|name| name == entry.file.as_str());
-        if !plain || files.iter().any(|file| file.name == entry.file) {
-            continue;
-        }
-        let path = folder.join(&entry.file);
-        let regular = path.symlink_metadata().is_ok_and(|data| data.is_file() && data.len() == entry.bytes as u64);
-        if regular && fs::read(&path).is_ok_and(|bytes| sha256(&bytes) == entry.sha256) {
-            fs::remove_file(&path).map_err(|error| Failure::FileSystem { act: "remove", path, error })?;
-        }
-    }
-    Ok(())
+/// Whether two paths are one file or folder; an empty one is the folder that the program runs in.
+#[must_use]
+pub fn same_path(a: &Path, b: &Path) -> bool {
+    let real = |path: &Path| Path::new(".").join(path).canonicalize();
+    matches!((real(a), real(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Writes `files` into `folder`, which is made when it is not there. Without `force` nothing is written when one of the
-/// files is there already. Each file is written under another name beside its place and then renamed.
-///
-/// # Errors
-/// [`Failure::Exists`], [`Failure::FileSystem`].
-pub fn write_all(folder: &Path, files: &[OutputFile], force: bool) -> Result<(), Failure> {
-    let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
-    if !force {
-        let there: Vec<PathBuf> = paths.iter().filter(|path| path.symlink_metadata().is_ok()).cloned().collect();
-        if !there.is_empty() {
-            return Err(Failure::Exists(there));
+/// Where the files of a run go.
+#[derive(Debug, Clone, Copy)]
+pub struct Destination<'a> {
+    /// Their folder, which is made when it is not there.
+    pub folder: &'a Path,
+    /// Files that the run reads; none of them is written over or removed.
+    pub inputs: &'a [PathBuf],
+    /// Whether other files that are there already are overwritten.
+    pub force: bool,
+}
+
+impl Destination<'_> {
+    /// Whether files of these names may be written. Writing asks the same; a long job asks before it begins.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] when one of them is read; [`Failure::Exists`].
+    pub fn check<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Result<(), Failure> {
+        let paths: Vec<PathBuf> = names.into_iter().map(|name| self.folder.join(name)).collect();
+        if let Some(path) = paths.iter().find(|path| self.is_read(path)) {
+            return Err(Failure::Usage(format!(
+                "{} is read and would be overwritten, with --force too; choose another place for the output",
+                path.display()
+            )));
         }
+        let there = paths.into_iter().filter(|path| !self.force && path.symlink_metadata().is_ok());
+        let there: Vec<PathBuf> = there.collect();
+        if there.is_empty() { Ok(()) } else { Err(Failure::Exists(there)) }
     }
-    if !folder.as_os_str().is_empty() {
-        fs::create_dir_all(folder).map_err(|error| Failure::FileSystem {
-            act: "make",
-            path: folder.to_owned(),
-            error,
-        })?;
+
+    fn is_read(&self, path: &Path) -> bool {
+        self.inputs.iter().any(|input| same_path(input, path))
     }
-    for (file, path) in files.iter().zip(&paths) {
-        let temporary = folder.join(format!(".{}.{}.part", file.name, std::process::id()));
-        let written = fs::write(&temporary, &file.contents).and_then(|()| fs::rename(&temporary, path));
-        if let Err(error) = written {
-            // The half-written file is of no use; that it cannot be removed either adds nothing to the message.
-            let _ = fs::remove_file(&temporary);
-            return Err(Failure::FileSystem { act: "write", path: path.clone(), error });
+
+    /// Writes the files of one run with [`Destination::write`]. With `force`, files that the manifest of an earlier run
+    /// in the folder lists and this run does not write are removed, when they are still what that run wrote.
+    ///
+    /// # Errors
+    /// Those of [`Destination::write`].
+    pub fn write_run(&self, files: &[OutputFile]) -> Result<(), Failure> {
+        let manifest = self.folder.join("manifest.json");
+        let earlier = if self.force { fs::read_to_string(manifest).unwrap_or_default() } else { String::new() };
+        self.write(files)?;
+        for entry in read_manifest_outputs(&earlier) {
+            // Names of files in this folder, and nothing else.
+            let plain = Path::new(&entry.file).file_name().is_some_and(|name| name == entry.file.as_str());
+            let path = self.folder.join(&entry.file);
+            if !plain || files.iter().any(|file| file.name == entry.file) || self.is_read(&path) {
+                continue;
+            }
+            let regular = path.symlink_metadata().is_ok_and(|data| data.is_file() && data.len() == entry.bytes as u64);
+            if regular && fs::read(&path).is_ok_and(|bytes| sha256(&bytes) == entry.sha256) {
+                fs::remove_file(&path).map_err(|error| Failure::FileSystem { act: "remove", path, error })?;
+            }
         }
+        Ok(())
     }
-    Ok(())
+
+    /// Writes `files`, all or none of them as [`Destination::check`] says. Each is written under another name beside
+    /// its place and then renamed.
+    ///
+    /// # Errors
+    /// Those of [`Destination::check`]; [`Failure::FileSystem`].
+    pub fn write(&self, files: &[OutputFile]) -> Result<(), Failure> {
+        self.check(files.iter().map(|file| file.name.as_str()))?;
+        let folder = self.folder;
+        if !folder.as_os_str().is_empty() {
+            fs::create_dir_all(folder).map_err(|error| Failure::FileSystem {
+                act: "make",
+                path: folder.to_owned(),
+                error,
+            })?;
+        }
+        for file in files {
+            let temporary = folder.join(format!(".{}.{}.part", file.name, std::process::id()));
+            let path = folder.join(&file.name);
+            let written = fs::write(&temporary, &file.contents).and_then(|()| fs::rename(&temporary, &path));
+            if let Err(error) = written {
+                // The half-written file is of no use; that it cannot be removed either adds nothing to the message.
+                let _ = fs::remove_file(&temporary);
+                return Err(Failure::FileSystem { act: "write", path, error });
+            }
+        }
+        Ok(())
+    }
 }

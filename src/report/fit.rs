@@ -13,7 +13,7 @@ use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::result_files::source_words;
 use super::sanity;
-use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
     ManifestEntry, Particulars, TableProblem, conventions_json, hydrostatics_csv, offsets_csv, residuals_csv, row_json,
@@ -42,6 +42,16 @@ pub struct FitJob {
     table_file: PathBuf,
     /// The files that were read; the first is the one that the command named.
     inputs: Vec<ManifestEntry>,
+    /// Their paths.
+    files: Vec<PathBuf>,
+}
+
+impl FitJob {
+    /// The files that were read.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
 }
 
 /// What a fit gives.
@@ -117,7 +127,10 @@ pub fn read_fit(path: &Path, said: Option<&str>, draught: Option<f64>) -> Result
         table.name = ship_name(&table_file);
     }
     let suspects = suspects(&table);
-    Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs })
+    let mut files = source_files(&table_file);
+    files.push(path.to_owned());
+    files.extend(said.map(PathBuf::from));
+    Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs, files })
 }
 
 /// Points of sections beside the surface: number, root mean square and the one that is missed most.

@@ -35,7 +35,7 @@ pub use failure::Failure;
 pub use fair::{FairJob, FairOutputs, fair_outputs, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};
 pub use fair_page::{fair_line, fair_page};
-pub use files::{OutputFile, write_all, write_run};
+pub use files::{Destination, OutputFile, same_path};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
 pub use floating::{Floating, read_floating, read_floating_with};
 pub use generate::{Outputs, generate_outputs};
@@ -46,6 +46,6 @@ pub use result_files::{ReportSettings, report_outputs};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{
     Said, Source, offsets, read_design, read_source, read_source_with, read_table_file, read_table_file_with,
-    sections_of,
+    sections_of, source_files,
 };
 pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};

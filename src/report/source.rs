@@ -124,6 +124,14 @@ pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
     })
 }
 
+/// The files that are read of a hull, a design or a table at `path`: its own, or `hull.json` of a folder, and the
+/// conventions beside it.
+#[must_use]
+pub fn source_files(path: &Path) -> Vec<PathBuf> {
+    let file = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
+    vec![file.with_extension("toml"), file]
+}
+
 /// The hull of a `hull.json`, of a folder that holds one, of a design file, or of a table of offsets or a mesh, through
 /// which a surface is laid.
 ///

@@ -98,6 +98,8 @@ impl Comparison {
 /// One hull.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
+    /// Its folder.
+    pub folder: PathBuf,
     /// Name of its folder.
     pub name: String,
     /// Title in its reference.
@@ -189,6 +191,7 @@ fn validate_folder(folder: &Path) -> Result<Option<Case>, Failure> {
         }
     }
     Ok(Some(Case {
+        folder: folder.to_owned(),
         name,
         title: reference.title,
         source: reference.source,
@@ -261,6 +264,7 @@ fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Resu
     let residuals = fitted.cells.iter().filter_map(|cell| cell.residual);
     let residual = residuals.chain(points.iter().map(PointResidual::residual)).map(f64::abs).reduce(f64::max);
     Ok(Case {
+        folder: folder.to_owned(),
         name: name.to_owned(),
         title: reference.title.clone(),
         source: reference.source.clone(),
