@@ -202,12 +202,20 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     let far = changes.lines().nth(5).unwrap().replacen(",0.", ",1000000.", 1);
     for (text, part) in [
         (changes.replacen("-50", "fifty", 1), "line 2, column"),
-        (cut, &ends),
+        (cut.clone(), &ends),
         (changes.replacen(changes.lines().nth(5).unwrap(), &far, 1), "line 6, column"),
     ] {
         fs::write(path.join("changes.csv"), text).unwrap();
         refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv", part, "Run the command that wrote it again"]);
     }
+    // Of a program that did not write how many there are.
+    let certificate = fs::read_to_string(fair.join("fairing.json")).unwrap();
+    let count = format!("\"offsets\": {rows},");
+    assert!(certificate.contains(&count));
+    fs::write(path.join("fairing.json"), certificate.replace(&count, "")).unwrap();
+    fs::write(path.join("changes.csv"), &cut).unwrap();
+    refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv found 2 offsets that span no hull"]);
+    copy("fairing.json");
     copy("changes.csv");
     let start = fs::read_to_string(fair.join("start.json")).unwrap();
     fs::write(path.join("start.json"), start.replace("\"Lpp\":100.0", "\"Lpp\":90.0")).unwrap();

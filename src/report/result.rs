@@ -12,6 +12,7 @@ use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
     read_manifest_outputs,
 };
+use crate::fairing::job::Change;
 use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};
@@ -198,6 +199,11 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             let text = reader.needed("changes.csv", "`fair`")?;
             let moved = read_changes(&text, &lines, offsets)
                 .map_err(|error| unread(&folder.join("changes.csv"), &error.to_string()))?;
+            if !spans(&moved) {
+                let found = counted(moved.len(), "offset");
+                let message = format!("found {found} that span no hull; expected breadth at several x and heights");
+                return Err(unread(&folder.join("changes.csv"), &message));
+            }
             let before = reader.hull("start.json", "`fair`")?.hull;
             if let Some(message) = another_ship(&before, &hull) {
                 return Err(unread(&folder.join("start.json"), &message));
@@ -262,6 +268,12 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
         folder: Some(folder),
         ..bare(hull, conventions, reader.inputs)
     })
+}
+
+/// Whether offsets have length, breadth and height.
+fn spans(changes: &[Change]) -> bool {
+    let several = |of: fn(&Change) -> f64| changes.windows(2).any(|pair| (of(&pair[0]) - of(&pair[1])).abs() > 0.0);
+    several(|change| change.x) && several(|change| change.z) && changes.iter().any(|c| c.before.max(c.after) > 0.0)
 }
 
 /// Main dimensions in which the hull before a fairing is not that after it, in words; none where it is.
