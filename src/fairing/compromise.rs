@@ -22,9 +22,6 @@ const ROOMS: [f64; 3] = [1e-3, 0.05, 0.5];
 /// Least widening from which the targets of the table give way and not the tolerances.
 const FAR: f64 = 1.5;
 
-/// The start is off a target by more than this, relative, where it is another than that of the table.
-const ANOTHER: f64 = 1e-4;
-
 /// What an answer may break a limit of half-breadths by, over the greatest one.
 const LIMIT_SLACK: f64 = 1e-6;
 
@@ -36,6 +33,9 @@ const ROOM_BETWEEN: f64 = 0.02;
 /// the table's: none for a displacement that is had by waves. (With the room above, a Series 60 with 0.9 % less
 /// displacement was hollow by 1.3 m between offsets that kept within 16 mm.)
 const LEVELS_BETWEEN: f64 = 3.0;
+
+/// Limits between the offsets from which a program goes on breaking others.
+const MANY: usize = 1000;
 
 /// How much more a control value may move than the surface.
 const NET_BETWEEN: f64 = 3.0;
@@ -51,6 +51,8 @@ pub(super) struct Basic<'a> {
     pub(super) lambda: f64,
     /// What the constraints of the wishes are.
     pub(super) constraints: &'a [Constraint],
+    /// Which of them ask for something else than the surface through the table has.
+    pub(super) others: &'a [bool],
     /// The net from which the surface must not move far between the offsets.
     pub(super) reference: Vec<f64>,
     /// How far: tolerance, which widens, and room besides \[m\].
@@ -111,7 +113,7 @@ impl<'a> Basic<'a> {
         surface: &'a FairSurface,
         model: &'a Model,
         (smoother, lambda): (&'a Smoother, f64),
-        constraints: &'a [Constraint],
+        (constraints, others): (&'a [Constraint], &'a [bool]),
         wishes: &Wishes,
         (smoothed, greatest): (&[f64], f64),
         solver: &'a Settings,
@@ -122,8 +124,9 @@ impl<'a> Basic<'a> {
         tolerances.sort_by(f64::total_cmp);
         let median = tolerances.get(tolerances.len() / 2).copied().unwrap_or(f64::INFINITY);
         let room = [median, ROOM_BETWEEN * greatest];
-        let mut basic = Self { surface, model, smoother, lambda, constraints, reference, room, greatest, solver };
-        if basic.others().contains(&true) {
+        let mut basic =
+            Self { surface, model, smoother, lambda, constraints, others, reference, room, greatest, solver };
+        if others.contains(&true) {
             let free = Wishes { constraints: Vec::new(), ..wishes.clone() };
             let free = basic.program(&free, 1.0).solve(model, smoother, lambda, solver)?;
             if free.is_optimal() {
@@ -132,15 +135,6 @@ impl<'a> Basic<'a> {
             }
         }
         Ok(basic)
-    }
-
-    /// Which constraints the start does not have.
-    fn others(&self) -> Vec<bool> {
-        let hull = &self.surface.hull;
-        let off = |constraint: &Constraint| {
-            (constraint.value(hull) - constraint.target()).abs() > constraint.band() + ANOTHER * constraint.scale(hull)
-        };
-        self.constraints.iter().map(off).collect()
     }
 
     /// What the constraints ask for.
@@ -234,10 +228,10 @@ impl<'a> Basic<'a> {
         Ok(answer)
     }
 
-    /// Where the targets are as near as they can be had within the tolerances: those that the start does not have, or
+    /// Where the targets are as near as they can be had within the tolerances: those that are not the table's, or
     /// else, where `far`, all of them; and the fairest net without those.
     fn nearest(&self, wishes: &mut Wishes, far: bool) -> Result<(Option<[Vec<f64>; 2]>, usize), FairError> {
-        let (others, targets) = (self.others(), self.targets());
+        let (others, targets) = (self.others, self.targets());
         let mut programs = 0;
         for all in [false, true] {
             if self.constraints.is_empty() || !(if all { far } else { others.contains(&true) }) {
@@ -302,8 +296,10 @@ impl<'a> Basic<'a> {
         let bands = between(hull, net, &self.reference, [tolerance, widening, room], slack);
         let any = !(limits.is_empty() && bands.is_empty());
         wishes.breadths.extend(limits);
-        if !bands.is_empty() && wishes.between.is_empty() {
-            // What is kept back at one place would come out at the next, were the net not kept back as a whole.
+        // What is kept back at one place comes out at the next: where targets ask for it, or where it goes on, the net is
+        // kept back as a whole.
+        let going_on = wishes.between.iter().all(|limit| limit.row.len() > 1) && wishes.between.len() > MANY;
+        if going_on || (self.others.contains(&true) && !bands.is_empty() && wishes.between.is_empty()) {
             let [tolerance, room] = self.room.map(|room| NET_BETWEEN * room);
             let net = self.reference.iter().enumerate();
             wishes.between.extend(net.map(|(i, &value)| Between { row: vec![(i, 1.0)], value, tolerance, room }));

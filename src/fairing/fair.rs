@@ -47,6 +47,8 @@ const ROUNDS: usize = 8;
 pub struct FairSettings {
     /// Constraints of the whole hull.
     pub constraints: Vec<Constraint>,
+    /// Which of them ask for something else than the surface through the table has.
+    pub others: Vec<bool>,
     /// Rules for lines and regions.
     pub rules: Vec<Rule>,
     /// Smoothing weight; none: by cross-validation.
@@ -265,7 +267,8 @@ pub fn fair_prepared(
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
     let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
-    let basic = Basic::new(surface, model, weighed, &settings.constraints, &wishes, first, &settings.solver)?;
+    let asked = (settings.constraints.as_slice(), settings.others.as_slice());
+    let basic = Basic::new(surface, model, weighed, asked, &wishes, first, &settings.solver)?;
     let Answer { mut program, mut solved, mut diagnosis, mut instead, mut programs, mut iterations } =
         basic.solve(&mut wishes)?;
     if diagnosis.is_none()

@@ -29,6 +29,10 @@ pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 
+/// The surface through the table is off a target by more than this, over its scale, where it is another than its own:
+/// less is what a target of the drawing office differs from a table by errors of the table.
+const ANOTHER: f64 = 2e-3;
+
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
@@ -237,13 +241,14 @@ impl Job {
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
         let outcome = self.run_on(table, true)?;
-        // A net of its own that bends more often than the surface through the table does not follow it after all.
+        // A net of its own that bends more often than the surface through the table, and more, does not follow it after
+        // all.
         let more = |outcome: &Outcome| {
             let [stations, waterlines] = ["station", "waterline"].map(|kind| outcome.inflections(kind));
             let more = |[before, after]: [usize; 2]| after.saturating_sub(before);
             more(stations) + more(waterlines)
         };
-        if outcome.own && more(&outcome) > 0 {
+        if outcome.own && more(&outcome) > 0 && outcome.energy[1] > outcome.energy[0] {
             let other = self.run_on(table, false)?;
             if more(&other) < more(&outcome) && other.status == outcome.status {
                 return Ok(other);
@@ -288,7 +293,12 @@ impl Job {
         // What a rule says of the inflections of a line stands over the guard of them.
         let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
         let guarded = |line: &Line| !ruled.contains(line);
+        let another = |constraint: &Constraint| {
+            let off = (constraint.value(&before) - constraint.target()).abs();
+            off > constraint.band() + ANOTHER * constraint.scale(&before)
+        };
         let mut settings = FairSettings {
+            others: constraints.iter().map(another).collect(),
             constraints,
             rules: self.rules.clone(),
             weight: self.weight,

@@ -53,20 +53,22 @@ impl Job<'_> {
         Ok(solved)
     }
 
-    /// Adds the limits that a net breaks; false where it breaks none. A curve of points that are nowhere below 0 does not
-    /// go below either.
+    /// Adds the limits that a net breaks; false where it breaks none.
     fn limit(&mut self, sites: &[Between], net: &[f64]) -> bool {
+        let slack = SLACK * self.model.readings.iter().fold(0.0, |most: f64, reading| most.max(reading.value.abs()));
+        let below = self.not_below(sites).filter(|limit| value(&limit.row, net) < -slack).collect::<Vec<Limit>>();
         let wishes = &mut self.wishes;
         let before = wishes.between.len() + wishes.breadths.len();
         wishes.between.extend(broken(sites, net, wishes.widening));
-        let values = self.model.readings.iter().map(|reading| reading.value);
-        let [low, high] = values.fold([f64::INFINITY, 0.0_f64], |[low, high], y| [low.min(y), high.max(y)]);
-        if low >= 0.0 {
-            let below = sites.iter().filter(|site| value(&site.row, net) < -SLACK * high);
-            let limits = below.map(|site| Limit { row: site.row.clone(), lower: 0.0, upper: f64::INFINITY });
-            wishes.breadths.extend(limits);
-        }
+        wishes.breadths.extend(below);
         wishes.between.len() + wishes.breadths.len() > before
+    }
+
+    /// A curve of points that are nowhere below 0 does not go below either.
+    fn not_below<'s>(&self, sites: &'s [Between]) -> impl Iterator<Item = Limit> + use<'s> {
+        let positive = self.model.readings.iter().all(|reading| reading.value >= 0.0);
+        let limit = |site: &Between| Limit { row: site.row.clone(), lower: 0.0, upper: f64::INFINITY };
+        sites.iter().filter(move |_| positive).map(limit)
     }
 
     /// Solves for what is wished, or the best compromise; `reference` is the net as it was smoothed.
@@ -89,7 +91,8 @@ impl Job<'_> {
         found.status = FairStatus::Infeasible;
         let solver = &self.settings.solver;
         // Linear programs have no energy to keep them near.
-        let wishes = Wishes { between: sites.to_vec(), ..self.wishes.clone() };
+        let breadths = self.not_below(sites).collect();
+        let wishes = Wishes { between: sites.to_vec(), breadths, ..self.wishes.clone() };
         let plain = self.program(&wishes, None);
         let least = least_widening(&plain, solver, |_, _| None)?;
         let reference = self.space.curve(reference)?;
