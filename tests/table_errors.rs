@@ -220,6 +220,15 @@ fn e313_nothing_in_it() {
 }
 
 #[test]
+fn w311_stations_on_both_sides_of_the_origin() {
+    let text = "x [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n";
+    among(&notes(text, ""), &["W311", "from x = -10.000 to 10.000 m", "x_from_midship"]);
+    for quiet in [GOOD, "x_from_midship [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n"] {
+        assert!(!notes(quiet, "").iter().any(|note| note.contains("W311")), "{:?}", notes(quiet, ""));
+    }
+}
+
+#[test]
 fn warnings_and_notes() {
     among(&notes(GOOD, ""), &["W306", "no profiles of stem and stern"]);
     among(&notes(GOOD, "[table]\nT = 1\n"), &["W307", "only 2 waterlines up to T 1 m"]);

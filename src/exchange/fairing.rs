@@ -216,7 +216,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
                 "kind": held.rule.key(), "name": held.rule.words(), "rows": held.rows, "binding": held.binding,
                 "violation": number(held.violation), "multiplier": number(held.multiplier), "price": number(held.price),
                 "given_up": held.given_up,
-                "words": priced(&held.rule.words(), held.price),
+                "words": if held.given_up { format!("{} was given up", held.rule.words()) } else { priced(&held.rule.words(), held.price) },
             })
         })
         .collect();
