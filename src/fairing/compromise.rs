@@ -9,7 +9,7 @@
 
 use super::constraint::{Constraint, between, broken, control_values};
 use super::fair::FairError;
-use super::infeasible::{Diagnosis, Target, diagnose, least_widening, nearest};
+use super::infeasible::{Diagnosis, Ends, Target, diagnose, least_widening, nearest};
 use super::model::Model;
 use super::program::{Between, Program, Solved, Wishes};
 use super::smoothing::Smoother;
@@ -230,7 +230,7 @@ impl<'a> Basic<'a> {
 
     /// Where the targets are as near as they can be had within the tolerances: those that are not the table's, or
     /// else, where `far`, all of them; and the fairest net without those.
-    fn nearest(&self, wishes: &mut Wishes, far: bool) -> Result<(Option<[Vec<f64>; 2]>, usize), FairError> {
+    fn nearest(&self, wishes: &mut Wishes, far: bool) -> Result<(Option<Ends>, usize), FairError> {
         let (others, targets) = (self.others, self.targets());
         let mut programs = 0;
         for all in [false, true] {

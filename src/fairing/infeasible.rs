@@ -41,6 +41,9 @@ pub struct Target {
     pub scale: f64,
 }
 
+/// Two nets or points: the nearest that targets can be had, and the fairest.
+pub type Ends = [Vec<f64>; 2];
+
 /// Why a program has no solution, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
@@ -238,7 +241,7 @@ pub fn nearest(
     targets: &[Target],
     settings: &Settings,
     mut cut: impl FnMut(&[f64]) -> Option<Program>,
-) -> Result<(Option<[Vec<f64>; 2]>, usize), ProblemError> {
+) -> Result<(Option<Ends>, usize), ProblemError> {
     let giving = |name: RowName| matches!(name, RowName::Constraint(k) if gives(k));
     let (mut found, mut programs) = (None, 0);
     for _ in 0..CUTS {

@@ -73,6 +73,10 @@ struct Modelled {
     watched: Watched,
 }
 
+/// What may be declared, the surface through the table with what is where that is another one, the same with edges of
+/// flats, the net over it, and its weight where it is one of its own.
+type Surfaced = (Vec<Proposal>, Option<Hull>, Hull, FairSurface, Option<Search>);
+
 impl Started {
     /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
     /// ([`super::robust`]), where the net follows what is left; `own` says whether there may be one.
@@ -160,7 +164,7 @@ impl Modelled {
         found: &Suspects,
         (noise, own): (f64, bool),
         before: &Hull,
-    ) -> Result<(Vec<Proposal>, Option<Hull>, Hull, FairSurface, Option<Search>), JobError> {
+    ) -> Result<Surfaced, JobError> {
         let Cleaned { clean, charted, .. } = table;
         let mut list = proposed_lines(charted, found);
         list.retain(|line| !has_line(before, line));
