@@ -95,10 +95,11 @@ const HULL: [&str; 10] = [
     "sections",
     "zebra-map",
 ];
-const FAIRED: [&str; 16] = [
+const FAIRED: [&str; 19] = [
     "constraints",
     "convergence",
     "deviation",
+    "faired-offsets",
     "fairing-arrows",
     "fairing-arrows-long",
     "fairing-body-plan",
@@ -108,7 +109,9 @@ const FAIRED: [&str; 16] = [
     "fairing-moves",
     "fairing-stations",
     "fairing-waterlines",
+    "inflections",
     "lcurve",
+    "notes",
     "pareto",
     "suspects",
     "verdict",
@@ -302,6 +305,35 @@ fn what_fair_wrote_comes_back_as_it_was() {
     let near = |a: f64, b: &Value| (a - b.as_f64().unwrap()).abs() < 1e-12;
     assert!(near(rms, &fairing["moves"]["rms"]) && near(largest, &fairing["moves"]["max"]));
     assert_eq!(text(files, "changes.csv"), fs::read_to_string(path.join("changes.csv")).unwrap());
+}
+
+#[test]
+fn the_sheets_after_the_drawings_have_the_fair_table_the_inflections_and_the_notes() {
+    let (path, files) = faired();
+    let sheet = text(files, "faired-offsets.svg");
+    let table = fs::read_to_string(path.join("offsets.csv")).unwrap();
+    let offsets = table.lines().filter(|line| !line.starts_with('#')).skip(1).flat_map(|line| line.split(',').skip(1));
+    let mut compared = 0;
+    for offset in offsets.filter(|offset| offset.parse::<f64>().is_ok()) {
+        assert!(sheet.contains(&format!(">{offset}<")), "{offset}");
+        compared += 1;
+    }
+    assert!(
+        compared > 400 && sheet.contains("left out as a suspect, the offset is that of the fair hull: 1"),
+        "{compared}"
+    );
+    let certificate: Value = serde_json::from_str(&fs::read_to_string(path.join("fairing.json")).unwrap()).unwrap();
+    let lines: usize = ["waterlines", "stations", "buttocks", "diagonals"]
+        .iter()
+        .map(|kind| certificate["inflections"][kind].as_array().unwrap().len())
+        .sum();
+    let told = text(files, "inflections.svg");
+    let rows = ["waterline", "station", "buttock", "diagonal"]
+        .map(|kind| told.matches(&format!(">{kind}<")).count() + told.matches(&format!(">{kind} ")).count());
+    assert_eq!(rows.iter().sum::<usize>(), lines);
+    let notes = text(files, "notes.svg");
+    let first = certificate["notes"][0].as_str().unwrap();
+    assert!(notes.contains(first.split(['&', '<', '>', '\'', '_']).next().unwrap().trim()), "{first}");
 }
 
 #[test]
@@ -583,7 +615,7 @@ fn the_page_works_in_a_browser() {
     assert_eq!(told["outside"], serde_json::json!([]), "the page asks for other files");
     assert_eq!((&told["rising"], &told["falling"], &told["wide"]), (&true.into(), &true.into(), &true.into()));
     // Tables stand on the page as text.
-    assert_eq!(told["figures"], HULL.len() + FAIRED.len() - 3);
+    assert_eq!(told["figures"], HULL.len() + FAIRED.len() - 6);
     let states = told["states"].as_array().unwrap();
     assert_eq!(states.len(), 17);
     for pair in states.windows(2) {

@@ -89,6 +89,9 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
             } else if guarded.kept.contains(&line) {
                 entry["allowed"] = json!(turns.before);
             }
+            if let Some((_, price)) = guarded.prices.iter().find(|(other, _)| *other == line) {
+                entry["price"] = number(*price);
+            }
             if let Some((_, price)) = guarded.released.iter().find(|(other, _)| *other == line) {
                 // Not a number: nothing satisfies the least inflections of all lines together.
                 entry["released_at"] = json_number(price.is_finite().then_some(*price));
@@ -259,6 +262,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         // Largest relative error of what is not linear, before its first new linearisation and after each.
         "settled": faired.settled.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
         "inflections": {
+            // What departs less from its chord is no inflection [m].
+            "dead_band": number(outcome.resolution),
             "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },

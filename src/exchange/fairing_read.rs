@@ -361,6 +361,23 @@ pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> R
     }
 }
 
+/// The offsets of `changes.csv` as they are written in the table before and after, row by row; empty where they are not
+/// known.
+#[must_use]
+pub fn read_texts(text: &str) -> Vec<[String; 2]> {
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
+    let heads = reader.headers().cloned().unwrap_or_default();
+    let at = ["text before", "text after"].map(|name| heads.iter().position(|head| head == name));
+    let field = |record: &csv::StringRecord, at: Option<usize>| {
+        at.and_then(|at| record.get(at)).unwrap_or_default().trim().to_owned()
+    };
+    let texts = |record: csv::Result<csv::StringRecord>| {
+        let record = record.unwrap_or_default();
+        at.map(|at| field(&record, at))
+    };
+    reader.records().map(texts).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -393,6 +410,15 @@ mod tests {
         assert_eq!((changes[1].origin, changes[1].tolerance, changes[1].suspect), (deck, None, true));
         assert_eq!(changes[2].origin, Origin::Point { station: 0, outline: 1, point: 6 });
         assert!(read_changes(&text.replace("2.7", "0.7"), &lines(), None).is_err());
+    }
+
+    #[test]
+    fn texts_of_offsets_are_read_where_they_are_known() {
+        let text =
+            format!("{HEAD},text before,text after\n1,1.25,5,1.25,2,2.001,0.001,,,,,2-0-0,2-0-1+\n1,deck,5,3,2,2\n");
+        let texts = [["2-0-0", "2-0-1+"], ["", ""]].map(|pair| pair.map(str::to_owned));
+        assert_eq!(read_texts(&text), texts);
+        assert_eq!(read_texts(&format!("{HEAD}\n1,1.25\n")), [[String::new(), String::new()]]);
     }
 
     #[test]

@@ -41,6 +41,9 @@ pub struct Guarded {
     pub released: Vec<(Line, f64)>,
     /// Lines that keep the signs of the start.
     pub kept: Vec<Line>,
+    /// What lines that were asked or keep the signs of the start are charged, in sigma^2: with the program that was
+    /// accepted last.
+    pub prices: Vec<(Line, f64)>,
     /// The least inflections of every line, and whether they are proved.
     pub least: Vec<(Line, usize, bool)>,
     /// Programs solved.
@@ -58,6 +61,7 @@ impl Guarded {
             asked: Vec::new(),
             released: Vec::new(),
             kept: Vec::new(),
+            prices: Vec::new(),
             least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
             programs: 0,
             iterations: 0,
@@ -177,6 +181,11 @@ impl Question<'_> {
         }
         let names = |start: bool| asked.iter().filter(|a| a.is_start() == start).map(|a| lines[a.line].line).collect();
         (guarded.asked, guarded.kept) = (names(false), names(true));
+        if let Some((program, solved)) = &guarded.accepted {
+            let charges = charges(program, solved, &asked, &free.net).into_iter();
+            let unit = self.sigma * self.sigma;
+            guarded.prices = asked.iter().zip(charges).map(|(a, charge)| (lines[a.line].line, charge / unit)).collect();
+        }
         Ok(guarded)
     }
 

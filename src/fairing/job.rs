@@ -228,6 +228,9 @@ pub struct Outcome {
     pub own: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
     pub table_noise: f64,
+    /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of
+    /// its noise.
+    pub resolution: f64,
     /// Whether targets that cannot be had within the tolerances gave way to the nearest that can.
     pub nearest: bool,
     /// What was assumed, in words.
@@ -484,6 +487,7 @@ impl Job {
             order: surface.order,
             energy,
             faired,
+            resolution,
             nearest,
             own: surface.own,
             table_noise: found.noise,

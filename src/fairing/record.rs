@@ -226,6 +226,12 @@ impl FairRecord {
     }
 }
 
+/// What counts as the accuracy of a table \[m\]: two steps of its writing, or twice its noise where that is more.
+#[must_use]
+pub fn accuracy(quantum: Option<f64>, sigma: f64) -> f64 {
+    (2.0 * quantum.unwrap_or(0.0)).max(2.0 * sigma)
+}
+
 /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
 pub(super) fn moves(changes: &[Change]) -> (f64, f64, Option<&Change>) {
     let kept: Vec<&Change> = changes.iter().filter(|change| !change.suspect).collect();

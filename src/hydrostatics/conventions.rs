@@ -257,15 +257,23 @@ impl Conventions {
                     }
                 },
             ),
-            say("keel", &format!("T_K = T + {} m", self.keel_thickness)),
+            say(
+                "draught to the underside of the keel",
+                &if self.keel_thickness > 0.0 {
+                    format!("T_K = T + {} m, the thickness of the keel plate", self.keel_thickness)
+                } else {
+                    "T_K = T, the moulded draught: no thickness of the keel plate is given, and the shell is not counted".to_owned()
+                },
+            ),
             say("moment to change trim", &format!("MTC = displacement x {metacentre} / (100 Lpp); {known}")),
             say("trim", "trim = T_A - T_F, + by the stern; rows are at even keel"),
             say("wetted surface", "side, flat of bottom, immersed transom and flat bow; the deck is not counted"),
             say(
                 "parallel middle body",
                 "sections equal to the largest one within 1e-6 of it over at least 1 % of Lpp; L_E from its fore end to FP, \
-                 L_R from AP to its aft end, from the largest section where there is none",
+                 L_R from AP to its aft end, both from x_AX where there is none",
             ),
+            say("position of the largest section", "x_AX is the middle of the parallel middle body where there is one"),
         ];
         if self.assumed.draught {
             list.push(say("design draught", "assumed: the table that the hull was laid through states none"));

@@ -1,6 +1,7 @@
 //! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all
 //! combs of one kind of line have one scale, which is printed. Teeth that are longer than there is room for are left
-//! out, the line of the tips is interrupted there, and an arrow in the direction of the longest of them says so.
+//! out, the line of the tips is interrupted there, and an arrow in the direction of the longest of them says so; its
+//! curvature may be written beside it.
 
 use super::canvas::{Canvas, Pen};
 use super::scale::sheet_scale;
@@ -26,12 +27,23 @@ pub(super) struct CombScale {
     longest: f64,
 }
 
+/// What was drawn of a comb.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct DrawnComb {
+    /// The lines of the tips.
+    pub(super) tips: Vec<Vec<[f64; 2]>>,
+    /// Arrows for teeth that had to be left out, foot and point, with the largest curvature of those \[1/m\].
+    pub(super) cut: Vec<([[f64; 2]; 2], f64)>,
+}
+
 /// How the comb of a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CombPens {
     pub(super) teeth: Pen,
     pub(super) tips: Pen,
     pub(super) ring: Pen,
+    /// Arrows for teeth that are left out.
+    pub(super) cut: Pen,
 }
 
 impl CombScale {
@@ -59,18 +71,24 @@ impl CombScale {
         format!("{STATED:.0} mm = {:.*} 1/m", digits.unwrap_or(6) as usize, self.curvature)
     }
 
-    /// Draws a comb; `at` takes points of the ship to the sheet. Whether a part of it had to be left out.
+    /// Draws a comb; `at` takes points of the ship to the sheet.
     pub(super) fn draw(
         &self,
         canvas: &mut Canvas,
         comb: &Comb,
         at: impl Fn([f64; 3]) -> [f64; 2],
         pens: &CombPens,
-    ) -> bool {
+    ) -> DrawnComb {
         let feet: Vec<[f64; 2]> = comb.teeth.iter().map(|tooth| at(tooth.at)).collect();
         let mut tips: Vec<[f64; 2]> = Vec::with_capacity(feet.len());
         let mut longest: Option<(f64, [[f64; 2]; 2])> = None;
-        let mut left_out = false;
+        let mut drawn = DrawnComb::default();
+        let end = |canvas: &mut Canvas, drawn: &mut DrawnComb, longest: &mut Option<(f64, [[f64; 2]; 2])>| {
+            if let Some((size, ends)) = longest.take() {
+                arrow(canvas, ends, &pens.cut);
+                drawn.cut.push((ends, size * self.curvature / STATED));
+            }
+        };
         for (k, tooth) in comb.teeth.iter().enumerate() {
             let (a, b) = (feet[k.saturating_sub(1)], feet[(k + 1).min(feet.len() - 1)]);
             let along = [b[0] - a[0], b[1] - a[1]];
@@ -86,26 +104,24 @@ impl CombScale {
             let tip = |size: f64| [0, 1].map(|d| feet[k][d] + size.copysign(outward) * normal[d]);
             let longest_here = self.longest.min(canvas.room(feet[k], normal.map(|c| c * 1f64.copysign(outward))));
             if size > longest_here {
-                left_out = true;
-                canvas.polyline(&std::mem::take(&mut tips), &pens.tips);
+                canvas.polyline(&tips, &pens.tips);
+                drawn.tips.push(std::mem::take(&mut tips));
                 if longest.is_none_or(|(most, _)| size > most) {
                     longest = Some((size, [feet[k], tip(longest_here)]));
                 }
                 continue;
             }
-            if let Some((_, ends)) = longest.take() {
-                arrow(canvas, ends, &pens.tips);
-            }
+            end(canvas, &mut drawn, &mut longest);
             if k % DRAWN == 0 {
                 canvas.line(feet[k], tip(size), &pens.teeth);
             }
             tips.push(tip(size));
         }
         canvas.polyline(&tips, &pens.tips);
-        if let Some((_, ends)) = longest {
-            arrow(canvas, ends, &pens.tips);
-        }
-        left_out
+        end(canvas, &mut drawn, &mut longest);
+        drawn.tips.push(tips);
+        drawn.tips.retain(|line| line.len() > 1);
+        drawn
     }
 
     /// Draws the rings around the inflections of a comb.

@@ -8,7 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale, LONGEST};
 use super::fairing_combs::FairingCombs;
 use super::label::{LabelPlacer, Preference};
-use super::scale::drawing_scale;
+use super::scale::{drawing_scale, figures};
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::{ROWS, name_stations, number_sections};
 use super::view::{BASE, GRID, THREAD};
@@ -29,10 +29,18 @@ const CHORD: f64 = 0.01;
 
 pub(super) const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
 pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
-pub(super) const BEFORE_COMB: CombPens =
-    CombPens { teeth: Pen::new(0.1, "#dedede"), tips: Pen::new(0.2, "#b4b4b4"), ring: Pen::new(0.3, "#9a9a9a") };
-pub(super) const AFTER_COMB: CombPens =
-    CombPens { teeth: Pen::new(0.1, "#a9c0e2"), tips: Pen::new(0.2, "#1f5fa8"), ring: Pen::new(0.4, "#c00000") };
+pub(super) const BEFORE_COMB: CombPens = CombPens {
+    teeth: Pen::new(0.1, "#dedede"),
+    tips: Pen::new(0.2, "#b4b4b4"),
+    ring: Pen::new(0.3, "#9a9a9a"),
+    cut: Pen::new(0.2, "#b4b4b4"),
+};
+pub(super) const AFTER_COMB: CombPens = CombPens {
+    teeth: Pen::new(0.1, "#a9c0e2"),
+    tips: Pen::new(0.2, "#1f5fa8"),
+    ring: Pen::new(0.4, "#c00000"),
+    cut: Pen::new(0.25, "#000000"),
+};
 
 /// A plan: which lines, where points of the ship stand.
 pub(super) struct Plan<'a> {
@@ -226,6 +234,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
     number_sections(&mut canvas, record, &drawn.curves, &mut placer, &window);
+    drawn.name_cut(&mut canvas, &mut placer, &window);
     let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
@@ -302,6 +311,7 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
             placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
         }
     }
+    drawn.name_cut(&mut canvas, &mut placer, &window);
     let words = TextStyle::new(3.2, Anchor::Start);
     canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
     canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
@@ -316,8 +326,14 @@ pub(super) struct Drawn {
     rings: Vec<[f64; 2]>,
     /// The scale of the combs; none where there are no combs.
     words: Option<String>,
+    /// Tips of the combs.
+    tips: Vec<Vec<[f64; 2]>>,
+    /// Arrows for teeth of the fair curves that had to be left out, with their curvature \[1/m\].
+    cut: Vec<([[f64; 2]; 2], f64)>,
     /// Whether teeth had to be left out.
     left_out: bool,
+    /// Whether curves run on beyond the offsets of their lines.
+    beyond: bool,
 }
 
 impl Drawn {
@@ -325,18 +341,113 @@ impl Drawn {
     pub(super) fn joined(mut self, other: Self) -> Self {
         self.curves.extend(other.curves);
         self.rings.extend(other.rings);
-        Self { words: self.words.or(other.words), left_out: self.left_out || other.left_out, ..self }
+        self.tips.extend(other.tips);
+        self.cut.extend(other.cut);
+        Self {
+            words: self.words.or(other.words),
+            left_out: self.left_out || other.left_out,
+            beyond: self.beyond || other.beyond,
+            ..self
+        }
     }
 
-    /// Keeps names off the curves and the rings.
+    /// Keeps names off the curves and the rings, and off the combs where there is room.
     pub(super) fn placer(&self) -> LabelPlacer {
         let mut placer = LabelPlacer::default();
         self.curves.iter().for_each(|(_, line)| placer.add_curve(line));
+        self.tips.iter().for_each(|line| placer.add_faint(line));
+        self.cut.iter().for_each(|(arrow, _)| placer.add_curve(arrow));
         for [x, y] in &self.rings {
             placer.take(Rectangle::new(*x, *y, *x, *y).grown(1.2));
         }
         placer
     }
+
+    /// Writes the curvature of teeth that had to be left out beside their arrows.
+    pub(super) fn name_cut(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, window: &Rectangle) {
+        let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
+        for ([foot, tip], curvature) in &self.cut {
+            let name = format!("{} 1/m", figures(*curvature, 2));
+            let half = 0.5 * Canvas::text_place([0.0, 0.0], &name, &style).width();
+            let out = [0, 1].map(|d| tip[d] - foot[d]);
+            let length = out[0].hypot(out[1]).max(1e-9);
+            let beyond = [tip[0] + (half + 1.5) * out[0] / length, tip[1] + 2.8 * out[1] / length];
+            let beside = [1.0, -1.0].map(|side| [tip[0] + side * (half + 1.5), tip[1]]);
+            let aside = [1.0, -1.0].map(|side| [foot[0] + side * (half + 2.0), 0.5 * (foot[1] + tip[1])]);
+            let places: Vec<[f64; 2]> = [beyond].into_iter().chain(beside).chain(aside).collect();
+            placer.name_clear(canvas, &name, &style, &places, window);
+        }
+    }
+}
+
+/// What stands on drawings with lines beyond their outermost offsets.
+pub(super) const BEYOND: &str = "dashed: beyond the outermost offsets, extrapolated";
+/// Least length of a line beyond its offsets that is told apart, as a part of that of all offsets.
+const BEYOND_LEAST: f64 = 2e-3;
+
+/// The same pen for the part of a line beyond the outermost offsets.
+pub(super) const fn guessed(pen: Pen) -> Pen {
+    pen.dashed(&[1.3, 0.9])
+}
+
+/// x of the outermost offsets and of the given ends of a waterline of the table \[m\]; none of other lines.
+pub(super) fn known(record: &FairRecord, cut: &Cut) -> Option<[f64; 2]> {
+    let Cut::Waterline { z } = *cut else { return None };
+    let own = record.changes.iter().filter(|change| (change.z - z).abs() < 1e-9).map(|change| change.x);
+    let number = record.lines.waterlines.iter().position(|other| (other - z).abs() < 1e-9);
+    let ends = number.and_then(|k| record.lines.endings.get(k)).into_iter().flatten().copied().flatten();
+    let all: Vec<f64> = own.chain(ends).collect();
+    let [low, high] = all.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+    let (stations, slack) = (&record.lines.stations, BEYOND_LEAST);
+    let length = stations.first().zip(stations.last()).map_or(0.0, |(a, b)| slack * (b.x - a.x));
+    (low <= high).then_some([low - length, high + length])
+}
+
+/// A line in the parts that lie between two x, and beyond them: whether beyond, and the points.
+pub(super) fn parts(line: &[[f64; 3]], between: Option<[f64; 2]>) -> Vec<(bool, Vec<[f64; 3]>)> {
+    let Some([low, high]) = between else { return vec![(false, line.to_vec())] };
+    let beyond = |p: &[f64; 3]| p[0] < low || p[0] > high;
+    let mut parts: Vec<(bool, Vec<[f64; 3]>)> = Vec::new();
+    for p in line {
+        match parts.last_mut() {
+            Some((out, points)) if *out == beyond(p) => points.push(*p),
+            last => {
+                let from = last.and_then(|(_, points)| points.last().copied());
+                let border = from.map(|q| {
+                    let limit = if p[0].min(q[0]) < low { low } else { high };
+                    let t = (limit - q[0]) / (p[0] - q[0]);
+                    std::array::from_fn(|d| q[d] + t * (p[d] - q[d]))
+                });
+                if let Some((border, (_, points))) = border.zip(parts.last_mut()) {
+                    points.push(border);
+                }
+                parts.push((beyond(p), border.into_iter().chain([*p]).collect()));
+            }
+        }
+    }
+    parts
+}
+
+/// The centreplane profile in the parts that lie between the offsets and given ends of the waterlines beside them, and
+/// those that lie beyond: whether beyond, and the points.
+pub(super) fn profile_parts(record: &FairRecord, line: &[[f64; 3]]) -> Vec<(bool, Vec<[f64; 3]>)> {
+    let waterlines = &record.lines.waterlines;
+    let ranges: Vec<Option<[f64; 2]>> = waterlines.iter().map(|&z| known(record, &Cut::Waterline { z })).collect();
+    let beyond = |[x, _, z]: [f64; 3]| {
+        let above = waterlines.partition_point(|other| *other < z);
+        let beside = [above.checked_sub(1), Some(above)].into_iter().flatten();
+        let beside: Vec<[f64; 2]> = beside.filter_map(|k| *ranges.get(k)?).collect();
+        !beside.is_empty() && beside.iter().all(|[low, high]| x < *low || x > *high)
+    };
+    let mut parts: Vec<(bool, Vec<[f64; 3]>)> = Vec::new();
+    for pair in line.windows(2) {
+        let out = beyond(std::array::from_fn(|d| 0.5 * (pair[0][d] + pair[1][d])));
+        match parts.last_mut() {
+            Some((before, points)) if *before == out => points.push(pair[1]),
+            _ => parts.push((out, pair.to_vec())),
+        }
+    }
+    parts
 }
 
 /// Draws combs and curves.
@@ -348,18 +459,26 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
     let [before, after] = plan.combs.on(cuts);
-    let mut left_out = false;
-    for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
+    let (mut left_out, mut tips, mut left) = (false, Vec::new(), Vec::new());
+    for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
         for comb in list {
-            left_out |= plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
+            let drawn = plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
+            left_out |= !drawn.cut.is_empty();
+            tips.extend(drawn.tips);
+            left.extend(drawn.cut.into_iter().filter(|_| fair));
         }
     }
-    let mut drawn = Vec::new();
+    let (mut drawn, mut beyond) = (Vec::new(), false);
     for (hull, pen, fair) in [(&plan.record.before, &BEFORE, false), (&plan.record.after, &AFTER, true)] {
         for (k, cut) in cuts.iter().enumerate() {
             for line in whole_curves(hull, *cut, deviation) {
+                for (out, part) in parts(&line, known(plan.record, cut)) {
+                    let part: Vec<[f64; 2]> = part.into_iter().map(at(cut)).collect();
+                    let pen = if out { guessed(*pen) } else { *pen };
+                    canvas.polyline(&part, &pen);
+                    beyond |= out;
+                }
                 let line: Vec<[f64; 2]> = line.into_iter().map(at(cut)).collect();
-                canvas.polyline(&line, pen);
                 if fair {
                     drawn.push((k, line));
                 }
@@ -372,7 +491,7 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
     let bearing = cuts.iter().filter(|cut| after.iter().any(|comb| comb.cut == **cut)).count();
     let words = after.first().map(|comb| plan.combs.words(&comb.cut, [bearing, cuts.len()]));
-    Drawn { curves: drawn, rings, words, left_out }
+    Drawn { curves: drawn, rings, words, tips, cut: left, left_out, beyond }
 }
 
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
@@ -402,7 +521,7 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
     canvas.text([0.5 * plan.room[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, largest, _) = plan.record.moves();
-    let longer = if drawn.left_out { ", arrows: longer than there is room for" } else { "" };
+    let longer = if drawn.left_out { ", arrows: longer than there is room for, with the curvature after" } else { "" };
     let combs = drawn.words.as_ref().map_or("no combs".to_owned(), |words| format!("{words}{longer}"));
     let second = format!(
         "scale {}    {combs}    moves {:.2} mm RMS, {:.2} mm at most",
@@ -415,10 +534,11 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     canvas.text(
         [0.5 * plan.room[0], plan.room[1] - 12.5],
         &format!(
-            "{}    {}    rings: inflections of bends {:.2} mm or more off their chord",
+            "{}    {}    rings: inflections of bends {:.2} mm or more off their chord{}",
             station_words(plan.record),
             plan.heights,
-            1e3 * plan.record.tolerance()
+            1e3 * plan.record.tolerance(),
+            if drawn.beyond { format!("    {BEYOND}") } else { String::new() }
         ),
         &words,
     );
@@ -440,4 +560,20 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
         canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
     }
     canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_parted_where_their_offsets_end() {
+        let line = [[0.0, 0.0, 1.0], [2.0, 2.0, 1.0], [4.0, 3.0, 1.0], [6.0, 3.0, 1.0]];
+        let found = parts(&line, Some([1.0, 5.0]));
+        let beyond: Vec<bool> = found.iter().map(|(out, _)| *out).collect();
+        assert_eq!(beyond, [true, false, true]);
+        assert_eq!(found[1].1, [[1.0, 1.0, 1.0], [2.0, 2.0, 1.0], [4.0, 3.0, 1.0], [5.0, 3.0, 1.0]]);
+        assert_eq!((found[0].1.len(), found[2].1[1]), (2, [6.0, 3.0, 1.0]));
+        assert_eq!(parts(&line, None), [(false, line.to_vec())]);
+    }
 }

@@ -2,7 +2,7 @@
 //! times longer than the move as the sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{base, extent, midship, station_cut, whole_curves};
+use super::fairing::{base, extent, midship, short, station_cut, station_words, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
@@ -106,7 +106,13 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     }
     drawn.iter().for_each(|(_, line)| placer.add_curve(line));
     name_stations(&mut canvas, record, &drawn, &mut placer, &window, [0.5 * paper[0], midship]);
-    head(&mut canvas, record, paper, &format!("scale 1:{n}    arrows {times:.0} times as long as the moves"));
+    let one = short(f64::from(n) / times);
+    let scales =
+        format!("scale 1:{n}    arrows {times:.0} times as long as the moves, 1 mm of arrow = {one} mm of move");
+    head(&mut canvas, record, paper, &scales);
+    let foot = TextStyle::new(LETTERS, Anchor::Middle);
+    let names = format!("{}    waterlines by z [m] above the base line", station_words(record));
+    canvas.text([0.5 * paper[0], paper[1] - 12.5], &names, &foot);
     let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 18.0], "AFT", &words);
     canvas.text([0.5 * paper[0] + 60.0, paper[1] - 18.0], "FORWARD", &words);

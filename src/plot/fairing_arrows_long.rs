@@ -6,7 +6,10 @@
 //! printed; arrows have a scale of their own, millimetres of move a millimetre of arrow.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{LONG_SIDES, base, curves, extent, long_left, long_scale, short, station_words};
+use super::fairing::{
+    BEYOND, LONG_SIDES, base, curves, extent, guessed, known, long_left, long_scale, parts, profile_parts, short,
+    station_words,
+};
 use super::fairing_arrows::{AFTER, BEFORE, arrow, head, key, longest, ring};
 use super::label::{LabelPlacer, Preference, length};
 use super::scale::{drawing_scale, sheet_scale};
@@ -146,21 +149,25 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     if (z[0]..=z[1]).contains(&draught) {
         let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
         canvas.line(from, to, &DESIGN);
-        // Over its after end, inside the view: there is no room for as many words beside it.
-        let words = format!("DWL {draught:.2} m{}", conventions.draught_mark());
-        canvas.text([from[0] + 1.5, from[1] - 2.4], &words, &TextStyle { anchor: Anchor::Start, ..style }.halo());
     }
     for &height in record.lines.waterlines.iter().filter(|height| **height <= z[1]) {
         let [from, to] = [profile.at(aft(height)), profile.at(fore(height))];
         canvas.line(from, to, &GRID);
         placer.name_point(&mut canvas, &short(height), &style, &[[from[0] - 2.0, from[1]]], &window);
     }
-    let centreplane = outline::centreplane(&record.after).into_iter().map(|[x, z]| [x, 0.0, z]).collect();
-    let outlines: Vec<Vec<[f64; 2]>> = [(&profile, centreplane), (&profile, deck.clone()), (&plan, deck)]
+    let centreplane: Vec<[f64; 3]> =
+        outline::centreplane(&record.after).into_iter().map(|[x, z]| [x, 0.0, z]).collect();
+    let outlines: Vec<Vec<[f64; 2]>> = [(&profile, centreplane.clone()), (&profile, deck.clone()), (&plan, deck)]
         .into_iter()
         .map(|(view, line): (&LongView, Vec<[f64; 3]>)| line.into_iter().map(|p| view.at(p)).collect())
         .collect();
-    outlines.iter().for_each(|line| canvas.polyline(line, &OUTLINE));
+    let mut beyond = false;
+    for (out, part) in profile_parts(record, &centreplane) {
+        let part: Vec<[f64; 2]> = part.into_iter().map(|p| profile.at(p)).collect();
+        canvas.polyline(&part, &if out { guessed(OUTLINE) } else { OUTLINE });
+        beyond |= out;
+    }
+    outlines[1..].iter().for_each(|line| canvas.polyline(line, &OUTLINE));
     let mut drawn: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for (k, [before, after]) in pairs.iter().enumerate() {
         for (lines, pen) in [(before, &BEFORE), (after, &AFTER)] {
@@ -174,9 +181,15 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     // Numbered on from the buttocks.
     for (hull, pen) in [(&record.before, &BEFORE), (&record.after, &AFTER)] {
         for (k, &z) in record.lines.waterlines.iter().enumerate() {
-            for line in curves(hull, Cut::Waterline { z }, fine) {
+            let cut = Cut::Waterline { z };
+            for line in curves(hull, cut, fine) {
+                for (out, part) in parts(&line, known(record, &cut)) {
+                    let part: Vec<[f64; 2]> = part.into_iter().map(|p| plan.at(p)).collect();
+                    let pen = if out { guessed(*pen) } else { *pen };
+                    canvas.polyline(&part, &pen);
+                    beyond |= out;
+                }
                 let line: Vec<[f64; 2]> = line.into_iter().map(|p| plan.at(p)).collect();
-                canvas.polyline(&line, pen);
                 drawn.push((buttocks.len() + k, line));
             }
         }
@@ -210,6 +223,15 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
         placer.take(text.place);
     }
     drawn.iter().map(|(_, line)| line).chain(&outlines).for_each(|line| placer.add_curve(line));
+    if (z[0]..=z[1]).contains(&draught) {
+        // Over the line, where it meets fewest others.
+        let words = format!("DWL {draught:.2} m{}", conventions.draught_mark());
+        let style = TextStyle::new(LETTERS, Anchor::Start).halo();
+        let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
+        let places: Vec<[f64; 2]> =
+            (0..40).map(|k| [from[0] + 1.5 + 0.025 * f64::from(k) * (to[0] - from[0]), from[1] - 2.4]).collect();
+        placer.name_clear(&mut canvas, &words, &style, &places, &window);
+    }
     let style = TextStyle::new(LETTERS, Anchor::Middle);
     let names = buttocks.iter().map(|y| format!("y {y:.2} m"));
     let names = names.chain(record.lines.waterlines.iter().map(|z| short(*z)));
@@ -228,7 +250,8 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     let y = paper[1] - 14.0;
     canvas.text([14.0, y], "AFT", &small);
     let middle = TextStyle::new(LETTERS, Anchor::Middle);
-    canvas.text([0.5 * paper[0], y], &station_words(record), &middle);
+    let told = if beyond { format!("    {BEYOND}") } else { String::new() };
+    canvas.text([0.5 * paper[0], y], &format!("{}{told}", station_words(record)), &middle);
     canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);

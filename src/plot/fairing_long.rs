@@ -7,7 +7,6 @@ use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, long_scale, title};
 use super::fairing_combs::{FairingCombs, some};
 use super::fairing_curves::{Range, figures};
-use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
@@ -48,7 +47,7 @@ impl Kind {
             Self::Diagonals => [
                 "DIAGONALS IN TRUE SHAPE",
                 "distances",
-                "diagonals by z at the centreplane; distances in their planes",
+                "diagonals by z at the centreplane, distances in their planes",
                 "distance [m]",
             ],
         }
@@ -71,11 +70,16 @@ pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet
     Ok(Svg::new(compose(record, combs, sheet, Kind::Diagonals)?.finish("fairing-diagonals")))
 }
 
-/// Name of a plane: its distance or height.
-fn name(cut: &Cut) -> String {
+/// Name of a plane: its distance or height, and where it is one of `all` diagonals its number and how far it falls.
+fn name(cut: &Cut, all: &[Cut]) -> String {
     match cut {
         Cut::Buttock { y } => format!("buttock {y:.2} m"),
-        Cut::Diagonal { height, .. } => format!("diagonal from z {height:.2} m"),
+        Cut::Diagonal { height, angle } => {
+            // From the lowest up, as the lines plan has them.
+            let below = |other: &&Cut| matches!(other, Cut::Diagonal { height: z, .. } if z < height);
+            let number = all.iter().filter(below).count() + 1;
+            format!("D{number}, from z {height:.2} m on the centreplane, {:.1}° down outboard", angle.to_degrees())
+        }
         _ => String::new(),
     }
 }
@@ -159,19 +163,23 @@ pub(super) fn compose(
         let [before, after] = [0, 1].map(|k| shown[k].iter().map(|comb| comb.inflections.len()).sum::<usize>());
         let bears = if shown[1].is_empty() { String::new() } else { format!("    inflections {before} → {after}") };
         let style = TextStyle::new(LETTERS, Anchor::Start);
-        canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut)), &style);
+        canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut, all)), &style);
     }
     let drawn = drawn.ok_or_else(nothing)?;
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
     let style = TextStyle::new(LETTERS, Anchor::Middle);
-    let mut placer = LabelPlacer::default();
+    let mut placer = drawn.placer();
+    for text in canvas.texts() {
+        placer.take(text.place);
+    }
     for station in &record.lines.stations {
         let px = left + millimetres * (station.x - low);
         let word: String = caption::plain(&station.name).chars().take(9).collect();
         let places = ROWS.map(|down| [px, paper[1] - FOOT + down]);
         placer.name_point(&mut canvas, &word, &style, &places, &window);
     }
+    drawn.name_cut(&mut canvas, &mut placer, &window);
     if cuts.len() < all.len() {
         let plural = if kind == Kind::Buttocks { "buttocks" } else { "diagonals" };
         let words = format!("{} of {} {plural}; the lines plan has all of them", cuts.len(), all.len());

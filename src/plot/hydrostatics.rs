@@ -69,15 +69,26 @@ const PANELS: [Panel; 6] = {
     ]
 };
 
+/// C_M and C_X that differ by less are one curve.
+const SAME: f64 = 5e-5;
+
+/// Whether the largest section is that at midship at all draughts.
+fn midship_is_largest(rows: &[Hydrostatics]) -> bool {
+    let mut pairs = rows.iter().filter_map(|row| row.midship_coefficient.zip(row.maximum_section_coefficient));
+    pairs.all(|(midship, largest)| (midship - largest).abs() < SAME)
+}
+
 impl Panel {
     fn series(&self, rows: &[Hydrostatics]) -> Vec<Series> {
+        let one = midship_is_largest(rows);
         let points = |value: Value| {
             rows.iter().filter_map(|row| Some([value(row).filter(|v| v.is_finite())?, row.draught])).collect()
         };
         self.lines
             .iter()
+            .filter(|line| !(one && line.name == "C_X"))
             .map(|line| Series {
-                name: line.name,
+                name: if one && line.name == "C_M" { "C_M = C_X" } else { line.name },
                 points: points(line.value),
                 secondary: line.secondary,
                 colour: line.colour,

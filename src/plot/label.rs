@@ -61,6 +61,8 @@ const PIECE: usize = 16;
 #[derive(Debug, Default)]
 pub(super) struct LabelPlacer {
     curves: Vec<Vec<[f64; 2]>>,
+    /// Whether a name may cross the curve where there is no other place.
+    faint: Vec<bool>,
     /// The rectangles around the curves.
     bounds: Vec<Rectangle>,
     /// The rectangles around every [`PIECE`] chords of them.
@@ -77,6 +79,15 @@ impl LabelPlacer {
         self.pieces.push(parts.map(|k| around(&points[k..(k + PIECE + 1).min(points.len())])).collect());
         self.bounds.push(around(points));
         self.curves.push(points.to_vec());
+        self.faint.push(false);
+    }
+
+    /// Curves that names keep off where they can, as the tips of combs.
+    pub(super) fn add_faint(&mut self, points: &[[f64; 2]]) {
+        self.add_curve(points);
+        if let Some(last) = self.faint.last_mut() {
+            *last = true;
+        }
     }
 
     /// A place that is taken.
@@ -100,8 +111,13 @@ impl LabelPlacer {
     }
 
     fn crossings(&self, place: &Rectangle, own: Option<usize>) -> usize {
+        self.crossings_of(place, own, false)
+    }
+
+    /// Crossings with curves that are faint, or with all others.
+    fn crossings_of(&self, place: &Rectangle, own: Option<usize>, faint: bool) -> usize {
         (0..self.curves.len())
-            .filter(|k| Some(*k) != own)
+            .filter(|k| Some(*k) != own && self.faint[*k] == faint)
             .map(|k| self.chords(k, place).filter(|[a, b]| crosses(place, *a, *b)).take(3).count())
             .sum()
     }
@@ -134,7 +150,8 @@ impl LabelPlacer {
                 continue;
             }
             let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
-            let cost = crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
+            let faint = 0.5 * self.crossings_of(&place, None, true) as f64;
+            let cost = faint + crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
             if crossings <= preferred.crossings && best.is_none_or(|(least, _, _)| cost < least) {
                 best = Some((cost, at, place));
             }
@@ -241,7 +258,8 @@ impl LabelPlacer {
             let clear = k == 0
                 || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
                     && !self.leaders.iter().any(|&other| meet(thread, other));
-            let order = (self.crossings(&place, None) + 3 * usize::from(!clear), k);
+            let crossed = self.crossings(&place, None) + self.crossings_of(&place, None, true);
+            let order = (crossed + 3 * usize::from(!clear), k);
             if best.as_ref().is_none_or(|(least, ..)| order < *least) {
                 best = Some((order, at, apart));
             }
@@ -271,7 +289,8 @@ impl LabelPlacer {
         let free = places.iter().filter_map(|&at| {
             let place = Canvas::text_place(at, name, style).grown(0.1 * style.size);
             let blocked = !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place));
-            (!blocked).then(|| (self.crossings(&place, None), at, place))
+            let crossed = || self.crossings(&place, None) + self.crossings_of(&place, None, true);
+            (!blocked).then(|| (crossed(), at, place))
         });
         if let Some((_, at, place)) = free.min_by_key(|(crossings, _, _)| *crossings) {
             self.take(place);

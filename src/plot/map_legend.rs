@@ -104,5 +104,10 @@ impl Legend {
         let share = 100.0 * SHARE;
         let words = format!("{}   {words}; full: what {share:.0} % of the side do not pass", kind.unit());
         canvas.text([x + 3.0, y], &words, &style);
+        let words = format!(
+            "steps of colour are squares: step k of {STEPS} is (k/{STEPS})² of the full, so that little curvature shows beside much"
+        );
+        let row = if self.more > 0 || self.pair && self.marked[0] { 4.0 } else { 3.0 };
+        canvas.text([LEFT, y + row * ROW], &words, &style);
     }
 }

@@ -8,7 +8,7 @@ use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
     FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves, fairing_long,
-    fairing_moves, fairing_suspects, pareto,
+    fairing_moves, fairing_suspects, fairing_table, pareto,
 };
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
@@ -142,6 +142,15 @@ fn figures_of_faired_tables_keep_their_text_apart() {
     let words: Vec<&str> = moves.texts().iter().map(|text| text.content.as_str()).collect();
     assert!(words.iter().any(|word| word.starts_with("moves in eighths of an inch")), "{words:?}");
     found.extend(faults("moves", &moves));
+    let limit = 0.0254 / 8.0;
+    let [sheet] = &fairing_table::compose(&record, &[], limit, "1/8 in")[..] else { panic!("one sheet is enough") };
+    let words: Vec<&str> = sheet.texts().iter().map(|text| text.content.as_str()).collect();
+    let more = record.changes.iter().filter(|c| !c.suspect && (c.after - c.before).abs() > limit).count();
+    assert!(more > 0 && words.contains(&format!("moved by more than 1/8 in: {more}").as_str()), "{words:?}");
+    assert!(words.iter().any(|word| word.starts_with("left out as a suspect") && word.ends_with(": 2")), "{words:?}");
+    let written = record.changes.iter().map(|change| record.lines.notation.write(change.after));
+    assert!(written.into_iter().all(|text| words.contains(&text.as_str())));
+    found.extend(faults("faired offsets", sheet));
     found.extend(faults("deviation", &deviation::compose(&record).unwrap().unwrap()));
     found.extend(faults("pareto", &pareto::compose(&record).unwrap().unwrap()));
     assert!(found.is_empty(), "{}", found.join("\n"));

@@ -79,6 +79,13 @@ pub(super) fn multiples(step: f64, low: f64, high: f64) -> Vec<f64> {
     if counts { (first as i64..=last as i64).map(|k| k as f64 * step).collect() } else { Vec::new() }
 }
 
+/// A number to so many figures: plain between a thousandth and a million, else with its power of ten.
+pub(super) fn figures(value: f64, count: usize) -> String {
+    let written = format!("{value:.*e}", count.saturating_sub(1));
+    let power: i32 = written.split('e').nth(1).and_then(|power| power.parse().ok()).unwrap_or_default();
+    if (-3..6).contains(&power) { format!("{value:.*}", (count as i32 - 1 - power).max(0) as usize) } else { written }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -154,6 +161,20 @@ mod tests {
             (1.0, 0.0, f64::INFINITY),
         ] {
             assert!(multiples(step, low, high).is_empty(), "{step} {low} {high}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_ordinary_size_have_no_powers() {
+        for (value, count, text) in [
+            (1.0, 1, "1"),
+            (0.96, 1, "1"),
+            (0.032, 2, "0.032"),
+            (12_345.0, 2, "12345"),
+            (3e-7, 1, "3e-7"),
+            (2e9, 2, "2.0e9"),
+        ] {
+            assert_eq!(figures(value, count), text);
         }
     }
 }

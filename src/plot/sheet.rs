@@ -128,7 +128,7 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
 }
 
 /// Width of a text on the sheet \[mm\].
-fn wide(text: &str, size: f64) -> f64 {
+pub(super) fn wide(text: &str, size: f64) -> f64 {
     Canvas::text_place([0.0, 0.0], text, &TextStyle::new(size, Anchor::Start)).width()
 }
 
@@ -170,7 +170,7 @@ pub(super) fn numbered_over(sheet: Sheet, titles: &Titles<'_>) -> Svg {
 }
 
 /// Words in lines that fit.
-fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+pub(super) fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         let longer = lines.last().map(|line| format!("{line} {word}")).filter(|line| fits(line));

@@ -7,6 +7,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
+use super::scale::figures;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::fairing::smoothing::Trial;
@@ -77,8 +78,8 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     };
     let mut canvas = Canvas::new(SHEET[0], height);
     let words = format!(
-        "weight taken {:.1e}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
-        record.lambda,
+        "weight taken {}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
+        figures(record.lambda, 2),
         record.edf,
         1e3 * record.sigma
     );
@@ -97,7 +98,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 0.6, "#1f5fa8");
         let beside = taken.is_some_and(|taken| (taken[0] - at[0]).hypot(taken[1] - at[1]) < 8.0);
         if k % 2 == 0 && !beside {
-            let name = format!("{lambda:.0e}");
+            let name = figures(*lambda, 1);
             let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
             let places = [[at[0] + 1.6, at[1] - 1.2], [at[0] - width - 1.6, at[1] + 1.6], [at[0] + 1.6, at[1] + 3.0]];
             placer.name_point(&mut canvas, &name, &style, &places, &frame);
@@ -107,7 +108,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 1.3, "#c00000");
         canvas.line([at[0], at[1]], [at[0], frame.bottom], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
         let style = TextStyle::new(2.8, Anchor::Start).coloured("#c00000").halo();
-        let name = format!("taken: {:.1e}", record.lambda);
+        let name = format!("taken: {}", figures(record.lambda, 2));
         let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
         let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
         placer.name_clear(&mut canvas, &name, &style, &places, &frame);

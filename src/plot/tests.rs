@@ -177,7 +177,7 @@ fn figures_bear_the_names_of_their_lines() {
                 "TPC",
                 "MTC",
                 "C_B",
-                "C_M",
+                "C_M = C_X",
                 "C_P",
                 "C_WP",
                 "A_WL",

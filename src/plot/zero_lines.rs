@@ -1,8 +1,10 @@
 //! Lines on which a curvature of a map changes its sign, as whole curves.
 //!
 //! The crossings of the sides of cells are joined to chains. A piece of a chain counts where the curvature reaches a
-//! least size with both signs nearby: what is flat but for rounding has signs without meaning. Short gaps in a chain
-//! are filled and short pieces left out, so that lines neither stutter nor leave crumbs.
+//! least size with both signs nearby: what is flat but for rounding has signs without meaning. From there a line goes
+//! on as long as the curvature reaches a small part of that size, so that it ends at an edge, in itself, or where the
+//! surface is developable. Short gaps in a chain are filled and short pieces left out, so that lines neither stutter
+//! nor leave crumbs.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +12,8 @@ use crate::fairing::inspect::SurfaceMap;
 
 /// How near both signs stand, in cells.
 const NEAR: usize = 3;
+/// Part of the least size down to which a line goes on.
+const FAINT: f64 = 1e-6;
 /// Most pieces of a gap that is filled.
 const GAP: usize = 6;
 /// Least length of a line [mm].
@@ -38,7 +42,9 @@ pub(super) fn zero_lines(
     for (k, piece) in pieces.iter().enumerate() {
         piece.sides.iter().for_each(|side| at.entry(*side).or_default().push(k));
     }
-    let counts: Vec<bool> = pieces.iter().map(|piece| reaches(map, &value, piece.cell, least)).collect();
+    let reaching =
+        |least: f64| -> Vec<bool> { pieces.iter().map(|piece| reaches(map, &value, piece.cell, least)).collect() };
+    let (strong, faint) = (reaching(least), reaching(FAINT * least));
     let mut used = vec![false; pieces.len()];
     let mut lines = Vec::new();
     // Chains with ends first, then rings.
@@ -60,7 +66,8 @@ pub(super) fn zero_lines(
             next = at[&far].iter().copied().find(|&other| !used[other]);
         }
         let points: Vec<[f64; 2]> = sides.into_iter().map(&crossing).collect();
-        lines.extend(kept(&points, members.iter().map(|&k| counts[k]).collect()));
+        let of = |list: &[bool]| members.iter().map(|&k| list[k]).collect::<Vec<_>>();
+        lines.extend(kept(&points, &of(&strong), of(&faint)));
     }
     lines
 }
@@ -97,12 +104,20 @@ fn reaches(map: &SurfaceMap, value: &dyn Fn(usize) -> Option<f64>, [i, j]: [usiz
     high >= least && low <= -least
 }
 
-/// The parts of a chain that count, gaps filled and crumbs left out.
-fn kept(points: &[[f64; 2]], mut counts: Vec<bool>) -> Vec<Vec<[f64; 2]>> {
+/// The parts of a chain that are faint at least and somewhere strong, gaps filled and crumbs left out.
+fn kept(points: &[[f64; 2]], strong: &[bool], mut counts: Vec<bool>) -> Vec<Vec<[f64; 2]>> {
     let marked: Vec<usize> = (0..counts.len()).filter(|&k| counts[k]).collect();
     for pair in marked.windows(2) {
         if pair[1] - pair[0] <= GAP + 1 {
             counts[pair[0]..pair[1]].fill(true);
+        }
+    }
+    let mut from = 0;
+    for run in counts.clone().chunk_by(|a, b| a == b) {
+        let all = from..from + run.len();
+        from = all.end;
+        if !strong[all.clone()].contains(&true) {
+            counts[all].fill(false);
         }
     }
     let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();

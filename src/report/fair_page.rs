@@ -8,6 +8,7 @@ use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::job::{Change, Outcome};
 use crate::fairing::proposals::Proposal;
+use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
 use crate::units::Notation;
 
@@ -42,12 +43,11 @@ pub(super) fn millimetres(length: f64) -> String {
     fixed(value, decimals)
 }
 
-/// What counts as the accuracy of the table \[m\], and what it is: two steps of its writing, or twice its noise where
-/// that is more.
-fn accuracy(job: &FairJob, outcome: &Outcome) -> (f64, &'static str) {
-    let steps = 2.0 * job.table.form.quantum().unwrap_or(0.0);
-    let noise = 2.0 * outcome.faired.sigma;
-    if noise > steps { (noise, " (twice what is taken for noise)") } else { (steps, "") }
+/// What moves of a table with that step of its writing and that noise are measured by \[m\], and what it is in words.
+pub(super) fn limit(quantum: Option<f64>, sigma: f64, notation: Notation) -> (f64, String) {
+    let limit = accuracy(quantum, sigma);
+    let what = if limit > 2.0 * quantum.unwrap_or(0.0) { " (twice what is taken for noise)" } else { "" };
+    (limit, format!("{}{what}", small(limit, notation)))
 }
 
 fn counted(n: usize, one: &str, many: &str) -> String {
@@ -62,15 +62,14 @@ fn place(job: &FairJob, change: &Change) -> String {
 
 /// The offsets: how many stayed, how many moved more, how many are suspected.
 fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
-    let (limit, what) = accuracy(job, outcome);
+    let (limit, shown) = limit(job.table.form.quantum(), outcome.faired.sigma, job.table.form.notation);
     let size = |change: &Change| (change.after - change.before).abs();
     let kept: Vec<&Change> = outcome.changes.iter().filter(|change| !change.suspect).collect();
     let mut more: Vec<&Change> = kept.iter().copied().filter(|change| size(change) > limit * (1.0 + 1e-9)).collect();
     more.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let excluded: Vec<&Change> = outcome.changes.iter().filter(|change| change.suspect).collect();
-    let shown = small(limit, job.table.form.notation);
     let mut line = format!(
-        "{} of {} kept within {shown}{what}",
+        "{} of {} kept within {shown}",
         kept.len() - more.len(),
         counted(outcome.changes.len(), "offset", "offsets")
     );

@@ -8,27 +8,29 @@ use std::thread;
 use serde_json::Value;
 
 use super::failure::Failure;
+use super::fair_page::limit;
 use super::page::conventions_line;
 use super::result::JobResult;
 use super::result_files::ReportSettings;
-use super::result_page::{Table, condition, constraints};
+use super::result_page::{PRICES, Table, condition, constraints, inflections, inflections_words, list, text};
 use super::verdict::verdict;
+use crate::exchange::read_texts;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{Conventions, Hydrostatics};
 use crate::plot::{
     FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
     convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
-    fairing_diagonals, fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects,
-    fairing_waterlines, pareto_figure, smoothing_figure, surface_map, table_figure,
+    fairing_diagonals, fairing_half_breadth_plan, fairing_moves, fairing_stations, fairing_suspects, fairing_table,
+    fairing_waterlines, pareto_figure, smoothing_figure, surface_map, table_figure, table_sheets,
 };
 
 /// A figure of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ReportFigure {
     /// Stem of its files.
-    pub(super) key: &'static str,
+    pub(super) key: String,
     /// Heading.
-    pub(super) title: &'static str,
+    pub(super) title: String,
     /// What to look for.
     pub(super) caption: &'static str,
     /// The drawing, on A3.
@@ -42,11 +44,20 @@ pub(super) struct ReportFigure {
 impl ReportFigure {
     /// Whether it is a table, which the page has as text that can be sorted.
     pub(super) fn is_table(&self) -> bool {
-        ["verdict", "constraints", "design-condition"].contains(&self.key)
+        TABLES.iter().any(|key| self.key.starts_with(key))
     }
 }
 
-type Draw<'a> = Box<dyn Fn(Sheet) -> Result<Option<Svg>, PlotError> + Sync + 'a>;
+/// What their keys begin with.
+const TABLES: [&str; 6] = ["verdict", "constraints", "design-condition", "faired-offsets", "inflections", "notes"];
+
+/// The sheets of a figure; none where there is nothing to draw.
+type Draw<'a> = Box<dyn Fn(Sheet) -> Result<Vec<Svg>, PlotError> + Sync + 'a>;
+
+/// A figure of one sheet, or of none.
+fn one<'a>(draw: impl Fn(Sheet) -> Result<Option<Svg>, PlotError> + Sync + 'a) -> Draw<'a> {
+    Box::new(move |sheet| Ok(draw(sheet)?.into_iter().collect()))
+}
 
 /// Key, heading, caption and drawing of a figure.
 struct Job<'a> {
@@ -108,10 +119,7 @@ fn fairing_jobs<'a>(
                 "What is held, and at which price",
                 "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
             ],
-            Box::new(|_| {
-                let note = "price: RMS of the moves that dropping the wish would save";
-                Ok(sheet("CONSTRAINTS AND PRICES", note, constraints(fairing)))
-            }),
+            one(|_| Ok(sheet("CONSTRAINTS AND PRICES", PRICES, constraints(fairing)))),
         ),
         job(
             [
@@ -120,7 +128,7 @@ fn fairing_jobs<'a>(
                 "Every offset with its move, outward positive. Look for runs of one sign along a line: they are a change of shape, not \
                  noise. Locked cells are framed, cells at their tolerance underlined, knuckles and tangent lines have diamonds.",
             ],
-            Box::new(|_| fairing_moves(record).map(Some)),
+            one(|_| fairing_moves(record).map(Some)),
         ),
         scaled(
             [
@@ -130,7 +138,7 @@ fn fairing_jobs<'a>(
                  changed over, a foot too much) is a slip; one that does not wants a look at the drawing. The score is the distance from what \
                  the neighbours expect over what they are sure of, as standard deviations of a normal law.",
             ],
-            Box::new(|sheet| fairing_suspects(record, sheet)),
+            one(|sheet| fairing_suspects(record, sheet)),
         ),
         scaled(
             [
@@ -139,7 +147,7 @@ fn fairing_jobs<'a>(
                 "Before in grey, after in black; an arrow for every offset, exaggerated as the sheet says. Arrows that turn from \
                  point to point take noise out; a field of one direction is a change of form.",
             ],
-            Box::new(|sheet| fairing_arrows(record, sheet).map(Some)),
+            one(|sheet| fairing_arrows(record, sheet).map(Some)),
         ),
         scaled(
             [
@@ -148,7 +156,7 @@ fn fairing_jobs<'a>(
                 "Half-breadths move, heights do not: the arrows of the profile are what the buttocks make of it. A field of one \
                  direction along a line is a change of form; arrows that turn from station to station take noise out.",
             ],
-            Box::new(move |sheet| fairing_arrows_long(record, conventions, sheet).map(Some)),
+            one(move |sheet| fairing_arrows_long(record, conventions, sheet).map(Some)),
         ),
         scaled(
             [
@@ -157,7 +165,7 @@ fn fairing_jobs<'a>(
                 "Above the line with its combs, below the offsets less the fair line with the bars of their tolerances: the fair line, 0, \
                  leaves no bar. Dots that lie on one side over several stations are a change of form.",
             ],
-            Box::new(move |sheet| fairing_waterlines(record, combs, sheet)),
+            one(move |sheet| fairing_waterlines(record, combs, sheet)),
         ),
         scaled(
             [
@@ -165,7 +173,7 @@ fn fairing_jobs<'a>(
                 "Stations that moved most",
                 "The same for stations, laid on their side with the keel on the left.",
             ],
-            Box::new(move |sheet| fairing_stations(record, combs, sheet)),
+            one(move |sheet| fairing_stations(record, combs, sheet)),
         ),
         scaled(
             [
@@ -174,7 +182,7 @@ fn fairing_jobs<'a>(
                 "Combs stand on the convex side at one scale before (grey) and after (blue); their tips should run smoothly. Rings \
                  mark inflections: those that are left should be meant.",
             ],
-            Box::new(move |sheet| fairing_body_plan(record, combs, sheet).map(Some)),
+            one(move |sheet| fairing_body_plan(record, combs, sheet).map(Some)),
         ),
         scaled(
             [
@@ -182,7 +190,7 @@ fn fairing_jobs<'a>(
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, also where breadths are stretched.",
             ],
-            Box::new(move |sheet| fairing_half_breadth_plan(record, combs, sheet).map(Some)),
+            one(move |sheet| fairing_half_breadth_plan(record, combs, sheet).map(Some)),
         ),
         scaled(
             [
@@ -191,7 +199,7 @@ fn fairing_jobs<'a>(
                 "Buttocks were not used in the fit, a strip each: humps of the combs that show here alone are humps of the surface between \
                  the lines.",
             ],
-            Box::new(move |sheet| some(fairing_buttocks(record, combs, sheet))),
+            one(move |sheet| some(fairing_buttocks(record, combs, sheet))),
         ),
         scaled(
             [
@@ -200,7 +208,7 @@ fn fairing_jobs<'a>(
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before. Their combs should \
                  run smoothly from end to end.",
             ],
-            Box::new(move |sheet| some(fairing_diagonals(record, combs, sheet))),
+            one(move |sheet| some(fairing_diagonals(record, combs, sheet))),
         ),
         job(
             [
@@ -209,7 +217,7 @@ fn fairing_jobs<'a>(
                 "If the moves are the noise of the table the steps follow the bell. Long tails are wrong readings; a middle off zero \
                  is a change of shape.",
             ],
-            Box::new(|_| deviation_figure(record)),
+            one(|_| deviation_figure(record)),
         ),
         job(
             [
@@ -219,7 +227,7 @@ fn fairing_jobs<'a>(
                  Mallows' criterion at the noise of the table), which need not be a bend of the line: further right the offsets move more, for \
                  less energy.",
             ],
-            Box::new(|_| smoothing_figure(record)),
+            one(|_| smoothing_figure(record)),
         ),
         job(
             [
@@ -228,7 +236,7 @@ fn fairing_jobs<'a>(
                 "No point of the curve can be bettered in both. The fair hull lies above it by what its wishes cost: the higher, the \
                  dearer they are.",
             ],
-            Box::new(|_| pareto_figure(record)),
+            one(|_| pareto_figure(record)),
         ),
         job(
             [
@@ -237,7 +245,7 @@ fn fairing_jobs<'a>(
                 "All three lines fall to rounding where the program was solved; lines that level off above it are a program that \
                  was not.",
             ],
-            Box::new(|_| convergence_figure(record)),
+            one(|_| convergence_figure(record)),
         ),
     ]
 }
@@ -248,6 +256,60 @@ fn some(drawn: Result<Svg, PlotError>) -> Result<Option<Svg>, PlotError> {
         Err(PlotError::Chart(_)) => Ok(None),
         drawn => drawn.map(Some),
     }
+}
+
+/// What stands after the drawings of a faired table: its offsets as they are written, the inflections of every line, and
+/// what was found and assumed.
+fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a Value)) -> [Job<'a>; 3] {
+    let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
+    let name = result.hull.name().replace('_', " ");
+    let [heading, told] = ["INFLECTIONS", "NOTES OF THE RUN"].map(|title| format!("{title} – {name}"));
+    [
+        job(
+            [
+                "faired-offsets",
+                "Faired offsets",
+                "The fair table in the notation of the table it was made from. Look at what is shaded first, then at what was left out: it stands \
+                 in the table as the fair hull has it.",
+            ],
+            Box::new(move |_| {
+                let (limit, words) = limit(record.lines.quantum, record.sigma, record.lines.notation);
+                let texts = result.changes.as_deref().map(read_texts).unwrap_or_default();
+                Ok(fairing_table(record, &texts, limit, &words))
+            }),
+        ),
+        job(
+            [
+                "inflections",
+                "Inflections",
+                "How often each line bends the other way. Lines that bend more often than at least they must are those to look at; diagonals \
+                 and buttocks judge the lines that were used.",
+            ],
+            Box::new(move |_| Ok(sheets(&heading, &inflections_words(record), inflections(record, fairing)))),
+        ),
+        job(
+            [
+                "notes",
+                "Notes of the run",
+                "What was found in the table and assumed where it says nothing: read it before the numbers.",
+            ],
+            Box::new(move |_| Ok(sheets(&told, "what was found and assumed", notes(result, fairing)))),
+        ),
+    ]
+}
+
+/// What should be known about the files, and what the run found and assumed, in lines.
+fn notes(result: &JobResult, fairing: &Value) -> Table {
+    let all = result.notes.iter().cloned().chain(list(&fairing["notes"]).map(text));
+    let rows = all.flat_map(|note| lines(&note)).map(|line| (false, vec![line])).collect();
+    Table { heads: vec!["note".to_owned()], words: 1, rows }
+}
+
+/// A table on as many sheets as it takes; none where it has no rows.
+fn sheets(title: &str, note: &str, table: Table) -> Vec<Svg> {
+    let heads: Vec<&str> = table.heads.iter().map(String::as_str).collect();
+    let rows: Vec<Vec<String>> = table.rows.into_iter().map(|(_, cells)| cells).collect();
+    table_sheets(title, note, &heads, table.words, &rows)
 }
 
 /// A table on a sheet; none where it has no rows.
@@ -319,19 +381,19 @@ fn jobs<'a>(
         0,
         Job {
             words: came,
-            draw: Box::new(move |_| Ok(verdict_figure(result, [before, Some(inputs.design)]))),
+            draw: one(move |_| Ok(verdict_figure(result, [before, Some(inputs.design)]))),
             scaled: false,
         },
     );
     let standard = |figure: Figure| Job {
         words: words(figure),
-        draw: Box::new(move |sheet| figure.draw_on(inputs, sheet).map(Some)) as Draw<'a>,
+        draw: one(move |sheet| figure.draw_on(inputs, sheet).map(Some)),
         scaled: matches!(figure, Figure::Lines | Figure::Sections),
     };
     jobs.extend(Figure::ALL.map(standard));
     jobs.push(Job {
         words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits (coefficients that are asked for on L_PP are on the length of the others here)."],
-        draw: Box::new(move |_| Ok(condition_figure(result, inputs, before))),
+        draw: one(move |_| Ok(condition_figure(result, inputs, before))),
         scaled: false,
     });
     jobs.push(Job {
@@ -341,7 +403,7 @@ fn jobs<'a>(
             "At each station the area below a waterline is drawn forward of its line: draw a waterline at any trim and read the areas \
              that it cuts off.",
         ],
-        draw: Box::new(|_| bonjean_figure(inputs).map(Some)),
+        draw: one(|_| bonjean_figure(inputs).map(Some)),
         scaled: false,
     });
     jobs.extend(SurfaceMapKind::ALL.map(|kind| {
@@ -366,14 +428,15 @@ fn jobs<'a>(
                  surface does not. Any other kink is a bump.",
             ],
         };
-        let draw: Draw<'a> = Box::new(move |_| surface_map(maps(), kind).map(Some));
+        let draw = one(move |_| surface_map(maps(), kind).map(Some));
         Job { words, draw, scaled: false }
     }));
+    jobs.extend(result.fairing.iter().flat_map(|(record, fairing)| appendix(result, (record, fairing))));
     jobs
 }
 
-/// A figure with its place in the order; none where there is nothing to draw.
-type Drawn = (usize, Result<Option<ReportFigure>, Failure>);
+/// The sheets of a figure with its place in the order; none where there is nothing to draw.
+type Drawn = (usize, Result<Vec<ReportFigure>, Failure>);
 
 /// Draws the figures of a result; on as many threads as there are cores, in one order.
 pub(super) fn report_figures(
@@ -402,20 +465,39 @@ pub(super) fn report_figures(
     thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(work))));
     let mut drawn = drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
     drawn.sort_by_key(|(index, _)| *index);
-    drawn.into_iter().filter_map(|(_, figure)| figure.transpose()).collect()
+    let sheets = drawn.into_iter().map(|(_, figures)| figures).collect::<Result<Vec<_>, _>>()?;
+    Ok(sheets.into_iter().flatten().collect())
 }
 
-fn figure(job: &Job<'_>, settings: &ReportSettings) -> Result<Option<ReportFigure>, Failure> {
+/// The sheets of a figure; the second has the number 2 behind its key.
+fn figure(job: &Job<'_>, settings: &ReportSettings) -> Result<Vec<ReportFigure>, Failure> {
     let [key, title, caption] = job.words;
     let failure = |error: PlotError| match error {
         PlotError::PictureSize { .. } => Failure::Usage(format!("{key}: {error}")),
         error => Failure::Internal(format!("{key}: {error}")),
     };
-    let Some(svg) = (job.draw)(Sheet::A3).map_err(failure)? else { return Ok(None) };
-    let large = match settings.sheet {
+    let drawn = (job.draw)(Sheet::A3).map_err(failure)?;
+    let mut large = match settings.sheet {
         sheet if job.scaled && sheet != Sheet::A3 => (job.draw)(sheet).map_err(failure)?,
-        _ => None,
+        _ => Vec::new(),
     };
-    let png = svg.to_png(settings.dots_per_inch).map_err(failure)?;
-    Ok(Some(ReportFigure { key, title, caption, svg, large, png }))
+    let count = drawn.len();
+    let sheet = |(k, svg): (usize, Svg)| {
+        let [number, of] = if k == 0 {
+            [String::new(), String::new()]
+        } else {
+            [format!("-{}", k + 1), format!(", sheet {} of {count}", k + 1)]
+        };
+        let png = svg.to_png(settings.dots_per_inch).map_err(failure)?;
+        let (key, title) = (format!("{key}{number}"), format!("{title}{of}"));
+        Ok(ReportFigure {
+            key,
+            title,
+            caption,
+            svg,
+            large: if large.is_empty() { None } else { Some(large.remove(0)) },
+            png,
+        })
+    };
+    drawn.into_iter().enumerate().map(sheet).collect()
 }

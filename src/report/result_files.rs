@@ -71,7 +71,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         .iter()
         .map(|figure| {
             let svg = figure.large.as_ref().unwrap_or(&figure.svg);
-            Page { title: figure.title, caption: figure.caption, svg }
+            Page { title: &figure.title, caption: figure.caption, svg }
         })
         .collect();
     let pages = &pages;

@@ -9,9 +9,11 @@ use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
 use crate::exchange::{NO_MOVE, scene_json};
+use crate::fairing::fair::PRICE;
 use crate::fairing::inspect::{Planes, Resolution};
+use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
-use crate::hull::Hull;
+use crate::hull::{Hull, OffsetStation};
 use crate::hydrostatics::{CoefficientLength, CurvesOfForm, Hydrostatics, QUANTITIES, assumed_mark};
 use crate::plot::FONT;
 
@@ -39,7 +41,7 @@ fn inline(figure: &ReportFigure) -> String {
     let part = wide.map_or(100.0, |millimetres| (100.0 * millimetres / FULL).clamp(50.0, 100.0));
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{}\" style=\"width:{part:.0}%\" {shape}{rest}",
-        escape(figure.title)
+        escape(&figure.title)
     )
 }
 
@@ -196,8 +198,12 @@ pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
     value.as_array().into_iter().flatten()
 }
 
+/// What price and multiplier of [`constraints`] are.
+pub(super) const PRICES: &str = "price: RMS of the moves that dropping the wish would save; multiplier: what the objective, a sum of squares of moves, falls by for \
+     each part by which its row gives way, of the target (LCB, LCF: of L_PP; KB: of T; C_M: of 1; a section area: of B T; KM, GM: of KM_T)";
+
 pub(super) fn constraints(fairing: &Value) -> Table {
-    let heads = ["held", "unit", "target", "before", "after", "residual", "multiplier", "price [mm RMS]"];
+    let heads = ["held", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
     let mut table = Table::new(&heads, 2);
     for held in list(&fairing["constraints"]) {
         table.rows.push((
@@ -241,19 +247,56 @@ fn residual(value: &Value, scale: f64) -> String {
     value.as_f64().filter(within).map_or_else(|| figures(value, 2), |_| "0 to rounding".to_owned())
 }
 
-fn inflections(fairing: &Value) -> Table {
-    let mut table = Table::new(&["curves", "at [m]", "before", "after", "allowed", "least that is possible"], 1);
+/// How often every line bends, before, after, at least, and what was asked of it.
+pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
+    let mut table = Table::new(&["line", "at [m]", "before", "after", "least", "asked", "price"], 1);
+    let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
     {
         for line in list(&fairing["inflections"][key]) {
             let count = |key: &str| line[key].as_u64().map_or(String::new(), |n| n.to_string());
-            let at = line["at"].as_f64().map_or(String::new(), |at| fixed(at, 3));
-            let cells = vec![kind.to_owned(), at, count("before"), count("after"), count("allowed"), count("minimum")];
-            table.rows.push((false, cells));
+            let place = line["at"].as_f64().unwrap_or(f64::NAN);
+            let named = |station: &&OffsetStation| (station.x - place).abs() < 1e-9 && !station.is_named_by_place();
+            let name = match kind {
+                "station" => record.lines.stations.iter().find(named).map_or(kind.to_owned(), OffsetStation::words),
+                _ => kind.to_owned(),
+            };
+            let least = match line["minimum_proved"].as_bool() {
+                Some(false) => format!("{}, not proved", count("minimum")),
+                _ => count("minimum"),
+            };
+            let asked = match (line["allowed"].as_u64(), kind) {
+                (Some(most), _) if line["after"].as_u64().is_some_and(|after| after > most) => {
+                    format!("at most {most}, has more")
+                }
+                (Some(most), _) => format!("at most {most}"),
+                (None, "buttock" | "diagonal") => "not used".to_owned(),
+                _ if line.get("released_at").is_some() => "let go".to_owned(),
+                _ if of_net => "signs of the net".to_owned(),
+                _ => "nothing".to_owned(),
+            };
+            let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
+                (_, Some(Some(dear))) => format!("{dear:.1}"),
+                (_, Some(None)) => "not to be had".to_owned(),
+                (Some(price), None) => format!("{price:.2}"),
+                (None, None) => String::new(),
+            };
+            let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
+            table.rows.push((more, vec![name, fixed(place, 3), count("before"), count("after"), least, asked, price]));
         }
     }
     table
+}
+
+/// What the columns of [`inflections`] are.
+pub(super) fn inflections_words(record: &FairRecord) -> String {
+    format!(
+        "bends that leave their chord by less than {:.2} mm are flat and do not count; least: what the tolerances leave possible; at most: what \
+         was asked of the line; let go: dearer than {PRICE:.0}, or not to be had with the others; not used: buttocks and diagonals are the \
+         independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
+        1e3 * record.tolerance()
+    )
 }
 
 fn suspects(fairing: &Value) -> Table {
@@ -394,20 +437,22 @@ pub(super) fn report_page(
     let name = escape(result.hull.name());
     let p = result.hull.particulars();
     let mut sections: Vec<(&str, &str, String)> = Vec::new();
-    if let Some((_, fairing)) = &result.fairing {
+    if let Some((record, fairing)) = &result.fairing {
         sections.push(("suspects", "Suspects", suspects(fairing).html()));
         sections.push((
             "constraints",
-            "What is held, and at which price", 
+            "What is held, and at which price",
             format!(
-                "<p>The price is the RMS of the moves that dropping the wish would save. Duality gap {}, largest violation {}.</p>\n{}",
+                "<p>{}. Duality gap {}, largest violation {}.</p>\n{}",
+                lowered(PRICES),
                 figures(&fairing["certificate"]["gap"], 2),
                 figures(&fairing["certificate"]["max_violation"], 2),
                 constraints(fairing).html()
             ),
         ));
-        let told = "<p>Buttocks and diagonals were not used in the fit: they are the independent check.</p>\n";
-        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(fairing).html())));
+        let told = inflections_words(record);
+        let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
+        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing).html())));
     }
     sections.push(("condition", "Design condition", condition(result, design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
@@ -446,7 +491,7 @@ pub(super) fn report_page(
     }
     html.push_str("</header>\n<nav><a href=\"#viewer\">The hull in space</a>");
     let shown = || drawn.iter().filter(|figure| !figure.is_table());
-    let links = shown().map(|figure| (figure.key, figure.title));
+    let links = shown().map(|figure| (figure.key.as_str(), figure.title.as_str()));
     for (id, title) in links.chain(sections.iter().map(|(id, title, _)| (*id, *title))) {
         html.push_str(&format!("<a href=\"#{id}\">{title}</a>"));
     }

@@ -108,7 +108,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     }
     if !more_often(fairing, "allowed").is_empty() {
         let text = "Such bends lie between the places where the signs of the line were imposed, or within the dead band about no curvature; \
-                    report.html lists every line under Inflections.";
+                    the table of inflections has every line.";
         lines.push((false, text.to_owned()));
     }
     let prices: Vec<String> = list(&fairing["constraints"]).map(|held| text(&held["words"])).collect();
