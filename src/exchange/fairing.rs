@@ -84,7 +84,9 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
         let guarded = outcome.faired.guarded.as_ref();
         let Some(line) = Line::of(turns.cut) else { return entry };
         if let Some(guarded) = guarded {
-            if guarded.asked.contains(&line) {
+            if let Some((_, most)) = guarded.most.iter().find(|(other, _)| *other == line) {
+                entry["allowed"] = json!(most);
+            } else if guarded.asked.contains(&line) {
                 entry["allowed"] = json!(turns.minimum.map(|(count, _)| count));
             } else if guarded.kept.contains(&line) {
                 entry["allowed"] = json!(turns.before);

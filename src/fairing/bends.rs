@@ -18,6 +18,7 @@ use super::model::{Limit, Row, value};
 use super::surface::{FairSurface, basis_row};
 use crate::hull::Cut;
 use crate::spline::{BsplineSurface, KnotVector};
+use std::ops::Range;
 
 /// Points of a line in a span of the knots across it: the second derivative of a cubic is straight there, so that its
 /// ends count.
@@ -248,6 +249,63 @@ pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Lim
                 1.. => [-room, if small[k] { most } else { f64::INFINITY }],
                 _ => [if small[k] { most } else { f64::NEG_INFINITY }, room],
             }));
+        }
+        from = to;
+    }
+    limits
+}
+
+/// A part of a line that bends one way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lobe {
+    /// Which way.
+    pub sign: i8,
+    /// Its first bend.
+    pub from: usize,
+    /// The bend with its greatest curvature.
+    pub top: usize,
+    /// kappa l^2 / 8 of its greatest curvature and its length \[m\].
+    pub departure: f64,
+}
+
+/// The lobes of a line that are seen, each of another sign than the one before: what departs from its chord by less than
+/// `seen` \[m\] or is in the dead band goes with the lobe before, at the start of the line with the first.
+#[must_use]
+pub fn lobes(bends: &[Bend], net: &[f64], seen: f64) -> Vec<Lobe> {
+    let signs = signs(bends, net);
+    let small = unseen(bends, &signs, net, seen);
+    let counted = |k: usize| signs[k] != 0 && !small[k];
+    let mut found: Vec<Lobe> = Vec::new();
+    let mut from = 0;
+    while let Some(first) = (from..bends.len()).find(|&k| counted(k)) {
+        from = (first + 1..bends.len()).find(|&k| counted(k) && signs[k] != signs[first]).unwrap_or(bends.len());
+        let size = |k: &usize| bends[*k].curvature(net).abs();
+        let own = (first..from).filter(|&k| signs[k] == signs[first]);
+        let top = own.clone().max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(first);
+        let length = length(bends, [first, own.last().unwrap_or(first) + 1], net);
+        found.push(Lobe { sign: signs[first], from: first, top, departure: size(&top) * length * length / 8.0 });
+    }
+    found
+}
+
+/// Limits that give the bends of a line these signs, those of sign 0 none. A hundredth of the dead band is left open, and no
+/// more than what departs by `seen` \[m\] over the length of a part of one sign; outside `strictly`, what is beyond that
+/// may stay but not grow.
+#[must_use]
+pub fn asked(bends: &[Bend], net: &[f64], signs: &[i8], strictly: Range<usize>, seen: f64) -> Vec<Limit> {
+    let none = dead(bends, net);
+    let mut limits = Vec::new();
+    let mut from = 0;
+    while from < bends.len() {
+        let to = (from..bends.len()).find(|&k| signs[k] != signs[from]).unwrap_or(bends.len());
+        let part = length(bends, [from, to], net);
+        let room = if part > 0.0 { (ROOM * none).min(8.0 * seen / (part * part)) } else { ROOM * none };
+        for k in (from..to).filter(|_| signs[from] != 0) {
+            let Some(scaled) = bends[k].scaled(net, room) else { continue };
+            let (room, sign) = (scaled.room, f64::from(signs[from]));
+            let now = if strictly.contains(&k) { 0.0 } else { sign * scaled.at(net) };
+            let beyond = now.min(-room);
+            limits.push(scaled.limit(if sign > 0.0 { [beyond, f64::INFINITY] } else { [f64::NEG_INFINITY, -beyond] }));
         }
         from = to;
     }

@@ -3,8 +3,9 @@
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
 //!    Where its curve is straight between bends of one sign it is asked for that sign as well.
-//! 2. Lines that cost more than [`PRICE`] are asked for the signs at those bends alone, and then let go; when nothing
-//!    satisfies all, those that the proof of it charges most.
+//! 2. Lines that are not worth [`PRICE`] beside the others ([`super::choice`]) are asked for the signs at those bends
+//!    alone, and then let go; so are those that cost more after all, and when nothing satisfies all, those that the proof
+//!    of it charges most.
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies.
 //!
@@ -13,6 +14,7 @@
 //! Each round is one convex program; what is accepted last is optimal for the signs it has.
 
 use super::bends::{Line, kept as keep_signs};
+use super::choice::worth_it;
 use super::fair::PRICE;
 use super::least::TableLine;
 use super::model::{Limit, Model};
@@ -37,13 +39,15 @@ pub struct Guarded {
     pub accepted: Option<(Program, Solved)>,
     /// Lines that were asked for their least inflections and have them.
     pub asked: Vec<Line>,
-    /// Lines that were let go, with their price in sigma^2 (infinite when nothing satisfied all).
+    /// Lines that were let go, with their price in sigma^2, or a lower bound of it (infinite when nothing satisfied all).
     pub released: Vec<(Line, f64)>,
     /// Lines that keep the signs of the start.
     pub kept: Vec<Line>,
     /// What lines that were asked or keep the signs of the start are charged, in sigma^2: with the program that was
     /// accepted last.
     pub prices: Vec<(Line, f64)>,
+    /// Lines that were asked to give up lobes, with the inflections that the signs imposed leave them.
+    pub most: Vec<(Line, usize)>,
     /// The least inflections of every line, and whether they are proved.
     pub least: Vec<(Line, usize, bool)>,
     /// Programs solved.
@@ -53,6 +57,19 @@ pub struct Guarded {
 }
 
 impl Guarded {
+    /// A line gave up lobes for a price in sigma^2.
+    pub(super) fn gave_up(&mut self, line: Line, most: usize, price: f64) {
+        match self.most.iter_mut().find(|(other, _)| *other == line) {
+            Some((_, known)) => *known = most,
+            None => self.most.push((line, most)),
+        }
+        match self.prices.iter_mut().find(|(other, _)| *other == line) {
+            Some((_, sum)) => *sum += price,
+            None => self.prices.push((line, price)),
+        }
+        self.released.retain(|(other, _)| *other != line);
+    }
+
     /// The least inflections of lines of which nothing is asked.
     pub(super) fn told(lines: &[TableLine]) -> Self {
         let least = lines.iter().filter_map(|line| Some((line.line, line.least.as_ref()?)));
@@ -62,6 +79,7 @@ impl Guarded {
             released: Vec::new(),
             kept: Vec::new(),
             prices: Vec::new(),
+            most: Vec::new(),
             least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
             programs: 0,
             iterations: 0,
@@ -129,6 +147,10 @@ impl Question<'_> {
         }
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
         let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::told(lines) };
+        // Twice: what is too dear is asked for less at first.
+        for _ in 0..2 {
+            self.choose(&mut asked, free, &mut guarded)?;
+        }
         for round in 0..ROUNDS {
             let last = round + 1 == ROUNDS;
             if last {
@@ -187,6 +209,27 @@ impl Question<'_> {
             guarded.prices = asked.iter().zip(charges).map(|(a, charge)| (lines[a.line].line, charge / unit)).collect();
         }
         Ok(guarded)
+    }
+
+    /// Asks for less, or for nothing, what is not worth its price together with the others.
+    fn choose(&self, asked: &mut Vec<Asked>, free: &Solved, guarded: &mut Guarded) -> Result<(), ProblemError> {
+        let wishing: Vec<usize> = (0..asked.len()).filter(|&k| !asked[k].is_start()).collect();
+        if wishing.len() < 2 {
+            return Ok(());
+        }
+        let kept = asked.iter().filter(|asked| asked.is_start()).flat_map(|asked| asked.limits.iter());
+        let bends = kept.chain(self.oblique).cloned().collect();
+        let wishes = Wishes { bends, ..self.wishes.clone() };
+        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
+        let limits: Vec<&[Limit]> = wishing.iter().map(|&k| asked[k].limits.as_slice()).collect();
+        let price = PRICE * self.sigma * self.sigma;
+        let chosen = worth_it((&program, &self.smoother.reduced), &free.net, &limits, price, self.solver)?;
+        guarded.programs += 1;
+        if let Some(chosen) = chosen {
+            let dear: Vec<usize> = wishing.iter().zip(chosen).filter(|(_, worth)| !worth).map(|(&k, _)| k).collect();
+            self.let_go(asked, &dear, |_| PRICE, guarded);
+        }
+        Ok(())
     }
 
     /// Lines of `asked` are asked for less, or let go where there is nothing less to ask for.

@@ -12,9 +12,11 @@ use super::infeasible::Diagnosis;
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::least_bending::LeastBending;
+use super::lobes::Lobes;
 use super::proposals::{Accepted, Proposal};
 use super::record::moves;
 use super::repeated::{Attempt, Repeated};
+use super::rules::guarded_lines;
 use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
@@ -364,6 +366,8 @@ impl Job {
             if self.signs {
                 let repeated = Repeated { surface, settings, prepared: &prepared, watched: &watched };
                 attempt = repeated.until_none_is_worse(attempt, resolution, guarded)?;
+                let lines = &guarded_lines(&prepared.lines, &settings.rules);
+                attempt = Lobes { surface, settings, lines, watched: &watched, seen: resolution }.fewer(attempt)?;
             }
             Ok((attempt, None))
         };

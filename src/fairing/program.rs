@@ -255,6 +255,26 @@ impl Program {
         program
     }
 
+    /// The program with more signs of curvature, and the number of the first of them.
+    #[must_use]
+    pub fn with_bends(&self, limits: &[Limit], reduced: &Reduced) -> (Self, usize) {
+        let number = |name: &RowName| match name {
+            RowName::Bend(k) => Some(*k),
+            _ => None,
+        };
+        let first = self.names.iter().filter_map(number).max().map_or(0, |last| last + 1);
+        let mut program = self.clone();
+        for (k, limit) in limits.iter().enumerate() {
+            let (row, offset) = reduced.row(&limit.row);
+            program.problem.rows.push(row);
+            program.problem.lower.push(limit.lower - offset);
+            program.problem.upper.push(limit.upper - offset);
+            program.names.push(RowName::Bend(first + k));
+            program.tolerances.push(0.0);
+        }
+        (program, first)
+    }
+
     /// Solves, and judges the answer.
     ///
     /// # Errors

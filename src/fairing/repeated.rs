@@ -26,11 +26,11 @@ impl Attempt {
     }
 
     /// Inflections more than before, all worse curves together.
-    fn excess(&self) -> usize {
+    pub(super) fn excess(&self) -> usize {
         self.worse().map(|turns| turns.after - turns.before).sum()
     }
 
-    fn is_optimal(&self) -> bool {
+    pub(super) fn is_optimal(&self) -> bool {
         self.faired.diagnosis.is_none() && self.faired.solved.is_optimal()
     }
 }

@@ -1,0 +1,67 @@
+//! Which lines can be asked for signs of curvature together for no more than their price each.
+//!
+//! A line l may keep a part s_l of what its signs ask of it to give up, at `price` times s_l:
+//!
+//! ```text
+//! minimise J + price sum_l s_l   subject to   a_k y + v_k s_l within the limits of row k of line l,   0 <= s_l <= 1,
+//! ```
+//!
+//! v_k the violation of the row at a net that meets all else: with s = 1 nothing is asked, so that there always is an
+//! answer. By duality s_l = 0 as long as sum_k z_k v_k, the charge of the line, is below the price: one convex program
+//! finds the lines that are worth it, where a program with all of them has no solution and its proof only names some
+//! that contradict each other.
+
+use super::model::{Limit, Reduced, value};
+use super::program::Program;
+use crate::qp::{Problem, ProblemError, Settings, SparseRows};
+
+/// Accuracy of the choice.
+const ACCURACY: f64 = 1e-7;
+
+/// A line that keeps more than this part is not worth its price.
+const KEEPS: f64 = 0.02;
+
+/// Whether each of the `lines`, with these limits beside the rows of a program, is worth its price \[m^2\]; none when that
+/// was not found. `net` meets the rows of the program.
+pub(super) fn worth_it(
+    (program, reduced): (&Program, &Reduced),
+    net: &[f64],
+    lines: &[&[Limit]],
+    price: f64,
+    settings: &Settings,
+) -> Result<Option<Vec<bool>>, ProblemError> {
+    let old = &program.problem;
+    let (n, count) = (old.linear.len(), lines.len());
+    let widened = |rows: &SparseRows| {
+        let mut wide = SparseRows::new(n + count);
+        for k in 0..rows.row_count() {
+            let (columns, values) = rows.row(k);
+            wide.push(columns.iter().copied().zip(values.iter().copied()));
+        }
+        wide
+    };
+    let mut problem = Problem {
+        quadratic: widened(&old.quadratic),
+        linear: old.linear.iter().copied().chain((0..count).map(|_| price)).collect(),
+        rows: widened(&old.rows),
+        lower: old.lower.clone(),
+        upper: old.upper.clone(),
+    };
+    for (l, limits) in (n..).zip(lines) {
+        problem.quadratic.push([(l, 0.0)]);
+        for limit in *limits {
+            let now = value(&limit.row, net);
+            let missed = (limit.lower - now).max(0.0) + (limit.upper - now).min(0.0);
+            let (row, offset) = reduced.row(&limit.row);
+            problem.rows.push(row.into_iter().chain([(l, missed)]).filter(|(_, value)| *value != 0.0));
+            problem.lower.push(limit.lower - offset);
+            problem.upper.push(limit.upper - offset);
+        }
+        problem.rows.push([(l, 1.0)]);
+        problem.lower.push(0.0);
+        problem.upper.push(1.0);
+    }
+    let answer = problem.solve(&Settings { tolerance: ACCURACY, proof: false, ..settings.clone() })?;
+    let kept = answer.x[n..].iter().map(|kept| *kept <= KEEPS).collect();
+    Ok((answer.status == crate::qp::Status::Optimal).then_some(kept))
+}
