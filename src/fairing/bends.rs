@@ -280,9 +280,9 @@ pub fn lobes(bends: &[Bend], net: &[f64], seen: f64) -> Vec<Lobe> {
     while let Some(first) = (from..bends.len()).find(|&k| counted(k)) {
         from = (first + 1..bends.len()).find(|&k| counted(k) && signs[k] != signs[first]).unwrap_or(bends.len());
         let size = |k: &usize| bends[*k].curvature(net).abs();
-        let own = (first..from).filter(|&k| signs[k] == signs[first]);
+        let mut own = (first..from).filter(|&k| signs[k] == signs[first]);
         let top = own.clone().max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(first);
-        let length = length(bends, [first, own.last().unwrap_or(first) + 1], net);
+        let length = length(bends, [first, own.next_back().unwrap_or(first) + 1], net);
         found.push(Lobe { sign: signs[first], from: first, top, departure: size(&top) * length * length / 8.0 });
     }
     found

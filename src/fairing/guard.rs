@@ -3,7 +3,7 @@
 //!
 //! 1. Every line that bends more often than its offsets ask for gets the signs of [`super::least`].
 //!    Where its curve is straight between bends of one sign it is asked for that sign as well.
-//! 2. Lines that are not worth [`PRICE`] beside the others ([`super::choice`]) are asked for the signs at those bends
+//! 2. Lines that are not worth [`PRICE`] beside the others (`choice.rs`) are asked for the signs at those bends
 //!    alone, and then let go; so are those that cost more after all, and when nothing satisfies all, those that the proof
 //!    of it charges most.
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
