@@ -255,7 +255,7 @@ pub fn page(seeds: u64) -> String {
          straight parts (parallel body, floor, side) are found by the program. Series 60 and S-175 are surfaces through published \
          tables, which are rough by 9 mm and 19 mm themselves (the noise that the program finds in the tables without errors): \
          smaller errors cannot be told from that, and there fairing, which takes a part of the truth's own roughness out (waterlines \
-         of the S-175: 71 changes of sign in the truth), is up to 3 mm further from the truth than interpolation, and 13 mm on one table of which \
+         of the S-175: 71 changes of sign in the truth), is up to 4 mm further from the truth than interpolation, and 13 mm on one table of which \
          a right offset was left out. Column \"worse\" counts them. Swapped digits are not all found on one of thirty tables of \
          the middle body and on two of the bilge: their worst cases. \
          The bilge of the bulk carrier lies between its lowest waterlines, which is the error that remains. Container ship and frigate, \
