@@ -525,3 +525,24 @@ fn the_bending_energy_is_minimised_within_what_is_held() {
         }
     }
 }
+
+/// Lines are chosen together and lobes taken out: of 74 inflections of stations and waterlines 44 are left. What a line
+/// is charged for it is no more than a quarter above the limit of 12.
+#[test]
+fn lobes_are_taken_out_for_no_more_than_their_price() {
+    let (_, outputs) = faired(&carried(TABLE), &[]);
+    let result: Value = serde_json::from_str(&file(&outputs, "fairing.json")).unwrap();
+    let curves = |kind: &str| result["inflections"][kind].as_array().unwrap().clone();
+    let lines: Vec<Value> = ["waterlines", "stations"].into_iter().flat_map(curves).collect();
+    let sum = |when: &str| lines.iter().map(|line| line[when].as_u64().unwrap()).sum::<u64>();
+    assert!(sum("after") <= 44 && sum("before") >= 70, "{} {}", sum("before"), sum("after"));
+    let prices: Vec<f64> = lines.iter().filter_map(|line| line["price"].as_f64()).collect();
+    assert!(prices.len() > 10 && prices.iter().all(|price| (0.0..=15.0).contains(price)), "{prices:?}");
+    assert!(number(&result["inflections"]["dead_band"]) > 1e-4);
+    assert!(number(&result["certificate"]["gap"]) <= 1e-9);
+    for kind in ["waterlines", "stations", "buttocks", "diagonals"] {
+        for curve in curves(kind) {
+            assert!(curve["after"].as_u64() <= curve["before"].as_u64(), "{kind}: {curve}");
+        }
+    }
+}

@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KM", conflicts_with = "gm")]
     km: Option<String>,
     /// Transverse metacentric height, for the centre of gravity of --kg [default: free]
-    #[arg(long, value_name = "GM")]
+    #[arg(long, value_name = "GM", allow_hyphen_values = true)]
     gm: Option<String>,
     /// Height of the centre of gravity above the base line
     #[arg(long, value_name = "KG")]

@@ -385,4 +385,37 @@ mod tests {
         let loose = kept(&bends, &second, 1e-4, false);
         assert!(loose[40..].iter().all(|limit| limit.lower.is_finite() && limit.upper.is_finite()));
     }
+
+    /// + from 0 to 4 m, a lobe of a metre and -1e-3 / m in it, - from 4 m, and what nobody sees at the end.
+    #[test]
+    fn lobes_are_those_that_are_seen() {
+        let second = |x: f64| match x {
+            x if (1.95..2.95).contains(&x) => -1e-3,
+            x if x < 4.05 => 1e-2,
+            x if x < 8.95 => -1e-2,
+            _ => 1e-4,
+        };
+        let (bends, second) = line(second);
+        let signs = |seen: f64| lobes(&bends, &second, seen).iter().map(|lobe| lobe.sign).collect::<Vec<_>>();
+        // 1.25e-4 m off its chord, counted from twice what is seen on.
+        assert_eq!(signs(5e-5), [1, -1, 1, -1]);
+        assert_eq!(signs(1e-4), [1, -1]);
+        let found = lobes(&bends, &second, 5e-5)[1];
+        assert_eq!((found.from, found.sign), (20, -1));
+        assert!((20..30).contains(&found.top) && (found.departure - 1.25e-4).abs() < 5e-6, "{found:?}");
+    }
+
+    #[test]
+    fn signs_that_are_asked_for_leave_what_is_not_strict_where_it_is() {
+        let (bends, second) = line(|x| if x < 5.0 { 1e-2 } else { -1e-3 });
+        let mut signs = vec![1; bends.len()];
+        signs[10] = 0;
+        let limits = asked(&bends, &second, &signs, 60..80, 1e-3);
+        assert_eq!(limits.len(), bends.len() - 1);
+        let at = |k: usize| &limits[k - 1];
+        // Strictly: no more than a hundredth of the dead band the other way; else no more than now.
+        assert!(at(70).lower > -2e-6 && at(70).lower < 0.0 && at(70).upper.is_infinite(), "{:?}", at(70));
+        assert!((at(90).lower + 1e-3).abs() < 1e-15 && at(90).upper.is_infinite(), "{:?}", at(90));
+        assert!(at(20).lower > -2e-6, "{:?}", at(20));
+    }
 }

@@ -216,3 +216,23 @@ fn charges(program: &Program, solved: &Solved, group: &[Lobe], first: usize, net
     };
     group.iter().map(&mut of_lobe).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fairing::bends::Lobe as Seen;
+
+    #[test]
+    fn a_lobe_that_is_taken_out_turns_as_its_neighbours_and_one_place_is_free_beside_each_inflection() {
+        let bend =
+            |k: usize| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at: k as f64 };
+        let net = [1.0, 1.0, 0.5, -0.2, -0.2, 0.4, 0.6, -0.3, -1.0, -1.0];
+        let bends: Vec<Bend> = (0..net.len()).map(bend).collect();
+        let seen = |(sign, from): (i8, usize)| Seen { sign, from, top: from, departure: 1.0 };
+        let found: Vec<Seen> = [(1, 0), (-1, 3), (1, 5), (-1, 7)].map(seen).to_vec();
+        // Of 0.6 and -0.3 the weaker is free.
+        assert_eq!(without(&found, 1, &bends, &net), [1, 1, 1, 1, 1, 1, 1, 0, -1, -1]);
+        // Both places of a short lobe may be free: there is no room for more than it.
+        assert_eq!(without(&found, 3, &bends, &net), [1, 1, 1, 0, 0, 1, 1, 1, 1, 1]);
+    }
+}

@@ -277,9 +277,10 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
                 _ => "nothing".to_owned(),
             };
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
-                (_, Some(Some(dear))) => format!("{dear:.1}"),
-                (_, Some(None)) => "not to be had".to_owned(),
-                (Some(price), None) => format!("{price:.2}"),
+                (Some(price), _) => format!("{price:.2}"),
+                (None, Some(Some(dear))) if dear > PRICE => format!("{dear:.1}"),
+                (None, Some(Some(_))) => format!("over {PRICE:.0}"),
+                (None, Some(None)) => "not to be had".to_owned(),
                 (None, None) => String::new(),
             };
             let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
