@@ -234,25 +234,33 @@ pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Lim
         signs = turned.collect();
         small.fill(false);
     }
-    let mut limits = Vec::new();
+    let limit = |(k, room): (usize, f64)| {
+        let scaled = bends[k].scaled(start, room)?;
+        let (most, room) = (scaled.at(start), scaled.room);
+        Some(scaled.limit(match signs[k] {
+            // A long part can be seen to bend however little it does.
+            0 => [most.min(-room), most.max(room)],
+            1.. => [-room, if small[k] { most } else { f64::INFINITY }],
+            _ => [if small[k] { most } else { f64::NEG_INFINITY }, room],
+        }))
+    };
+    rooms(bends, &signs, start, [ROOM * none, seen]).into_iter().enumerate().filter_map(limit).collect()
+}
+
+/// The curvature that the limits of each bend leave open \[1/m\]: `most`, and no more than what departs by `seen` \[m\]
+/// over the length of its part of one sign.
+fn rooms(bends: &[Bend], signs: &[i8], net: &[f64], [most, seen]: [f64; 2]) -> Vec<f64> {
+    let mut rooms = vec![most; bends.len()];
     let mut from = 0;
     while from < bends.len() {
         let to = (from..bends.len()).find(|&k| signs[k] != signs[from]).unwrap_or(bends.len());
-        let part = length(bends, [from, to], start);
-        let room = if part > 0.0 { (ROOM * none).min(8.0 * seen / (part * part)) } else { ROOM * none };
-        for k in from..to {
-            let Some(scaled) = bends[k].scaled(start, room) else { continue };
-            let (most, room) = (scaled.at(start), scaled.room);
-            limits.push(scaled.limit(match signs[k] {
-                // A long part can be seen to bend however little it does.
-                0 => [most.min(-room), most.max(room)],
-                1.. => [-room, if small[k] { most } else { f64::INFINITY }],
-                _ => [if small[k] { most } else { f64::NEG_INFINITY }, room],
-            }));
+        let part = length(bends, [from, to], net);
+        if part > 0.0 {
+            rooms[from..to].fill(most.min(8.0 * seen / (part * part)));
         }
         from = to;
     }
-    limits
+    rooms
 }
 
 /// A part of a line that bends one way.
@@ -294,22 +302,14 @@ pub fn lobes(bends: &[Bend], net: &[f64], seen: f64) -> Vec<Lobe> {
 #[must_use]
 pub fn asked(bends: &[Bend], net: &[f64], signs: &[i8], strictly: Range<usize>, seen: f64) -> Vec<Limit> {
     let none = dead(bends, net);
-    let mut limits = Vec::new();
-    let mut from = 0;
-    while from < bends.len() {
-        let to = (from..bends.len()).find(|&k| signs[k] != signs[from]).unwrap_or(bends.len());
-        let part = length(bends, [from, to], net);
-        let room = if part > 0.0 { (ROOM * none).min(8.0 * seen / (part * part)) } else { ROOM * none };
-        for k in (from..to).filter(|_| signs[from] != 0) {
-            let Some(scaled) = bends[k].scaled(net, room) else { continue };
-            let (room, sign) = (scaled.room, f64::from(signs[from]));
-            let now = if strictly.contains(&k) { 0.0 } else { sign * scaled.at(net) };
-            let beyond = now.min(-room);
-            limits.push(scaled.limit(if sign > 0.0 { [beyond, f64::INFINITY] } else { [f64::NEG_INFINITY, -beyond] }));
-        }
-        from = to;
-    }
-    limits
+    let limit = |(k, room): (usize, f64)| {
+        let scaled = bends[k].scaled(net, room).filter(|_| signs[k] != 0)?;
+        let (room, sign) = (scaled.room, f64::from(signs[k]));
+        let now = if strictly.contains(&k) { 0.0 } else { sign * scaled.at(net) };
+        let beyond = now.min(-room);
+        Some(scaled.limit(if sign > 0.0 { [beyond, f64::INFINITY] } else { [f64::NEG_INFINITY, -beyond] }))
+    };
+    rooms(bends, signs, net, [ROOM * none, seen]).into_iter().enumerate().filter_map(limit).collect()
 }
 
 /// Length of the part of a line with these bends, from the middle of the gap before it to the middle of the gap after

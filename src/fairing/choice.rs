@@ -11,9 +11,13 @@
 //! finds the lines that are worth it, where a program with all of them has no solution and its proof only names some
 //! that contradict each other.
 
+use super::least::TableLine;
 use super::model::{Limit, Reduced, value};
-use super::program::Program;
-use crate::qp::{Problem, ProblemError, Settings, SparseRows};
+use super::program::{Program, RowName, Solved};
+use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
+
+/// Most iterations of a program that is tried: what takes more has next to nothing within its limits.
+const ITERATIONS: usize = 100;
 
 /// Accuracy of the choice.
 const ACCURACY: f64 = 1e-7;
@@ -35,8 +39,7 @@ pub(super) fn worth_it(
     let widened = |rows: &SparseRows| {
         let mut wide = SparseRows::new(n + count);
         for k in 0..rows.row_count() {
-            let (columns, values) = rows.row(k);
-            wide.push(columns.iter().copied().zip(values.iter().copied()));
+            wide.push(rows.entries(k));
         }
         wide
     };
@@ -63,5 +66,35 @@ pub(super) fn worth_it(
     }
     let answer = problem.solve(&Settings { tolerance: ACCURACY, proof: false, ..settings.clone() })?;
     let kept = answer.x[n..].iter().map(|kept| *kept <= KEEPS).collect();
-    Ok((answer.status == crate::qp::Status::Optimal).then_some(kept))
+    Ok((answer.status == Status::Optimal).then_some(kept))
+}
+
+/// Settings for a program with signs that may not be had.
+pub(super) fn trial(settings: &Settings) -> Settings {
+    Settings { iterations: settings.iterations.min(ITERATIONS), proof: false, ..settings.clone() }
+}
+
+/// What each line is charged for its limits \[m^2\]: the sum of multipliers times violations at `net`, which is without
+/// them. The limits of the lines are the signs of the program from number `first` on.
+pub(super) fn charges(
+    (program, solved): (&Program, &Solved),
+    lines: &[&[Limit]],
+    first: usize,
+    net: &[f64],
+) -> Vec<f64> {
+    let mut multipliers = vec![0.0; lines.iter().map(|limits| limits.len()).sum()];
+    for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
+        if let RowName::Bend(k) = *name
+            && let Some(multiplier) = k.checked_sub(first).and_then(|k| multipliers.get_mut(k))
+        {
+            *multiplier = *z;
+        }
+    }
+    let mut rest = multipliers.as_slice();
+    let mut of_line = |limits: &&[Limit]| {
+        let (own, others) = rest.split_at(limits.len());
+        rest = others;
+        TableLine::charge(limits, own, net)
+    };
+    lines.iter().map(&mut of_line).collect()
 }

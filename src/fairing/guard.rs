@@ -14,20 +14,17 @@
 //! Each round is one convex program; what is accepted last is optimal for the signs it has.
 
 use super::bends::{Line, kept as keep_signs};
-use super::choice::worth_it;
+use super::choice::{charges, trial, worth_it};
 use super::fair::PRICE;
 use super::least::TableLine;
 use super::model::{Limit, Model};
-use super::program::{Program, RowName, Solved, Wishes};
+use super::program::{Program, Solved, Wishes};
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
-use crate::qp::{ProblemError, Settings, Status};
+use crate::qp::{ProblemError, Settings};
 
 /// Most programs.
 const ROUNDS: usize = 12;
-
-/// Most iterations of a program: what takes more has next to nothing within its limits.
-const ITERATIONS: usize = 100;
 
 /// A line whose proof of infeasibility has more than this part of the largest charge is let go.
 const SHARE: f64 = 0.5;
@@ -145,6 +142,10 @@ impl Question<'_> {
                 asked.push(Asked { line: k, limits: line.wished(start, true), what: Signs::Least });
             }
         }
+        let charged = |answer: (&Program, &Solved), asked: &[Asked]| {
+            let limits: Vec<&[Limit]> = asked.iter().map(|asked| asked.limits.as_slice()).collect();
+            charges(answer, &limits, 0, &free.net)
+        };
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
         let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::told(lines) };
         // Twice: what is too dear is asked for less at first.
@@ -177,9 +178,8 @@ impl Question<'_> {
                 }
             }
             let (program, solved) = self.solve(&asked, &mut guarded)?;
-            let feasible = solved.solution.status == Status::Optimal;
-            if feasible {
-                let charges = charges(&program, &solved, &asked, &free.net);
+            let charges = charged((&program, &solved), &asked);
+            if solved.is_optimal() {
                 let unit = self.sigma * self.sigma;
                 let dear = |k: usize| !asked[k].is_start() && charges[k] > PRICE * unit;
                 if !last && (0..asked.len()).any(dear) {
@@ -191,7 +191,6 @@ impl Question<'_> {
                 guarded.accepted = Some((program, solved));
                 continue;
             }
-            let charges = charges(&program, &solved, &asked, &free.net);
             let most = (0..asked.len()).filter(|&k| !asked[k].is_start()).map(|k| charges[k]).fold(0.0, f64::max);
             let gone: Vec<usize> =
                 (0..asked.len()).filter(|&k| !asked[k].is_start() && charges[k] >= SHARE * most).collect();
@@ -204,7 +203,7 @@ impl Question<'_> {
         let names = |start: bool| asked.iter().filter(|a| a.is_start() == start).map(|a| lines[a.line].line).collect();
         (guarded.asked, guarded.kept) = (names(false), names(true));
         if let Some((program, solved)) = &guarded.accepted {
-            let charges = charges(program, solved, &asked, &free.net).into_iter();
+            let charges = charged((program, solved), &asked).into_iter();
             let unit = self.sigma * self.sigma;
             guarded.prices = asked.iter().zip(charges).map(|(a, charge)| (lines[a.line].line, charge / unit)).collect();
         }
@@ -263,32 +262,9 @@ impl Question<'_> {
         let bends = asked.iter().flat_map(|asked| asked.limits.iter()).chain(self.oblique).cloned().collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
-        let iterations = self.solver.iterations.min(ITERATIONS);
-        let solver = Settings { iterations, proof: false, ..self.solver.clone() };
-        let solved = program.solve(self.model, self.smoother, self.lambda, &solver)?;
+        let solved = program.solve(self.model, self.smoother, self.lambda, &trial(self.solver))?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;
         Ok((program, solved))
     }
-}
-
-/// For each line the sum of multipliers times violations at the net without it.
-fn charges(program: &Program, solved: &Solved, asked: &[Asked], free: &[f64]) -> Vec<f64> {
-    let total = asked.iter().map(|asked| asked.limits.len()).sum();
-    let mut multipliers = vec![0.0; total];
-    for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
-        if let RowName::Bend(k) = *name
-            && let Some(multiplier) = multipliers.get_mut(k)
-        {
-            *multiplier = *z;
-        }
-    }
-    let mut first = 0;
-    let mut charges = Vec::with_capacity(asked.len());
-    for asked in asked {
-        let own = &multipliers[first..first + asked.limits.len()];
-        first += asked.limits.len();
-        charges.push(TableLine::charge(&asked.limits, own, free));
-    }
-    charges
 }

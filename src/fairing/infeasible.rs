@@ -110,8 +110,7 @@ fn least_factor(
     let n = problem.linear.len();
     let mut factor = LeastFactor::new(n);
     for k in 0..program.names.len() {
-        let (columns, values) = problem.rows.row(k);
-        let row = columns.iter().copied().zip(values.iter().copied());
+        let row = problem.rows.entries(k);
         let (low, high) = (problem.lower[k], problem.upper[k]);
         match give(k) {
             Some((narrowed, give)) => factor.push_giving(row, [low + narrowed, high - narrowed], give),

@@ -14,7 +14,7 @@ use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lobes::Lobes;
 use super::proposals::{Accepted, Proposal};
-use super::record::moves;
+use super::record::{moves, resolution};
 use super::repeated::{Attempt, Repeated};
 use super::rules::guarded_lines;
 use super::start::Started;
@@ -332,7 +332,7 @@ impl Job {
             }
             _ => Prepared::new(&mut surface, &settings)?,
         };
-        let resolution = quantum.max(0.1 * prepared.sigma);
+        let resolution = resolution(Some(quantum), prepared.sigma);
         settings.seen = resolution;
         let mut solver = RepeatedSolver::new(&self.solver);
         let (watched, faired) =

@@ -10,21 +10,19 @@
 //! their signs. A group after which a curve bends more often than before, buttocks and diagonals among them, or all of
 //! them together not less often, counted on the hull itself, is halved.
 //!
-//! Against no lobes taken out, inflections of all curves of the shared tables: DTMB 5415 389 > 374, DTC 276 > 256,
-//! oe1012 89 > 80, Series 60 90 > 87, S-175 92 > 91. Tried instead of the choice: letting go what the proof of a
+//! Against no lobes taken out, inflections of all curves of the shared tables: DTMB 5415 389 > 374, DTC 276 > 254,
+//! oe1012 89 > 76, Series 60 90 > 87, S-175 92 > 91. Tried instead of the choice: letting go what the proof of a
 //! contradiction charges most, one line a program (DTMB 5415: 40 programs, 85 s, 377 left).
 
 use super::bends::{Bend, Line, asked, lobes};
-use super::choice::worth_it;
+use super::choice::{charges, trial, worth_it};
 use super::fair::{FairError, FairSettings, Faired, PRICE};
 use super::job::Turns;
 use super::least::TableLine;
 use super::model::Limit;
-use super::program::{Program, RowName, Solved};
-use super::repeated::Attempt;
+use super::repeated::{Attempt, excess};
 use super::surface::FairSurface;
 use super::told::Counted;
-use crate::qp::Settings;
 
 /// Most times that lobes are chosen, and most programs with those that were.
 const ROUNDS: usize = 6;
@@ -32,9 +30,6 @@ const PROGRAMS: usize = 12;
 
 /// Dearest lobe, in units of sigma^2: the choice is no sharper than its accuracy.
 const DEAREST: f64 = 1.25 * PRICE;
-
-/// Most iterations of a program: what takes more has next to nothing within its limits.
-const ITERATIONS: usize = 100;
 
 /// Inflections of a line by the signs of the net, and the lobe that it is asked to give up.
 #[derive(Debug, Clone)]
@@ -53,13 +48,6 @@ impl Lobe {
     fn key(&self) -> (usize, usize) {
         (self.line, self.top)
     }
-}
-
-/// What came of asking.
-enum Tried {
-    Accepted(Box<Attempt>),
-    /// Too dear after all, or of no use.
-    Refused,
 }
 
 /// Lines that are asked to give up lobes.
@@ -93,17 +81,15 @@ impl Lobes<'_> {
             let mut groups = vec![cheap];
             while let Some(mut group) = groups.pop().filter(|group| !group.is_empty() && left > 0) {
                 left -= 1;
-                match self.asked(&best, &group)? {
-                    Tried::Accepted(next) => {
-                        best = *next;
-                        continue 'again;
-                    }
+                if self.without(&mut best, &group)? {
+                    continue 'again;
+                }
+                if group.len() > 1 {
                     // Some of them hide what the others bring.
-                    Tried::Refused if group.len() > 1 => {
-                        let rest = group.split_off(group.len() / 2);
-                        groups.extend([group, rest]);
-                    }
-                    Tried::Refused => refused.extend(group.iter().map(Lobe::key)),
+                    let rest = group.split_off(group.len() / 2);
+                    groups.extend([group, rest]);
+                } else {
+                    refused.extend(group.iter().map(Lobe::key));
                 }
             }
             break;
@@ -135,7 +121,7 @@ impl Lobes<'_> {
                 .filter(|&k| (!inside(k) || excess > 1) && !refused.contains(&(index, found[k].top)))
                 .min_by(|&a, &b| found[a].departure.total_cmp(&found[b].departure))?;
             let fewer = if inside(allowed) { 2 } else { 1 };
-            let signs = without(&found, allowed, &line.bends, net);
+            let signs = turned(&found, allowed, &line.bends, net);
             let end = found.get(allowed + 1).map_or(line.bends.len(), |next| next.from);
             let gone = if allowed == 0 { 0 } else { found[allowed].from }..end;
             let limits = asked(&line.bends, net, &signs, gone, self.seen);
@@ -144,28 +130,28 @@ impl Lobes<'_> {
         self.lines.iter().enumerate().filter_map(of_line).collect()
     }
 
-    fn asked(&self, best: &Attempt, group: &[Lobe]) -> Result<Tried, FairError> {
-        let Faired { program, smoother, lambda, sigma, net, .. } = &best.faired;
-        let limits: Vec<Limit> = group.iter().flat_map(|lobe| lobe.limits.iter().cloned()).collect();
-        let (program, first) = program.with_bends(&limits, &smoother.reduced);
-        let iterations = self.settings.solver.iterations.min(ITERATIONS);
-        let solver = Settings { iterations, proof: false, ..self.settings.solver.clone() };
-        let solved = program.solve(&self.surface.model, smoother, *lambda, &solver)?;
+    /// Asks for the lobes of a group; whether the attempt is now without them.
+    fn without(&self, best: &mut Attempt, group: &[Lobe]) -> Result<bool, FairError> {
+        let Faired { program, smoother, lambda, sigma, net, solved: before, .. } = &best.faired;
+        let all: Vec<Limit> = group.iter().flat_map(|lobe| lobe.limits.iter().cloned()).collect();
+        let (program, first) = program.with_bends(&all, &smoother.reduced);
+        let solved = program.solve(&self.surface.model, smoother, *lambda, &trial(&self.settings.solver))?;
         let unit = sigma * sigma;
-        let charges: Vec<f64> =
-            charges(&program, &solved, group, first, net).into_iter().map(|charge| charge / unit).collect();
+        let limits: Vec<&[Limit]> = group.iter().map(|lobe| lobe.limits.as_slice()).collect();
+        let charges = charges((&program, &solved), &limits, first, net).into_iter().map(|charge| charge / unit);
+        let charges: Vec<f64> = charges.collect();
         if !solved.is_optimal() || charges.iter().any(|charge| *charge > DEAREST) {
-            return Ok(Tried::Refused);
+            return Ok(false);
         }
         let after = self.surface.hull_of(&solved.net)?;
         let lines = self.watched.turns(&after);
-        let mut next = Attempt { faired: best.faired.clone(), after, lines };
-        let sum = |attempt: &Attempt| attempt.lines.iter().map(|turns: &Turns| turns.after).sum::<usize>();
-        if next.excess() > best.excess() || sum(&next) >= sum(best) {
-            return Ok(Tried::Refused);
+        let sum = |lines: &[Turns]| lines.iter().map(|turns| turns.after).sum::<usize>();
+        if excess(&lines) > excess(&best.lines) || sum(&lines) >= sum(&best.lines) {
+            return Ok(false);
         }
-        let faired = &mut next.faired;
-        faired.price += (solved.objective - best.faired.solved.objective) / unit;
+        let dearer = (solved.objective - before.objective) / unit;
+        let faired = &mut best.faired;
+        faired.price += dearer;
         faired.programs += 1;
         faired.iterations += solved.solution.iterations;
         faired.net.clone_from(&solved.net);
@@ -175,12 +161,13 @@ impl Lobes<'_> {
                 guarded.gave_up(self.lines[lobe.line].line, lobe.most, charge);
             }
         }
-        Ok(Tried::Accepted(Box::new(next)))
+        (best.after, best.lines) = (after, lines);
+        Ok(true)
     }
 }
 
 /// Signs along a line whose lobe `gone` turns as its neighbours do; 0 at one place beside each inflection.
-fn without(found: &[super::bends::Lobe], gone: usize, bends: &[Bend], net: &[f64]) -> Vec<i8> {
+fn turned(found: &[super::bends::Lobe], gone: usize, bends: &[Bend], net: &[f64]) -> Vec<i8> {
     let mut signs = vec![0; bends.len()];
     let mut from = 0;
     for (k, lobe) in found.iter().enumerate() {
@@ -198,25 +185,6 @@ fn without(found: &[super::bends::Lobe], gone: usize, bends: &[Bend], net: &[f64
     signs
 }
 
-/// For each lobe the sum of multipliers times violations at the net before.
-fn charges(program: &Program, solved: &Solved, group: &[Lobe], first: usize, net: &[f64]) -> Vec<f64> {
-    let mut multipliers = vec![0.0; group.iter().map(|lobe| lobe.limits.len()).sum()];
-    for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
-        if let RowName::Bend(k) = *name
-            && let Some(multiplier) = k.checked_sub(first).and_then(|k| multipliers.get_mut(k))
-        {
-            *multiplier = *z;
-        }
-    }
-    let mut rest = multipliers.as_slice();
-    let mut of_lobe = |lobe: &Lobe| {
-        let (own, others) = rest.split_at(lobe.limits.len());
-        rest = others;
-        TableLine::charge(&lobe.limits, own, net)
-    };
-    group.iter().map(&mut of_lobe).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -231,8 +199,8 @@ mod tests {
         let seen = |(sign, from): (i8, usize)| Seen { sign, from, top: from, departure: 1.0 };
         let found: Vec<Seen> = [(1, 0), (-1, 3), (1, 5), (-1, 7)].map(seen).to_vec();
         // Of 0.6 and -0.3 the weaker is free.
-        assert_eq!(without(&found, 1, &bends, &net), [1, 1, 1, 1, 1, 1, 1, 0, -1, -1]);
+        assert_eq!(turned(&found, 1, &bends, &net), [1, 1, 1, 1, 1, 1, 1, 0, -1, -1]);
         // Both places of a short lobe may be free: there is no room for more than it.
-        assert_eq!(without(&found, 3, &bends, &net), [1, 1, 1, 0, 0, 1, 1, 1, 1, 1]);
+        assert_eq!(turned(&found, 3, &bends, &net), [1, 1, 1, 0, 0, 1, 1, 1, 1, 1]);
     }
 }

@@ -218,8 +218,7 @@ impl Program {
     #[must_use]
     pub fn without(&self, these: impl Fn(RowName) -> bool) -> Self {
         let rows = self.names.iter().enumerate().map(|(k, &name)| {
-            let (columns, values) = self.problem.rows.row(k);
-            let row = columns.iter().copied().zip(values.iter().copied()).collect();
+            let row = self.problem.rows.entries(k).collect();
             Wanted { name, row, tolerance: self.tolerances[k], limits: [self.problem.lower[k], self.problem.upper[k]] }
         });
         let all = rows.chain(self.decided.iter().cloned()).filter(|row| !these(row.name));
@@ -248,8 +247,7 @@ impl Program {
                 program.problem.lower[k] = limit.lower - offset;
                 program.problem.upper[k] = limit.upper - offset;
             } else {
-                let (columns, values) = self.problem.rows.row(k);
-                program.problem.rows.push(columns.iter().copied().zip(values.iter().copied()));
+                program.problem.rows.push(self.problem.rows.entries(k));
             }
         }
         program

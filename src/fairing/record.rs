@@ -222,8 +222,14 @@ impl FairRecord {
     /// The departure that counts as one of the table \[m\]: its rounding, or a tenth of its noise.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        self.lines.quantum.unwrap_or(0.0).max(0.1 * self.sigma)
+        resolution(self.lines.quantum, self.sigma)
     }
+}
+
+/// The departure that counts as one of a table \[m\]: its rounding, or a tenth of its noise.
+#[must_use]
+pub fn resolution(quantum: Option<f64>, sigma: f64) -> f64 {
+    quantum.unwrap_or(0.0).max(0.1 * sigma)
 }
 
 /// What counts as the accuracy of a table \[m\]: two steps of its writing, or twice its noise where that is more.

@@ -25,14 +25,18 @@ impl Attempt {
         self.lines.iter().filter(|turns| turns.after > turns.before)
     }
 
-    /// Inflections more than before, all worse curves together.
-    pub(super) fn excess(&self) -> usize {
-        self.worse().map(|turns| turns.after - turns.before).sum()
+    fn excess(&self) -> usize {
+        excess(&self.lines)
     }
 
     pub(super) fn is_optimal(&self) -> bool {
         self.faired.diagnosis.is_none() && self.faired.solved.is_optimal()
     }
+}
+
+/// Inflections more than before, all worse curves together.
+pub(super) fn excess(lines: &[Turns]) -> usize {
+    lines.iter().map(|turns| turns.after.saturating_sub(turns.before)).sum()
 }
 
 /// What is done again.

@@ -234,8 +234,7 @@ impl Smoother {
                 leverages.push(0.0);
                 continue;
             }
-            let (columns, values) = data.row(k);
-            let leverage = inverse.quadratic_form(columns.iter().copied().zip(values.iter().copied()));
+            let leverage = inverse.quadratic_form(data.entries(k));
             leverages.push(weight * leverage);
             edf += weight * leverage;
             rss += weight * residual * residual;

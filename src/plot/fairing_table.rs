@@ -6,7 +6,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::station_words;
-use super::sheet::{LETTERS, ROOM};
+use super::sheet::{LETTERS, ROOM, wide};
 use super::{Svg, caption, font};
 use crate::fairing::job::Change;
 use crate::fairing::record::FairRecord;
@@ -62,10 +62,10 @@ pub(super) fn compose(record: &FairRecord, texts: &[[String; 2]], limit: f64, wo
     }
     let names: Vec<String> =
         lines.stations.iter().map(|station| caption::plain(&station.name).chars().take(12).collect()).collect();
-    let wide = |text: &String| LETTERS * font::width(text) + GAP;
-    let first = names.iter().map(wide).fold(LETTERS * font::width("station") + GAP, f64::max);
-    let cells = table.iter().flatten().flatten().map(|entry| wide(&entry.text));
-    let width = cells.chain(columns.iter().map(wide)).fold(0.0, f64::max);
+    let column_of = |text: &str| wide(text, LETTERS) + GAP;
+    let first = names.iter().map(|name| column_of(name)).fold(column_of("station"), f64::max);
+    let cells = table.iter().flatten().flatten().map(|entry| column_of(&entry.text));
+    let width = cells.chain(columns.iter().map(|head| column_of(head))).fold(0.0, f64::max);
     let across = (((ROOM[0] - 2.0 * MARGIN - first) / width).floor().max(1.0) as usize).min(columns.len().max(1));
     let down = (((ROOM[1] - HEAD - FOOT) / ROW).floor() as usize - 1).min(names.len().max(1));
     // Parts of one size rather than full ones and a rest.
@@ -173,7 +173,7 @@ fn head(canvas: &mut Canvas, record: &FairRecord, [sheet, sheets]: [usize; 2]) {
         format!("half-breadths [{unit}] over stations and waterlines [{unit}] above the base line")
     };
     let words = format!("{what}    {}", station_words(record));
-    let size = (LETTERS * (ROOM[0] - 2.0 * MARGIN) / (LETTERS * font::width(&words))).min(LETTERS);
+    let size = ((ROOM[0] - 2.0 * MARGIN) / font::width(&words)).min(LETTERS);
     canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(size, Anchor::Middle));
     let words = "as the file of the fair table has them, in the notation of the table";
     canvas.text([0.5 * ROOM[0], 21.0], words, &TextStyle::new(LETTERS, Anchor::Middle));

@@ -63,6 +63,12 @@ impl SparseRows {
         self.starts.push(self.indices.len());
     }
 
+    /// (Column, value) of a row, with rising columns.
+    pub fn entries(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+        let (columns, values) = self.row(row);
+        columns.iter().copied().zip(values.iter().copied())
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn row_count(&self) -> usize {

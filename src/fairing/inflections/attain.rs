@@ -69,8 +69,7 @@ pub(super) fn least_factor(bands: &Bands, space: &Space, pattern: &Pattern) -> T
     let mean = d.iter().sum::<f64>() / d.len() as f64;
     let mut rows = LeastFactor::new(n);
     for k in 0..d.len() {
-        let (columns, values) = space.values.row(k);
-        let entries = columns.iter().copied().zip(values.iter().copied());
+        let entries = space.values.entries(k);
         let right = (d[k] - mean) / size;
         if delta[k] > 0.0 {
             rows.push_giving(entries, [right, right], delta[k] / unit);
