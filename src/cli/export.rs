@@ -131,6 +131,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         datum,
         draught: arguments.draught,
         panel: arguments.panel,
+        stations: source.conventions.stations,
         flatness: arguments.flatness,
     };
     let exported = export(&source.hull, &stem, &arguments.format, &settings)?;

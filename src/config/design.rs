@@ -5,20 +5,12 @@ use super::document::{Document, Raw, nearest};
 use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
 use super::wishes::wishes;
+use crate::hull::StationNumbers;
 use crate::hydrostatics::{
     CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection, SHELL_FACTORS,
     SHELL_THICKNESSES, Shell,
 };
 use crate::parametric::{Family, Infeasible, analytic, ucl_cosh};
-
-/// Where stations are counted from in drawings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StationZero {
-    /// The aft perpendicular.
-    Aft,
-    /// The forward perpendicular.
-    Forward,
-}
 
 /// What is to be written about the hull; what is `None` gets the default of the report. Lengths \[m\].
 #[derive(Debug, Clone, PartialEq)]
@@ -31,10 +23,6 @@ pub struct Output {
     pub waterlines: Option<Vec<f64>>,
     /// Buttocks of the heights table.
     pub buttocks: Option<Vec<f64>>,
-    /// Number of equal spaces between the perpendiculars.
-    pub station_spaces: u32,
-    /// Where stations are counted from.
-    pub station_zero: StationZero,
     /// Names of the figures to draw, of [`FIGURES`].
     pub figures: Vec<&'static str>,
 }
@@ -46,8 +34,6 @@ impl Default for Output {
             stations: None,
             waterlines: None,
             buttocks: None,
-            station_spaces: 20,
-            station_zero: StationZero::Aft,
             figures: FIGURES.to_vec(),
         }
     }
@@ -295,6 +281,10 @@ fn conventions(document: &mut Document<'_>) -> Conventions {
             );
         }
     }
+    conventions.stations = StationNumbers {
+        spaces: document.integer("conventions.stations").unwrap_or(conventions.stations.spaces),
+        from_forward: document.word("conventions.station_zero") == Some("FP"),
+    };
     conventions.shell = shell(document).unwrap_or(Shell::None);
     if let Some(thickness) = document.number("water.keel_thickness") {
         conventions.keel_thickness = thickness;
@@ -431,11 +421,6 @@ fn output(document: &mut Document<'_>) -> Output {
         stations: document.positions("output.stations"),
         waterlines: document.positions("output.waterlines"),
         buttocks: document.positions("output.buttocks"),
-        station_spaces: document.integer("conventions.stations").unwrap_or(defaults.station_spaces),
-        station_zero: match document.word("conventions.station_zero") {
-            Some("FP") => StationZero::Forward,
-            _ => StationZero::Aft,
-        },
         figures: figures(document).unwrap_or(defaults.figures),
     }
 }
@@ -498,7 +483,7 @@ mod tests {
         assert_eq!(design.conventions.centre_of_gravity_height, Some(6.0));
         assert_eq!(design.output.draughts.as_deref(), Some(&[1.0, 2.0, 3.0][..]));
         assert_eq!(design.output.waterlines.as_deref(), Some(&[1.0, 2.0][..]));
-        assert_eq!((design.output.station_spaces, design.output.station_zero), (10, StationZero::Forward));
+        assert_eq!(design.conventions.stations, StationNumbers { spaces: 10, from_forward: true });
         assert_eq!(design.output.figures, ["lines"]);
     }
 

@@ -16,7 +16,7 @@ mod template;
 mod value;
 mod wishes;
 
-pub use design::{Design, Output, StationZero, read};
+pub use design::{Design, Output, read};
 pub use diagnostic::{Diagnostic, Severity};
 pub use job::{JOB_KEYS, JobFile, Mark, Quantity, RuleMark, Spot, Wish, read_job, read_option};
 pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};

@@ -44,6 +44,9 @@ pub const NO_MOVE: f64 = 5e-7;
 /// What a wish costs, as "holding LCB costs 0.42 mm RMS".
 #[must_use]
 pub fn priced(words: &str, price: f64) -> String {
+    if price.is_nan() {
+        return format!("what holding {words} costs was not found");
+    }
     if price < NO_MOVE {
         return format!("holding {words} costs no moves");
     }

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::hull_json::write_hull;
 use super::number::{cell, json_number, line};
-use crate::hull::Hull;
+use crate::hull::{Hull, StationNumbers};
 use crate::hydrostatics::{
     Assumed, CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, QUANTITIES,
     Shell,
@@ -30,6 +30,12 @@ pub(super) struct ConventionsRecord {
     /// Symbols of the other main dimensions that were assumed; written only where there are some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     dimensions_assumed: Vec<String>,
+    /// Written only where it is not 20.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    station_spaces: Option<u32>,
+    /// Written only where it is FP.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    station_zero: Option<LcbWord>,
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -91,6 +97,8 @@ impl From<&Conventions> for ConventionsRecord {
             kg: c.centre_of_gravity_height,
             design_draught_assumed: c.assumed.draught,
             dimensions_assumed: c.assumed.besides_draught().into_iter().map(str::to_owned).collect(),
+            station_spaces: Some(c.stations.spaces).filter(|&spaces| spaces != StationNumbers::default().spaces),
+            station_zero: c.stations.from_forward.then_some(LcbWord::ForwardPerpendicular),
         }
     }
 }
@@ -127,6 +135,10 @@ impl From<ConventionsRecord> for Conventions {
                 breadth: assumed("B"),
                 draught: record.design_draught_assumed,
                 depth: assumed("D"),
+            },
+            stations: StationNumbers {
+                spaces: record.station_spaces.filter(|&n| n >= 1).unwrap_or(defaults.stations.spaces),
+                from_forward: matches!(record.station_zero, Some(LcbWord::ForwardPerpendicular)),
             },
         }
     }
@@ -209,6 +221,10 @@ mod tests {
                     draught: lcb_reference == LcbReference::Midship,
                     breadth: lcb_reference == LcbReference::Percent,
                     ..Assumed::default()
+                },
+                stations: StationNumbers {
+                    spaces: if shell == Shell::None { 20 } else { 10 },
+                    from_forward: lcb_reference == LcbReference::Midship,
                 },
             };
             let text = serde_json::to_string(&ConventionsRecord::from(&conventions)).unwrap();

@@ -174,6 +174,12 @@ pub struct Prepared {
     pub lines: Vec<TableLine>,
 }
 
+/// The noise of a table that is taken on the net of a fit \[m\].
+fn most_noise(settings: &FairSettings, noise: f64) -> f64 {
+    let (noise, most) = (noise.max(settings.least_noise), settings.most_noise.max(settings.least_noise));
+    if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12)
+}
+
 impl Prepared {
     /// Finds weight and noise, and gives the readings of the surface their tolerances.
     ///
@@ -182,13 +188,22 @@ impl Prepared {
     pub fn new(surface: &mut FairSurface, settings: &FairSettings) -> Result<Self, FairError> {
         let smoother = Smoother::new(&surface.model);
         let (sigma, search) = match (settings.weight, settings.table_noise) {
-            (Some(weight), _) => (None, (weight, Vec::new())),
+            // The noise is that of the table, whatever the weight is.
+            (Some(weight), noise) => {
+                let sigma = match noise.filter(|_| !surface.own) {
+                    Some(noise) => most_noise(settings, noise),
+                    None => {
+                        let (best, _) = smoother.cross_validated()?;
+                        smoother.at(best)?.sigma(smoother.count()).max(settings.least_noise).max(1e-12)
+                    }
+                };
+                (Some(sigma), (weight, Vec::new()))
+            }
             (None, Some(noise)) if !surface.own => {
                 // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of
                 // the table. What is within the tolerance of a designer counts as the roughness of a drawing and gets
                 // no more room than he gives.
-                let (noise, most) = (noise.max(settings.least_noise), settings.most_noise.max(settings.least_noise));
-                let sigma = if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12);
+                let sigma = most_noise(settings, noise);
                 (Some(sigma), smoother.for_noise(sigma)?)
             }
             _ => (None, smoother.cross_validated()?),

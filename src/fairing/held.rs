@@ -118,7 +118,8 @@ pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Fai
 }
 
 impl Faired {
-    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped.
+    /// What rows cost \[m\]: how much the root of the mean square of the moves falls when they are dropped; not a number
+    /// where the program without them was not solved.
     #[must_use]
     pub fn price_of(&self, model: &Model, these: impl Fn(RowName) -> bool, solver: &Settings) -> f64 {
         if self.rows(&these).next().is_none() {
@@ -129,11 +130,11 @@ impl Faired {
         solved
             .ok()
             .filter(Solved::is_optimal)
-            .map_or(0.0, |solved| self.moved(model, &self.net) - self.moved(model, &solved.net))
+            .map_or(f64::NAN, |solved| self.moved(model, &self.net) - self.moved(model, &solved.net))
     }
 
     /// [`Faired::price_of`] each of the first `count` constraints of the whole hull: one solver, one row opened after
-    /// the other.
+    /// the other; not a number where the program was not solved.
     #[must_use]
     pub fn prices_of_constraints(&self, model: &Model, count: usize, solver: &mut RepeatedSolver<'_>) -> Vec<f64> {
         let price = |k: usize| {
@@ -149,7 +150,7 @@ impl Faired {
             let net = self.smoother.reduced.expand(&solution.x);
             (solution.status == Status::Optimal).then(|| self.moved(model, &self.net) - self.moved(model, &net))
         };
-        (0..count).map(price).map(|price| price.unwrap_or(0.0)).collect()
+        (0..count).map(price).map(|price| price.unwrap_or(f64::NAN)).collect()
     }
 
     /// Root of the mean weighted square of what a net moves the readings by \[m\].

@@ -5,7 +5,7 @@
 
 use super::bends::Line;
 use super::compromise::Instead;
-use super::constraint::{Constraint, Rule};
+use super::constraint::{Constraint, FixedLine, Rule};
 use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::held::{self, Held, HeldRule};
 use super::infeasible::Diagnosis;
@@ -34,6 +34,9 @@ const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 /// The surface through the table is off a target by more than this, over its scale, where it is another than its own:
 /// less is what a target of the drawing office differs from a table by errors of the table.
 const ANOTHER: f64 = 2e-3;
+
+/// A locked offset that moves by more did not stay \[m\].
+const LOCKED: f64 = 1e-9;
 
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
@@ -245,7 +248,23 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let outcome = self.run_on(table, true)?;
+        let mut outcome = self.run_on(table, true)?;
+        // What a net of its own cannot have, that of the fit may, which meets every offset.
+        if outcome.own && outcome.status != Status::Optimal {
+            let mut other = self.run_on(table, false)?;
+            let moved = |outcome: &Outcome| {
+                let locked = outcome.changes.iter().filter(|change| change.locked);
+                locked.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max)
+            };
+            if other.status == Status::Optimal || moved(&outcome) > moved(&other).max(LOCKED) {
+                other.notes.push(
+                    "what is wished cannot be had on a net of its own, which follows the table with fewer control values: the \
+                     net of the surface through the table was faired"
+                        .to_owned(),
+                );
+                outcome = other;
+            }
+        }
         // A net of its own that bends more often than the surface through the table, and more, does not follow it after
         // all.
         let more = |outcome: &Outcome| {
@@ -503,6 +522,23 @@ impl Job {
     fn names_no_tolerance(&self) -> bool {
         let Tolerance { table, stations, waterlines, cells } = &self.tolerance;
         table.is_none() && stations.is_empty() && waterlines.is_empty() && cells.is_empty() && self.locked.is_empty()
+    }
+
+    /// Whether a cell stays though it is suspected: it is locked, by itself or with its line, or its own tolerance is
+    /// named.
+    pub(super) fn holds(&self, table: &OffsetTable, (station, waterline): (usize, usize)) -> bool {
+        let column = &table.stations[station];
+        let (x, z) = (column.station.x, table.waterlines[waterline]);
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + b.abs());
+        let fixed = |rule: &Rule| match rule {
+            Rule::Fixed(FixedLine::Line(Line::Station(at))) => near(*at, x),
+            Rule::Fixed(FixedLine::Line(Line::Waterline(at))) => near(*at, z),
+            _ => false,
+        };
+        column.half_breadths[waterline].marks.locked
+            || self.locked.contains(&(station, waterline))
+            || self.tolerance.cells.iter().any(|(s, w, _)| (*s, *w) == (station, waterline))
+            || self.rules.iter().any(fixed)
     }
 
     /// Tolerances that the job names, one a reading.

@@ -83,8 +83,14 @@ impl Started {
     pub(super) fn new(job: &Job, table: &OffsetTable, own: bool) -> Result<Self, JobError> {
         let mut found = suspects(table);
         let mut cleaned = Cleaned { clean: table.clone(), charted: table.clone(), excluded: Vec::new() };
+        let mut kept = Vec::new();
         for suspect in found.suspects.iter().filter(|suspect| job.exclude_suspects && suspect.probability > 0.5) {
-            cleaned.leave_out((suspect.station, suspect.waterline), suspect.verdict.expected);
+            let cell = (suspect.station, suspect.waterline);
+            if job.holds(table, cell) {
+                kept.push(cell);
+            } else {
+                cleaned.leave_out(cell, suspect.verdict.expected);
+            }
         }
         // A suspected point of a section stays, as a doubtful one: beside it there is no grid that says what to put in
         // its place.
@@ -102,7 +108,7 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
-            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.locked.contains(cell))
+            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.holds(table, *cell))
             {
                 without.leave_out(cell, expected);
             }
@@ -127,6 +133,12 @@ impl Started {
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
         let Modelled { before, mut notes, proposals, surface, search, watched, .. } = modelled;
+        for (station, waterline) in kept {
+            let (name, z) = (table.stations[station].station.words(), table.waterlines[waterline]);
+            notes.push(format!(
+                "the offset of {name} at {z} m is suspected, and stays: it is locked, or its tolerance is named"
+            ));
+        }
         if doubtful > 0 {
             notes.push(format!(
                 "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"

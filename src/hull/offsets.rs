@@ -134,7 +134,7 @@ impl OffsetTable {
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
         let mut table =
-            Self::from_hull(hull, &default_stations(hull), &default_waterlines(hull), &default_buttocks(hull));
+            Self::from_hull(hull, &default_stations(hull, StationNumbers::default()), &default_waterlines(hull), &default_buttocks(hull));
         table.stations.retain(|station| station.half_breadths.iter().any(|cell| cell.value().is_some()));
         table
     }
@@ -272,16 +272,52 @@ fn nice_step(value: f64) -> f64 {
     [5.0, 2.5, 2.0].into_iter().find(|m| m * decade <= value * (1.0 + 1e-9)).unwrap_or(1.0) * decade
 }
 
-/// Default stations: 0 (AP) to 20 (FP) in equal spaces, half stations in the two spaces at each end, and the extreme
+/// How the stations of a ship are numbered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StationNumbers {
+    /// Equal spaces between the perpendiculars.
+    pub spaces: u32,
+    /// Whether 0 is FP and numbers rise aft; else 0 is AP and they rise forward.
+    pub from_forward: bool,
+}
+
+impl Default for StationNumbers {
+    fn default() -> Self {
+        Self { spaces: 20, from_forward: false }
+    }
+}
+
+impl StationNumbers {
+    /// Distance of full stations in a length between perpendiculars \[m\].
+    #[must_use]
+    pub fn spacing(&self, length: f64) -> f64 {
+        length / f64::from(self.spaces)
+    }
+
+    /// The number of the station that is this many spaces forward of AP.
+    #[must_use]
+    pub fn number(&self, spaces_from_aft: f64) -> f64 {
+        if self.from_forward { f64::from(self.spaces) - spaces_from_aft } else { spaces_from_aft }
+    }
+
+    /// Where numbers count from.
+    #[must_use]
+    pub fn zero(&self) -> &'static str {
+        if self.from_forward { "FP" } else { "AP" }
+    }
+}
+
+/// Default stations: equal spaces between the perpendiculars, half stations in the two spaces at each end, and the extreme
 /// ends of the hull where they overhang.
 #[must_use]
-pub fn default_stations(hull: &Hull) -> Vec<OffsetStation> {
+pub fn default_stations(hull: &Hull, numbers: StationNumbers) -> Vec<OffsetStation> {
     let length = hull.particulars().length_between_perpendiculars;
-    let halves = [0.5, 1.5, 18.5, 19.5];
-    let mut stations: Vec<OffsetStation> = (0..=20)
+    let spaces = f64::from(numbers.spaces);
+    let halves = [0.5, 1.5, spaces - 1.5, spaces - 0.5];
+    let mut stations: Vec<OffsetStation> = (0..=numbers.spaces)
         .map(f64::from)
         .chain(halves)
-        .map(|number| OffsetStation { name: format!("{number}"), x: length * number / 20.0 })
+        .map(|k| OffsetStation { name: format!("{}", numbers.number(k)), x: length * k / spaces })
         .collect();
     let (a, b) = hull.surface().u().domain();
     let ends = |u: f64, fold: fn(f64, f64) -> f64, start: f64| {
@@ -425,7 +461,7 @@ mod tests {
         }
         assert!((lines[lines.len() - 1] - 10.0).abs() < 1e-12);
         assert_eq!(default_buttocks(&hull).len(), 7);
-        assert_eq!(default_stations(&hull)[1].name, "0.5");
+        assert_eq!(default_stations(&hull, StationNumbers::default())[1].name, "0.5");
         for (value, step) in [(0.9, 0.5), (1.0, 1.0), (2.4, 2.0), (2.6, 2.5), (7.0, 5.0), (30.0, 25.0)] {
             assert!((nice_step(value) - step).abs() < 1e-12, "{value}");
         }

@@ -2,7 +2,7 @@
 
 use super::cell::{Marks, OutlinePoint};
 use super::form::Hull;
-use super::offsets::{OffsetStation, OffsetTable, StationOffsets, default_stations};
+use super::offsets::{OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_stations};
 use super::section::{Cut, Face};
 
 /// Ends of pieces of a section that are as near as this part of the breadth are one point.
@@ -21,7 +21,7 @@ const APART: f64 = 2e-3;
 /// stern profile, so that raked ends are not cut short.
 #[must_use]
 pub fn section_stations(hull: &Hull) -> Vec<OffsetStation> {
-    let mut stations = default_stations(hull);
+    let mut stations = default_stations(hull, StationNumbers::default());
     let apart = APART * hull.particulars().length_between_perpendiculars;
     let ((aft, fore), (low, high)) = (hull.surface().u().domain(), hull.surface().v().domain());
     for u in [aft, fore] {

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::hull::StatedParticulars;
+use crate::hull::{StatedParticulars, StationNumbers};
 
 /// Length that coefficients are referred to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,6 +121,8 @@ pub struct Conventions {
     pub centre_of_gravity_height: Option<f64>,
     /// Main dimensions that were assumed, because the table that the hull was laid through does not state them.
     pub assumed: Assumed,
+    /// How stations are numbered.
+    pub stations: StationNumbers,
 }
 
 /// Which of the main dimensions a table left to be assumed.
@@ -174,6 +176,7 @@ impl Default for Conventions {
             keel_thickness: 0.0,
             centre_of_gravity_height: None,
             assumed: Assumed::default(),
+            stations: StationNumbers::default(),
         }
     }
 }

@@ -10,19 +10,19 @@ use super::scale::{contracted_scale, drawing_scale, nice_step, sheet_scale};
 use super::sheet::{LETTERS, ROOM};
 use super::view::{DESIGN, GRID, OUTLINE};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
-use crate::hull::{Hull, SectionalAreaCurve, keel_height};
+use crate::hull::{Hull, SectionalAreaCurve, StationNumbers, keel_height};
 
 /// Room aft and forward of the profile \[mm\].
 const SIDES: [f64; 2] = [20.0, 14.0];
 /// Upper edge of the profile, and its largest height \[mm\].
 const TOP: f64 = 30.0;
 const HEIGHT: f64 = 130.0;
-/// Intervals between the perpendiculars.
-const INTERVALS: usize = 20;
 /// Heights of a curve.
 const LEVELS: usize = 60;
 /// Width of the largest area, in distances of stations, at most.
 const WIDEST: f64 = 3.2;
+/// Most stations of the table, but for the last.
+const COLUMNS: u32 = 24;
 /// Most waterlines of the table.
 const ROWS: f64 = 11.0;
 /// Height of a row of the table \[mm\].
@@ -54,12 +54,13 @@ impl BonjeanTable {
         Self { stations: stations.to_vec(), heights: heights.to_vec(), areas }
     }
 
-    /// The table of the sheet: stations at twentieths of L_PP, heights at round steps up to the deck.
+    /// The table of the sheet: full stations from AP forward, every second where there are many, heights at round steps up to the deck.
     #[must_use]
-    pub fn with_defaults(hull: &Hull) -> Self {
+    pub fn with_defaults(hull: &Hull, numbers: StationNumbers) -> Self {
         let p = hull.particulars();
-        let stations: Vec<f64> =
-            (0..=INTERVALS).map(|k| p.length_between_perpendiculars * k as f64 / INTERVALS as f64).collect();
+        let (length, spaces) = (p.length_between_perpendiculars, f64::from(numbers.spaces));
+        let every = numbers.spaces.div_ceil(COLUMNS).max(1) as usize;
+        let stations: Vec<f64> = (0..=numbers.spaces).step_by(every).map(|k| length * f64::from(k) / spaces).collect();
         let step = nice_step(p.depth, ROWS);
         let count = (hull.top() / step + 1e-9).floor() as usize;
         let mut heights: Vec<f64> = (1..=count).map(|k| k as f64 * step).collect();
@@ -83,11 +84,13 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let p = hull.particulars();
     let length = p.length_between_perpendiculars;
-    let table = BonjeanTable::with_defaults(hull);
+    let stations = inputs.curves.conventions.stations;
+    let table = BonjeanTable::with_defaults(hull, stations);
     let ends = outline::overall_length(hull);
     let (low, high) = (ends[0].min(0.0), ends[1].max(length));
     let (bottom, top) = (hull.bottom().min(0.0), hull.top());
-    let spacing = length / INTERVALS as f64;
+    let spacing = stations.spacing(length);
+    let name = |k: usize| stations.number((table.stations[k] / spacing).round()).to_string();
     let n = drawing_scale(top - bottom, HEIGHT);
     let upward = 1000.0 / f64::from(n);
     let floor = TOP + upward * (top - bottom);
@@ -159,7 +162,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             add(deck, *area);
         }
         canvas.polyline(&points, &curve);
-        canvas.text([at(x, bottom)[0], floor + 3.4], &k.to_string(), &TextStyle::new(LETTERS, Anchor::Middle));
+        canvas.text([at(x, bottom)[0], floor + 3.4], &name(k), &TextStyle::new(LETTERS, Anchor::Middle));
         placer.add_curve(&points);
         numbers.push(k);
     }
@@ -168,19 +171,20 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let style = TextStyle::new(LETTERS, Anchor::Middle).coloured(curve.colour).halo();
     for (curve, k) in numbers.into_iter().enumerate() {
         let preferred = Preference { part: 0.8, crossings: 1, beside: true };
-        placer.name_curve(&mut canvas, curve, &k.to_string(), &style, preferred, &window);
+        placer.name_curve(&mut canvas, curve, &name(k), &style, preferred, &window);
     }
     canvas.text([at(0.0, bottom)[0], floor + 7.6], "AP", &TextStyle::new(LETTERS, Anchor::Middle));
     canvas.text([at(length, bottom)[0], floor + 7.6], "FP", &TextStyle::new(LETTERS, Anchor::Middle));
-    draw_table(&mut canvas, &table, p.draught, floor + 17.0);
-    let words = format!("{}    stations L_PP / 20 = {spacing:.3} m from AP", caption::design_waterline(inputs));
+    let heads: Vec<String> = (0..table.stations.len()).map(name).collect();
+    draw_table(&mut canvas, (&table, &heads), p.draught, floor + 17.0);
+    let words = format!("{}    {}", caption::design_waterline(inputs), caption::stations(inputs));
     canvas.text([10.0, height - 4.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
     canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)
 }
 
 /// Areas of the stations, the highest waterline on top.
-fn draw_table(canvas: &mut Canvas, table: &BonjeanTable, design: f64, top: f64) {
+fn draw_table(canvas: &mut Canvas, (table, heads): (&BonjeanTable, &[String]), design: f64, top: f64) {
     let columns = table.stations.len() as f64;
     let (left, first) = (10.0, 30.0);
     let width = (ROOM[0] - 2.0 * left - first) / columns;
@@ -191,8 +195,8 @@ fn draw_table(canvas: &mut Canvas, table: &BonjeanTable, design: f64, top: f64) 
     canvas.text([left, top - 3.0], "AREAS OF SECTIONS, BOTH SIDES [m²]", &TextStyle { size: 3.2, ..head });
     let y = |row: usize| top + ROW * (row as f64 + 0.5);
     canvas.text([left + 1.0, y(0)], "z [m] \\ station", &head);
-    for k in 0..table.stations.len() {
-        canvas.text([left + first + width * (k + 1) as f64 - 1.0, y(0)], &k.to_string(), &style);
+    for (k, name) in heads.iter().enumerate() {
+        canvas.text([left + first + width * (k + 1) as f64 - 1.0, y(0)], name, &style);
     }
     for (row, (z, areas)) in table.heights.iter().zip(&table.areas).rev().enumerate() {
         let mark = if (z - design).abs() < 1e-9 { "  DWL" } else { "" };

@@ -56,6 +56,13 @@ pub(super) fn assumed_note(inputs: &FigureInputs, gap: &str) -> String {
     if none { String::new() } else { format!("{gap}* assumed") }
 }
 
+/// How stations are numbered, `stations L_PP / 20 = 7.000 m from AP`.
+pub(super) fn stations(inputs: &FigureInputs) -> String {
+    let numbers = inputs.curves.conventions.stations;
+    let spacing = numbers.spacing(inputs.hull.particulars().length_between_perpendiculars);
+    format!("stations L_PP / {} = {spacing:.3} m from {}", numbers.spaces, numbers.zero())
+}
+
 /// The design draught, `T 7.70 m`, and whether it was assumed.
 pub(super) fn draught(inputs: &FigureInputs) -> String {
     format!("T {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())

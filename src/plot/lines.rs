@@ -228,12 +228,13 @@ fn key(canvas: &mut Canvas, end: [f64; 2]) {
 #[allow(clippy::unnecessary_wraps, reason = "every figure may fail")]
 pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
-    let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth));
+    let numbers = inputs.curves.conventions.stations;
+    let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth, numbers));
     let frame = sheet.frame();
     let layout = layout(&extents, &frame);
     let body_scale = layout.body_scale;
-    let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)));
-    let before = inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale)));
+    let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)), numbers);
+    let before = inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale), numbers));
     let mut canvas = Canvas::new(sheet.size()[0], sheet.size()[1]);
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.5, Anchor::Start);

@@ -2,12 +2,12 @@
 
 use super::outline;
 use super::scale::{decimals, multiples, nice_step};
-use crate::hull::{Cut, Face, Hull, default_buttocks};
+use crate::hull::{Cut, Face, Hull, StationNumbers, default_buttocks};
 
-/// Intervals between the perpendiculars.
-const INTERVALS: i32 = 20;
 /// Stations closer than this to the perpendiculars stand at half intervals [intervals].
 const HALF_STATIONS: i32 = 2;
+/// With more spaces only every second, third, ... station is drawn.
+const MOST_SPACES: i32 = 40;
 /// How near a station is to an end of the hull that it stands at, in lengths of the hull.
 const INSIDE: f64 = 1e-4;
 /// Deviation of a section from surface and plane [m].
@@ -76,13 +76,14 @@ fn roman(number: usize) -> String {
     format!("{}{}", "X".repeat(number / 10), units[number % 10])
 }
 
-/// The station numbers, in half intervals, that a hull between `aft` and `fore` (in intervals from AP) has.
-fn station_numbers(aft: f64, fore: f64) -> Vec<i32> {
-    (-2 * INTERVALS..=4 * INTERVALS)
+/// The stations, in half intervals from AP, that a hull between `aft` and `fore` (in intervals from AP) has.
+fn station_numbers(spaces: i32, aft: f64, fore: f64) -> Vec<i32> {
+    let every = 2 * ((spaces + MOST_SPACES - 1) / MOST_SPACES).max(1);
+    (-2 * spaces..=4 * spaces)
         .filter(|halves| {
-            let inside = (2 * HALF_STATIONS..=2 * (INTERVALS - HALF_STATIONS)).contains(halves);
+            let inside = (2 * HALF_STATIONS..=2 * (spaces - HALF_STATIONS)).contains(halves);
             let at = 0.5 * f64::from(*halves);
-            at >= aft && at <= fore && (halves % 2 == 0 || !inside)
+            at >= aft && at <= fore && (halves % every == 0 || every == 2 && !inside)
         })
         .collect()
 }
@@ -103,7 +104,7 @@ fn in_one_piece(mut plane: GridPlane) -> GridPlane {
 
 impl LinesGrid {
     /// Cuts the hull; chords of the curves stay within `deviation` [m] of them.
-    pub(super) fn new(hull: &Hull, deviation: f64) -> Self {
+    pub(super) fn new(hull: &Hull, deviation: f64, numbers: StationNumbers) -> Self {
         let p = hull.particulars();
         let plane = |at: f64, name: String, cut: Cut| {
             let branches = hull.section(cut, TOLERANCE).branches;
@@ -116,12 +117,13 @@ impl LinesGrid {
         let top = deck.iter().map(|point| point[2]).fold(p.draught, f64::max);
         let height = [hull.bottom(), top];
 
-        let station_spacing = p.length_between_perpendiculars / f64::from(INTERVALS);
-        let stations = station_numbers(length[0] / station_spacing, length[1] / station_spacing)
+        let station_spacing = numbers.spacing(p.length_between_perpendiculars);
+        let stations = station_numbers(numbers.spaces as i32, length[0] / station_spacing, length[1] / station_spacing)
             .into_iter()
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
-                let found = plane(x, numeral(halves), Cut::Station { x });
+                let number = numbers.number(0.5 * f64::from(halves));
+                let found = plane(x, numeral((2.0 * number).round() as i32), Cut::Station { x });
                 let ended = length.iter().any(|end| (x - end).abs() <= INSIDE * (length[1] - length[0]));
                 if ended { in_one_piece(found) } else { found }
             })
@@ -198,7 +200,7 @@ mod tests {
 
     #[test]
     fn half_stations_stand_at_the_ends() {
-        let names: Vec<_> = station_numbers(-0.3, 20.6).into_iter().map(numeral).collect();
+        let names: Vec<_> = station_numbers(20, -0.3, 20.6).into_iter().map(numeral).collect();
         let first = ["0", "½", "1", "1½", "2", "3"];
         assert_eq!(names[..6], first);
         assert_eq!(names[names.len() - 6..], ["18", "18½", "19", "19½", "20", "20½"]);

@@ -14,8 +14,6 @@ const SHEET: [f64; 2] = [300.0, 170.0];
 const STATIONS: usize = 401;
 /// How far inside the ends of the immersed length the curve begins, as a part of it.
 const INSIDE: f64 = 1e-4;
-/// Intervals between the perpendiculars.
-const INTERVALS: f64 = 20.0;
 
 /// Draws the curve.
 pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
@@ -33,12 +31,18 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let largest = design.maximum_section_area.max(f64::MIN_POSITIVE);
     let left = Axis::new("section area A [m²]", 0.0, 1.02 * largest, 8.0);
     let frame = Rectangle::new(24.0, 36.0, SHEET[0] - 24.0, SHEET[1] - 32.0);
-    let interval = length / INTERVALS;
+    let numbers = inputs.curves.conventions.stations;
+    let number = |x: f64| numbers.number(x / numbers.spacing(length));
     let chart = Chart {
         frame,
         right: Some(left.divided("A / A_X [-]", largest, 0.1)),
         left,
-        top: Some(Axis::exact("station, L_PP / 20 from AP", (low - room) / interval, (high + room) / interval, 1.0)),
+        top: Some(Axis::exact(
+            &format!("station, L_PP / {} from {}", numbers.spaces, numbers.zero()),
+            number(low - room),
+            number(high + room),
+            nice_step(f64::from(numbers.spaces), 20.0).max(1.0),
+        )),
         bottom: Axis::exact("x forward of AP [m]", low - room, high + room, nice_step(high - low, 12.0)),
         text_size: 2.8,
     };

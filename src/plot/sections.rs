@@ -20,11 +20,12 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let hull = inputs.hull;
     let p = hull.particulars();
     let rooms = [2.0 * SIDE_ROOM + 18.0, TITLE + TOP_ROOM + BOTTOM_ROOM + 8.0];
-    let coarse = LinesGrid::new(hull, 1e-3 * p.breadth);
+    let numbers = inputs.curves.conventions.stations;
+    let coarse = LinesGrid::new(hull, 1e-3 * p.breadth, numbers);
     let extent = [2.0 * coarse.half_breadth, coarse.height[1] - coarse.height[0].min(0.0)];
     let scale = drawing_scale(extent[0], paper[0] - rooms[0]).max(drawing_scale(extent[1], paper[1] - rooms[1]));
     let millimetres = 1000.0 / f64::from(scale);
-    let grid = LinesGrid::new(hull, DEVIATION / millimetres);
+    let grid = LinesGrid::new(hull, DEVIATION / millimetres, numbers);
     // What fits to rounding does not grow by a millimetre.
     let size =
         [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]].map(|side| side - 1e-6);
@@ -36,9 +37,9 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
-        "1 : {scale}   {}   stations L_PP / 20 = {:.3} m from AP, half stations at the ends   moulded{}",
+        "1 : {scale}   {}   {}, half stations at the ends   moulded{}",
         caption::dimensions(inputs),
-        grid.station_spacing,
+        caption::stations(inputs),
         caption::assumed_note(inputs, "   ")
     );
     canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));

@@ -6,7 +6,7 @@ use super::profile::{self, LongStyle, Naming};
 use super::scale::drawing_scale;
 use super::view::View;
 use super::{Figure, FigureInputs, PlotError, Svg};
-use crate::hull::Hull;
+use crate::hull::{Hull, StationNumbers};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
@@ -98,7 +98,7 @@ fn names_of_stations_stand_clear_of_all_other_text() {
 #[test]
 fn every_waterline_is_named_in_the_half_breadth_plan() {
     for hull in hulls().iter().filter(|hull| hull.name() != "box") {
-        let grid = LinesGrid::new(hull, 1e-3);
+        let grid = LinesGrid::new(hull, 1e-3, StationNumbers::default());
         let scale = drawing_scale(grid.length[1] - grid.length[0], 350.0);
         let mut canvas = Canvas::new(420.0, 297.0);
         let style = LongStyle { text_size: 3.0, naming: Naming::Full, diagonals: true };

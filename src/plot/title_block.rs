@@ -69,7 +69,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     ];
     let right_column = [
         format!("sheet {}, moulded, metres", scales.sheet.as_str()),
-        format!("stations {:.3} m, 0 at AP", grid.station_spacing),
+        format!("stations {:.3} m, 0 at {}", grid.station_spacing, inputs.curves.conventions.stations.zero()),
         format!("waterlines {:.2}, buttocks {:.2} m", grid.waterline_spacing, grid.buttock_spacing),
         diagonals(grid),
         format!("diag. fall {:.1}° outboard", grid.diagonal_angle.to_degrees()),

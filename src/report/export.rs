@@ -12,7 +12,7 @@ use crate::exchange::{
 };
 use crate::hull::{
     Hull, HullMesh, LEAST_ANGLE, MeshReport, OffsetTable, PanelMesh, PanelReport, PanelSettings, Region, SharpCorner,
-    Solid, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
+    Solid, StationNumbers, SubdivisionNet, TableForm, floats_at, section_stations, whole_volume,
 };
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::units::{Notation, counted};
@@ -188,6 +188,8 @@ pub struct ExportSettings {
     /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a
     /// quarter of that, until the volume of the panels is within half a per cent of the hull's.
     pub panel: Option<f64>,
+    /// How stations are numbered.
+    pub stations: StationNumbers,
     /// What corners of a quadrilateral panel leave their mean plane by at most, over its longer diagonal; 0: all panels
     /// are planar.
     pub flatness: f64,
@@ -203,6 +205,7 @@ impl Default for ExportSettings {
             datum: 0.0,
             draught: None,
             panel: None,
+            stations: StationNumbers::default(),
             flatness: 0.0,
         }
     }
@@ -480,7 +483,7 @@ pub fn export(
                 text.into_bytes()
             }
             (ExportFormat::DxfPlan, ..) => {
-                write_dxf(&drawn_plan(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
+                write_dxf(&drawn_plan(hull, settings.stations, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }
             (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
                 let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
@@ -496,7 +499,7 @@ pub fn export(
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Dxf, ..) => {
-                write_dxf(&lines_in_space(hull, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
+                write_dxf(&lines_in_space(hull, settings.stations, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
             }
             _ => continue,
         };

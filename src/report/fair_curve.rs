@@ -9,8 +9,8 @@ use serde_json::Value;
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use crate::config::Diagnostic;
-use crate::exchange::{curve_csv, curve_json, read_curve};
-use crate::fairing::curve::{CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve};
+use crate::exchange::{NO_MOVE, curve_csv, curve_json, read_curve};
+use crate::fairing::curve::{CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve};
 use crate::plot::fair_curve_figure;
 use crate::units::Notation;
 
@@ -155,6 +155,13 @@ impl FairedCurve {
             let [wide, now] = [factor * widest, widest].map(|value| self.size(value));
             format!("{factor:.4} times as wide, {wide} where they are {now}")
         };
+        let beyond = |p: &CurveMove| Some(p.moved()?.abs() / p.tolerance.filter(|tolerance| *tolerance > 0.0)?);
+        let most = self.fair.points.iter().filter_map(beyond).fold(0.0, f64::max);
+        let keeps = if most <= 1.0 + 1e-6 {
+            "is within the tolerances".to_owned()
+        } else {
+            format!("takes up to {most:.3} times the tolerances")
+        };
         let (message, help) = if self.fair.nearest {
             let found = self.fair.diagnosis.as_ref();
             let alone = found.into_iter().flat_map(|found| &found.reaches).filter_map(|reach| {
@@ -168,8 +175,7 @@ impl FairedCurve {
             let least = least.map(|factor| format!("; tolerances {} would do", wider(factor))).unwrap_or_default();
             (
                 format!("what is wished cannot be had within the tolerances{}{least}", alone.collect::<String>()),
-                "Wish for less; the curve that was written is within the tolerances and comes near to what was wished"
-                    .to_owned(),
+                format!("Wish for less; the curve that was written {keeps} and comes near to what was wished"),
             )
         } else if self.fair.widening.is_finite() {
             (
@@ -265,12 +271,16 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     }
     for wish in &fair.lines {
         line(format!(
-            "{:<13} {:.6} -> {:.6}, wished {:.6}; costs {} RMS",
+            "{:<13} {:.6} -> {:.6}, wished {:.6}; {}",
             wish.kind.key(),
             wish.before,
             wish.after,
             wish.target,
-            done.size(wish.price)
+            match wish.price {
+                price if price.is_nan() => "what it costs was not found".to_owned(),
+                price if price < NO_MOVE => "costs no moves".to_owned(),
+                price => format!("costs {} RMS", done.size(price)),
+            }
         ));
     }
     let c = &fair.certificate;

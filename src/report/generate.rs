@@ -52,15 +52,8 @@ fn stations(design: &Design, hull: &Hull) -> Vec<OffsetStation> {
     if let Some(list) = &design.output.stations {
         return list.iter().map(|&x| named(x, format!("{x}"))).collect();
     }
-    let spaces = f64::from(design.output.station_spaces);
-    if design.output.station_spaces == 20 {
-        return default_stations(hull).into_iter().map(|s| OffsetStation { x: decimal(s.x), ..s }).collect();
-    }
-    let length = hull.particulars().length_between_perpendiculars;
-    let mut numbers: Vec<f64> = (0..=design.output.station_spaces).map(f64::from).collect();
-    numbers.extend([0.5, 1.5, spaces - 1.5, spaces - 0.5]);
-    numbers.sort_by(f64::total_cmp);
-    numbers.into_iter().map(|number| named(decimal(length * number / spaces), format!("{number}"))).collect()
+    let stations = default_stations(hull, design.conventions.stations).into_iter();
+    stations.map(|s| OffsetStation { x: decimal(s.x), ..s }).collect()
 }
 
 /// Generates the hull of a design, its tables and its figures. `input` is the file name and the bytes of the design,

@@ -1,7 +1,7 @@
 //! The curves of the lines plan as polylines: in space, and in the three views of a drawing.
 
 use crate::exchange::DxfLine;
-use crate::hull::{Cut, Hull, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{Cut, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
 
 /// Points of the deck at side.
 const DECK_POINTS: usize = 200;
@@ -15,7 +15,7 @@ fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
 }
 
 /// Stations, waterlines and buttocks in space on layers of their names, both sides, z = 0 at `datum` \[m\].
-pub(super) fn lines_in_space(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
+pub(super) fn lines_in_space(hull: &Hull, numbers: StationNumbers, deviation: f64, datum: f64) -> Vec<DxfLine> {
     let mut lines = Vec::new();
     let mut add = |layer: &str, cut: Cut| {
         for mut points in curves(hull, cut, deviation) {
@@ -28,7 +28,7 @@ pub(super) fn lines_in_space(hull: &Hull, deviation: f64, datum: f64) -> Vec<Dxf
             }
         }
     };
-    for station in default_stations(hull) {
+    for station in default_stations(hull, numbers) {
         add("STATIONS", Cut::Station { x: station.x });
     }
     for z in default_waterlines(hull) {
@@ -43,10 +43,10 @@ pub(super) fn lines_in_space(hull: &Hull, deviation: f64, datum: f64) -> Vec<Dxf
 /// The three views in one plane at full size: the profile in its place (x, z); below it the half-breadth plan (x, y)
 /// with y upward; beside it, forward, the body plan with the sections of the after body to the left of its centreline.
 /// Each view has its curves, its outline and its grid on layers of their own.
-pub(super) fn drawn_plan(hull: &Hull, deviation: f64, datum: f64) -> Vec<DxfLine> {
+pub(super) fn drawn_plan(hull: &Hull, numbers: StationNumbers, deviation: f64, datum: f64) -> Vec<DxfLine> {
     let particulars = hull.particulars();
     let (length, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
-    let (stations, waterlines, buttocks) = (default_stations(hull), default_waterlines(hull), default_buttocks(hull));
+    let (stations, waterlines, buttocks) = (default_stations(hull, numbers), default_waterlines(hull), default_buttocks(hull));
     let along = hull.surface().points().iter().map(|point| point[0]);
     let (aft, fore) = along.fold((0.0_f64, length), |(a, b), x| (a.min(x), b.max(x)));
     let low = hull.bottom() - datum;

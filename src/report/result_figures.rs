@@ -12,7 +12,9 @@ use super::fair_page::limit;
 use super::page::conventions_line;
 use super::result::JobResult;
 use super::result_files::ReportSettings;
-use super::result_page::{PRICES, Table, condition, constraints, inflections, inflections_words, list, text};
+use super::result_page::{
+    PRICES, Table, condition, constraints, hydrostatics, inflections, inflections_words, list, text,
+};
 use super::verdict::verdict;
 use crate::exchange::read_texts;
 use crate::fairing::record::FairRecord;
@@ -49,7 +51,8 @@ impl ReportFigure {
 }
 
 /// What their keys begin with.
-const TABLES: [&str; 6] = ["verdict", "constraints", "design-condition", "faired-offsets", "inflections", "notes"];
+const TABLES: [&str; 7] =
+    ["verdict", "constraints", "design-condition", "hydrostatic-table", "faired-offsets", "inflections", "notes"];
 
 /// The sheets of a figure; none where there is nothing to draw.
 type Draw<'a> = Box<dyn Fn(Sheet) -> Result<Vec<Svg>, PlotError> + Sync + 'a>;
@@ -319,6 +322,9 @@ fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
     (!rows.is_empty()).then(|| table_figure(title, note, &heads, table.words, &rows))
 }
 
+/// Most quantities on a sheet of the hydrostatic table.
+const COLUMNS: usize = 14;
+
 /// Most letters of a line of the verdict.
 const LINE: usize = 165;
 
@@ -349,12 +355,31 @@ fn verdict_figure(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) ->
 /// The design condition, that before fairing beside it.
 fn condition_figure(result: &JobResult, inputs: &FigureInputs, before: Option<&Hydrostatics>) -> Option<Svg> {
     let title = format!("DESIGN CONDITION – {}", result.hull.name().replace('_', " "));
-    let table = condition(result, inputs.design, before);
+    sheet(&title, &printed_conventions(inputs), condition(result, inputs.design, before))
+}
+
+/// The conventions with symbols as they are printed.
+fn printed_conventions(inputs: &FigureInputs) -> String {
     let symbols =
         [("Lpp", "L_PP"), ("Lwl", "L_WL"), ("CP on", "C_P on"), ("t/m3", "t/m³"), ("BML", "BM_L"), ("GML", "GM_L")];
     let words = conventions_line(&inputs.curves.conventions);
-    let words = symbols.iter().fold(words, |words, (plain, printed)| words.replace(plain, printed));
-    sheet(&title, &words, table)
+    symbols.iter().fold(words, |words, (plain, printed)| words.replace(plain, printed))
+}
+
+/// The quantities over the draughts, as many columns a sheet as are read easily, the draught first on each.
+fn hydrostatic_sheets(result: &JobResult, inputs: &FigureInputs) -> Vec<Svg> {
+    let table = hydrostatics(inputs.curves, inputs.design.draught);
+    let count = table.heads.len().saturating_sub(1);
+    let each = count.div_ceil(count.div_ceil(COLUMNS).max(1)).max(1);
+    let name = result.hull.name().replace('_', " ");
+    let part = |first: usize| {
+        let columns = std::iter::once(0).chain(first..(first + each).min(count + 1));
+        let of = |cells: &[String]| columns.clone().filter_map(|k| cells.get(k).cloned()).collect::<Vec<_>>();
+        let rows = table.rows.iter().map(|(marked, cells)| (*marked, of(cells))).collect();
+        let title = format!("HYDROSTATIC TABLE – {name}");
+        sheets(&title, &printed_conventions(inputs), Table { heads: of(&table.heads), words: 0, rows })
+    };
+    (1..=count).step_by(each).flat_map(part).collect()
 }
 
 /// What is drawn of a result.
@@ -394,6 +419,16 @@ fn jobs<'a>(
     jobs.push(Job {
         words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits (coefficients that are asked for on L_PP are on the length of the others here)."],
         draw: one(move |_| Ok(condition_figure(result, inputs, before))),
+        scaled: false,
+    });
+    jobs.push(Job {
+        words: [
+            "hydrostatic-table",
+            "Hydrostatic table",
+            "Every quantity at every draught, with the keys of hydrostatics.csv; the sheet of the design condition names them. What is not \
+             defined at a draught is left open.",
+        ],
+        draw: Box::new(move |_| Ok(hydrostatic_sheets(result, inputs))),
         scaled: false,
     });
     jobs.push(Job {

@@ -77,7 +77,7 @@ impl Table {
 }
 
 /// Every quantity over the draughts; the design draught is marked.
-fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
+pub(super) fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
     let defined = |q: &&crate::hydrostatics::Quantity| curves.rows.iter().any(|row| (q.value)(row).is_some());
     let quantities: Vec<_> = QUANTITIES.iter().filter(defined).collect();
     let head = |q: &&crate::hydrostatics::Quantity| match printed_unit(q.unit) {
@@ -123,7 +123,11 @@ pub(super) fn condition(result: &JobResult, design: &Hydrostatics, before: Optio
         }
         if !result.targets.is_empty() {
             let target = result.targets.iter().find(|(key, _)| key == q.key);
-            cells.push(target.map_or(String::new(), |(_, wanted)| fixed(wanted * shares(q.key), decimals)));
+            let asked = |(_, wanted): &(String, f64)| match shares(q.key) {
+                1.0 => fixed(*wanted, decimals),
+                share => format!("{} ({} on L_PP)", fixed(wanted * share, decimals), fixed(*wanted, decimals)),
+            };
+            cells.push(target.map_or(String::new(), asked));
         }
         table.rows.push((false, cells));
     }

@@ -20,7 +20,7 @@ fn offsets(result: &JobResult) -> OffsetTable {
     let hull = &result.hull;
     let (stations, waterlines) = match &result.fairing {
         Some((record, _)) => (record.lines.stations.clone(), record.lines.waterlines.clone()),
-        None => (default_stations(hull), default_waterlines(hull).into_iter().map(decimal).collect()),
+        None => (default_stations(hull, result.conventions.stations), default_waterlines(hull).into_iter().map(decimal).collect()),
     };
     let buttocks: Vec<f64> = default_buttocks(hull).into_iter().map(decimal).collect();
     let mut table = OffsetTable::from_hull(hull, &stations, &waterlines, &buttocks);
@@ -81,7 +81,7 @@ pub(super) fn report_tables(result: &JobResult, curves: &CurvesOfForm) -> Result
         let diagonals = diagonals_csv(&result.hull, &stations, &planes.diagonals, planes.diagonal_angle, notation);
         add("diagonals", diagonals);
     }
-    let areas = BonjeanTable::with_defaults(&result.hull);
+    let areas = BonjeanTable::with_defaults(&result.hull, result.conventions.stations);
     let text = section_areas_csv(&areas.stations, &areas.heights, &areas.areas);
     files.push(OutputFile::text("bonjean.csv", text));
     files.push(OutputFile::text("hydrostatics.csv", hydrostatics_csv(curves)));

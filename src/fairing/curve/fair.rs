@@ -312,9 +312,11 @@ fn priced(
 ) -> Result<Vec<CurveLine>, CurveError> {
     let curve = job.space.curve(&solved.net)?;
     let names = job.program(&job.wishes, pattern).names;
-    let readings = job.model.readings.len().max(1) as f64;
-    // sqrt of the objective over the readings: a length, and it cannot fall when a constraint is added.
-    let size = |solved: &Solved| (solved.objective.max(0.0) / readings).sqrt();
+    let moved = |job: &Job, net: &[f64]| {
+        let weights = job.smoother.weights();
+        let sum: f64 = weights.iter().sum();
+        (job.model.misfit(net, weights) / sum.max(f64::MIN_POSITIVE)).sqrt()
+    };
     let mut lines = Vec::new();
     for (index, wish) in wished.iter().enumerate() {
         let multiplier = names.iter().position(|name| *name == RowName::Constraint(index));
@@ -323,7 +325,7 @@ fn priced(
             let mut without = job.wishes.clone();
             without.constraints.remove(index);
             let other = job.solve(&without, pattern)?;
-            price = (size(solved) - size(&other)).max(0.0);
+            price = if other.is_optimal() { moved(job, &solved.net) - moved(job, &other.net) } else { f64::NAN };
         }
         lines.push(CurveLine {
             kind: wish.kind,

@@ -101,7 +101,8 @@ pub struct CurveLine {
     pub after: f64,
     /// Multiplier in the program: growth of the objective for a growth of the target by one unit of the row.
     pub multiplier: f64,
-    /// What it costs: the root of the objective over the number of readings with it, less that without it.
+    /// What it costs: how much the root of the mean weighted square of the moves falls when it is dropped; not a number
+    /// where the program without it was not solved.
     pub price: f64,
 }
 

@@ -30,7 +30,7 @@ pub use map::{KnotLine, MapBreak, MapPoint, SurfaceMap};
 pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, net_signs, polygon_signs};
 pub use profile::{Findings, Local, Place, Profile, Stretch};
 
-use crate::hull::{Cut, Face, Hull, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{Cut, Face, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
 use contour::{Breadth, Locator, Trace};
 pub(super) use contour::{motion_rates, swept};
 
@@ -95,7 +95,7 @@ impl Planes {
         let p = hull.particulars();
         let diagonals = [0.7, 1.0, 1.3].map(|part| part * p.draught);
         Self {
-            stations: default_stations(hull).into_iter().map(|station| station.x).collect(),
+            stations: default_stations(hull, StationNumbers::default()).into_iter().map(|station| station.x).collect(),
             waterlines: default_waterlines(hull),
             buttocks: default_buttocks(hull),
             diagonals: diagonals.into_iter().filter(|&height| height < p.depth).collect(),
