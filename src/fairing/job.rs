@@ -24,6 +24,7 @@ use super::told::{Watched, changes, written};
 use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
 use crate::qp::{RepeatedSolver, Settings, Status};
+use crate::units::counted;
 
 /// Least tolerance over the breadth: below it a difference is rounding.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
@@ -242,6 +243,24 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
+/// Curves that bend more often after than before, in words.
+fn more_often(lines: &[Turns]) -> Option<String> {
+    let worse: Vec<&Turns> = lines.iter().filter(|turns| turns.after > turns.before).collect();
+    let kinds = ["station", "waterline", "buttock", "diagonal"].map(|wanted| {
+        let own: Vec<&&Turns> = worse.iter().filter(|turns| kind(&turns.cut) == wanted).collect();
+        let [before, after] = own.iter().fold([0, 0], |sum, turns| [sum[0] + turns.before, sum[1] + turns.after]);
+        (!own.is_empty()).then(|| format!("{} from {before} to {after}", counted(own.len(), wanted)))
+    });
+    let told: Vec<String> = kinds.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "bend more often than before: {}; what is wished or locked asks for that, and nearer targets or wider tolerances \
+             would leave a fairer hull",
+            told.join(", ")
+        )
+    })
+}
+
 impl Job {
     /// Fairs a table.
     ///
@@ -439,13 +458,16 @@ impl Job {
         let least = |turns: &mut Turns| {
             let Some(line) = Line::of(turns.cut) else { return };
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            // The proof speaks of the line as one curve; where it is counted in pieces it may have less.
+            let told = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),
                 None if self.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => {
                     TableLine::minimum(&surface, line, &faired.net)
                 }
                 None => None,
-            };
+            }
+            .map(told);
         };
         let half = lines.len() / 2;
         let (some, others) = lines.split_at_mut(half);
@@ -478,6 +500,15 @@ impl Job {
                     .to_owned(),
             );
         }
+        if !surface.own && self.rules.iter().any(|rule| rule.keeps_the_fit(&before)) {
+            notes.push(
+                "a line that does not move, or a flat, keeps the net of the surface through the table, on which less is taken for noise \
+                 than on a net of its own"
+                    .to_owned(),
+            );
+        }
+        // Before all else: whoever reads no further should know it.
+        notes.splice(0..0, more_often(&lines));
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

@@ -199,7 +199,7 @@ impl Modelled {
                 start = edged(&start, *x, *z)?;
             }
         }
-        let own = own && !job.rules.iter().any(Rule::keeps_the_fit);
+        let own = own && !job.rules.iter().any(|rule| rule.keeps_the_fit(before));
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
         let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;

@@ -93,7 +93,9 @@ impl Legend {
             let ink = if step.abs() > 5 { "#ffffff" } else { "#000000" };
             // The smallest steps have no figures of their own.
             if step == 0 || step.abs() % 2 == 1 && step.abs() > 2 {
-                canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle::new(TEXT, Anchor::Middle).coloured(ink));
+                let style = TextStyle::new(TEXT, Anchor::Middle);
+                let fitted = ((SWATCH - 0.8) / Canvas::text_place([0.0, 0.0], &text, &style).width()).min(1.0);
+                canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle { size: fitted * TEXT, ..style }.coloured(ink));
             }
             x += SWATCH;
         }

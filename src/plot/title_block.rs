@@ -46,9 +46,11 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     };
     let coefficient =
         |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
+    let assumed = inputs.curves.conventions.assumed;
+    let star = |assumed: bool| if assumed { "*" } else { "" };
     let left_column = [
         format!("scale 1 : {}{body}", scales.long),
-        format!("L_OA {:.2} m    {}", grid.length[1] - grid.length[0], caption::length(inputs)),
+        format!("L_OA {:.2} m{}    {}", grid.length[1] - grid.length[0], star(assumed.length), caption::length(inputs)),
         format!("{}    {}{}", caption::breadth(inputs), caption::depth(inputs), caption::assumed_note(inputs, "    ")),
         format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
         format!(
@@ -61,9 +63,10 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
             }
         ),
         format!(
-            "∇ {} m³    Δ {} t    ρ {:.3} t/m³",
+            "∇ {0} m³{2}    Δ {1} t{2}    ρ {3:.3} t/m³",
             printed("DISPVOL"),
             printed("DISPM"),
+            star(assumed.length || assumed.breadth),
             inputs.curves.conventions.density
         ),
     ];

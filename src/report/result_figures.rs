@@ -323,7 +323,7 @@ fn sheet(title: &str, note: &str, table: Table) -> Option<Svg> {
 }
 
 /// Most quantities on a sheet of the hydrostatic table.
-const COLUMNS: usize = 14;
+const COLUMNS: usize = 15;
 
 /// Most letters of a line of the verdict.
 const LINE: usize = 165;

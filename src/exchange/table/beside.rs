@@ -31,6 +31,10 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     let mut beside = Beside { file: name, text, problems };
     let Some(document) = beside.document() else { return };
     let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
+    let is_job = |value: &DeValue<'_>| matches!(value, DeValue::Table(table) if table.contains_key("file"));
+    if document.get_ref().get("table").is_some_and(|table| is_job(table.get_ref())) {
+        return beside.problems.note(format!("{name} beside the table is a job and has none of its conventions"));
+    }
     let near = |name: &str| nearest(name, TABLES.into_iter());
     let is_key = |name: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(name));
     // A file of nothing but keys lacks their heading; a design has tables of its own.

@@ -9,6 +9,7 @@ use super::super::bends::Line;
 use super::super::model::{Limit, Row, value};
 use super::super::surface::{FairSurface, basis_row};
 use super::rule::FixedLine;
+use crate::hull::Hull;
 
 /// A line whose points differ by less than this part of the domain in v is a line of the net.
 const SAME: f64 = 1e-6;
@@ -19,9 +20,32 @@ pub(super) fn held(row: Row, start: &[f64]) -> Limit {
     Limit { row, lower: y, upper: y }
 }
 
-/// Each control value once.
-fn values(start: &[f64], indices: impl Iterator<Item = usize>) -> Vec<Limit> {
-    indices.map(|i| held(vec![(i, 1.0)], start)).collect()
+/// An edge whose control values are within this part of the breadth of 0 lies on the centreplane.
+const CLOSED: f64 = 1e-9;
+
+/// Control values of an edge of a net, by their numbers; none of other lines.
+fn edge(line: &FixedLine, [rows, columns]: [usize; 2]) -> Option<Vec<usize>> {
+    match line {
+        FixedLine::Stern => Some((0..columns).collect()),
+        FixedLine::Stem => Some(((rows - 1) * columns..rows * columns).collect()),
+        FixedLine::Keel => Some((0..rows).map(|i| i * columns).collect()),
+        _ => None,
+    }
+}
+
+/// Whether a line is an edge of the surface that lies on the centreplane.
+pub(super) fn is_closed(line: &FixedLine, hull: &Hull) -> bool {
+    let (net, most) = (hull.surface(), CLOSED * hull.particulars().breadth);
+    edge(line, net.shape()).is_some_and(|edge| edge.into_iter().all(|i| net.points()[i][1].abs() <= most))
+}
+
+/// Each control value once; on a net of its own, which has only edges on the centreplane to keep, 0.
+fn values(surface: &FairSurface, indices: impl IntoIterator<Item = usize>) -> Vec<Limit> {
+    let one = |i: usize| match held(vec![(i, 1.0)], &surface.start) {
+        limit if surface.own => Limit { lower: 0.0, upper: 0.0, ..limit },
+        limit => limit,
+    };
+    indices.into_iter().map(one).collect()
 }
 
 pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limit>, String> {
@@ -34,10 +58,11 @@ pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limi
     };
     let (us, vs) = (net.u().greville(), net.v().greville());
     let top = net.v().domain().1;
+    if let Some(edge) = edge(line, [rows, columns]) {
+        return Ok(values(surface, edge));
+    }
     match line {
-        FixedLine::Stern => Ok(values(start, 0..columns)),
-        FixedLine::Stem => Ok(values(start, (rows - 1) * columns..rows * columns)),
-        FixedLine::Keel => Ok(values(start, (0..rows).map(|i| i * columns))),
+        FixedLine::Stern | FixedLine::Stem | FixedLine::Keel => Ok(Vec::new()),
         FixedLine::Deck => {
             let deck = |u: f64| {
                 let mut v = top;
@@ -49,7 +74,7 @@ pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limi
             };
             let places: Vec<[f64; 2]> = us.into_iter().map(deck).collect();
             if places.iter().all(|place| place[1] >= top) {
-                return Ok(values(start, (0..rows).map(|i| i * columns + columns - 1)));
+                return Ok(values(surface, (0..rows).map(|i| i * columns + columns - 1)));
             }
             Ok(at(places))
         }

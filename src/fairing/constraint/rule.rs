@@ -4,6 +4,7 @@ use super::super::bends::{Bend, Line, bend};
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
 use super::{curvature, fixed, flat, monotone, tangent};
+use crate::hull::Hull;
 use crate::spline::KnotVector;
 
 /// A line that stays where the surface through the table has it.
@@ -167,10 +168,15 @@ impl Rule {
         }
     }
 
-    /// Whether the rule speaks of what the surface through the table has, so that the net of the fit has to be kept.
+    /// Whether the rule speaks of what the surface through the table has, so that the net of the fit has to be kept: flats,
+    /// and lines that do not move, but for edges on the centreplane, which any net can keep there.
     #[must_use]
-    pub fn keeps_the_fit(&self) -> bool {
-        matches!(self, Self::Fixed(_) | Self::FlatOfSide { .. } | Self::FlatOfBottom { .. })
+    pub fn keeps_the_fit(&self, fitted: &Hull) -> bool {
+        match self {
+            Self::Fixed(line) => !fixed::is_closed(line, fitted),
+            Self::FlatOfSide { .. } | Self::FlatOfBottom { .. } => true,
+            _ => false,
+        }
     }
 
     /// The line whose inflections the rule decides, which nothing else should.
