@@ -14,8 +14,7 @@ fn wigley(noise: f64) -> OffsetTable {
     let mut normal = || {
         count += 1;
         let uniform = |by: f64| (f64::from(count) * by).fract();
-        (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
-            * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
+        (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt() * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
     };
     let mut half = |x: f64, z: f64| {
         let y = 5.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - (1.0 - z / 6.25).powi(2));

@@ -9,7 +9,7 @@ use loftsman::fairing::held::HeldRule;
 use loftsman::fairing::job::{Holding, Job, Outcome, Tolerance};
 use loftsman::fairing::proposals::Accepted;
 use loftsman::fairing::surface::with_half_breadths;
-use loftsman::fairing::{LineCourse, LineKind};
+use loftsman::fairing::{LineCourse, LineKind, ProposedLine};
 use loftsman::hull::{
     Cell, Cut, FitMethod, Hull, OffsetTable, StationOffsets, transverse_inertia, transverse_inertia_gradient,
 };
@@ -310,6 +310,11 @@ fn an_undeclared_chine_is_proposed_and_taken() {
         (y(6.0 + away + h) - y(6.0 + away)) / h - (y(6.0 - away) - y(6.0 - away - h)) / h
     };
     assert!(bend(&taken) > 0.12 && bend(&taken) > 3.0 * bend(&without), "{} {}", bend(&taken), bend(&without));
+    // Whoever says that it is there has the same hull.
+    let lines = vec![ProposedLine { gain: 1.0, ..line.line }];
+    let told = Job { lines, ..Job::default() }.run(&table).unwrap();
+    assert_eq!(told.proposals.len(), 1);
+    assert!(told.proposals[0].accepted && told.after.surface().points() == taken.after.surface().points());
     let refused = run(Accepted::These(vec![4])).unwrap_err().to_string();
     assert_eq!(refused, "L4 is not proposed: there is L1");
 }

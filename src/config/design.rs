@@ -29,13 +29,7 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Self {
-            draughts: None,
-            stations: None,
-            waterlines: None,
-            buttocks: None,
-            figures: FIGURES.to_vec(),
-        }
+        Self { draughts: None, stations: None, waterlines: None, buttocks: None, figures: FIGURES.to_vec() }
     }
 }
 

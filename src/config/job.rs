@@ -201,6 +201,20 @@ pub const JOB_KEYS: &[Key] = &[
         "Which of the knuckles and tangent lines that `fair` proposes are taken: [\"L1\", \"L2\"], or \"all\". Default: none.",
     ),
     key(
+        "lines",
+        "knuckle",
+        Kind::Phrases(r#""waterline 6 from 0 to 18""#),
+        &[],
+        "Lines across which the slope of the hull breaks, that the table does not declare: waterlines or stations, or parts of them.",
+    ),
+    key(
+        "lines",
+        "tangent",
+        Kind::Phrases(r#""station 8 from 2 to 9.75""#),
+        &[],
+        "The same for lines across which the curvature breaks: edges of flats and of straight parts.",
+    ),
+    key(
         "signs",
         "impose",
         Kind::Switch,
@@ -238,6 +252,8 @@ pub struct JobFile {
     metacentric: Option<(String, Option<(usize, usize)>)>,
     /// Rules for lines and regions.
     pub rules: Vec<RuleMark>,
+    /// Knuckles and tangent lines.
+    pub lines: Vec<RuleMark>,
     /// Which proposed lines are taken.
     pub accepted: Option<Accepted>,
     /// Section areas: x \[m\], area and band \[m^2\].
@@ -291,7 +307,7 @@ pub fn read_option(option: &str, key: &str, value: &str) -> Result<JobFile, Vec<
     read_job(option, &text)
         .map(|mut job| {
             job.locks.iter_mut().for_each(Mark::without_place);
-            job.rules.iter_mut().for_each(RuleMark::without_place);
+            job.rules.iter_mut().chain(&mut job.lines).for_each(RuleMark::without_place);
             job.metacentric.iter_mut().for_each(|(_, at)| *at = None);
             job
         })
@@ -378,6 +394,7 @@ impl JobFile {
         self.locks.extend(other.locks);
         self.section_areas.extend(other.section_areas);
         self.rules.extend(other.rules);
+        self.lines.extend(other.lines);
         Self {
             table: other.table.or(self.table),
             accepted: other.accepted.or(self.accepted),
@@ -430,7 +447,13 @@ impl JobFile {
         }
         for rule in &self.rules {
             match rule.find(table) {
-                Ok(rule) => job.rules.push(rule),
+                Ok(rule) => job.rules.extend(rule),
+                Err(problem) => problems.push(*problem),
+            }
+        }
+        for line in &self.lines {
+            match line.find_line(table) {
+                Ok(line) => job.lines.extend(line),
                 Err(problem) => problems.push(*problem),
             }
         }

@@ -12,6 +12,7 @@ use super::infeasible::Diagnosis;
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
 use super::least::TableLine;
 use super::least_bending::LeastBending;
+use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::lobes::Lobes;
 use super::proposals::{Accepted, Proposal};
 use super::record::{moves, resolution};
@@ -90,6 +91,8 @@ pub struct Job {
     pub rules: Vec<Rule>,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
+    /// Lines across which slope or curvature break, that the table does not declare.
+    pub lines: Vec<ProposedLine>,
     /// Tolerances.
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
@@ -114,6 +117,7 @@ impl Default for Job {
             holding: Holding::Table,
             rules: Vec::new(),
             accepted: Accepted::None,
+            lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
             locked: Vec::new(),
             exclude_suspects: true,
@@ -147,6 +151,16 @@ pub enum JobError {
         draught: f64,
         /// Depth \[m\].
         depth: f64,
+    },
+    /// A line is declared along which the surface cannot break.
+    #[error("the {} at {at} m cannot be a {}: the surface through the table has no line of its net there", course.as_str(), kind.as_str())]
+    NoCourse {
+        /// Which way it runs.
+        course: LineCourse,
+        /// What should break.
+        kind: LineKind,
+        /// Where it is \[m\].
+        at: f64,
     },
     /// A line is accepted that is not proposed.
     #[error("L{number} is not proposed: {}", match count { 0 => "no line is".to_owned(), 1 => "there is L1".to_owned(), n => format!("there are L1 to L{n}") })]

@@ -3,7 +3,7 @@
 use super::constraint::{Constraint, Rule, edged};
 use super::fair::{FairError, MISFIT};
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
-use super::lines::proposed_lines;
+use super::lines::{ProposedLine, proposed_lines};
 use super::proposals::{Accepted, Proposal, declared, has_line, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
@@ -108,8 +108,7 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
-            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.holds(table, *cell))
-            {
+            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.holds(table, *cell)) {
                 without.leave_out(cell, expected);
             }
             if without.excluded.len() > cleaned.excluded.len() {
@@ -185,7 +184,26 @@ impl Modelled {
         {
             return Err(JobError::NoLine { number, count: list.len() });
         }
-        let proposals = proposals(clean, before, &list, job.energy, noise, &job.accepted)?;
+        // What somebody says is there comes after what is found, and takes its place where both are one line.
+        let told: Vec<ProposedLine> = job.lines.iter().filter(|line| !has_line(before, line)).copied().collect();
+        let found = list.len();
+        list.extend(&told);
+        let mut proposals = proposals(clean, before, &list, job.energy, noise, &job.accepted)?;
+        for proposal in proposals.iter_mut().skip(found) {
+            let ProposedLine { course, kind, at, .. } = proposal.line;
+            if proposal.rms.is_none() {
+                return Err(JobError::NoCourse { course, kind, at });
+            }
+            proposal.accepted = true;
+        }
+        let same = |a: &ProposedLine, b: &ProposedLine| {
+            (a.course, a.kind) == (b.course, b.kind) && (a.at - b.at).abs() <= 1e-6 * (1.0 + b.at.abs())
+        };
+        let mut index = 0;
+        proposals.retain(|proposal| {
+            index += 1;
+            index > found || !told.iter().any(|line| same(line, &proposal.line))
+        });
         let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
         let more = lined.lines.len() > charted.lines.len();

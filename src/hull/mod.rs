@@ -40,7 +40,8 @@ pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, LEAST_ANGLE, MeshError, MeshReport, Region, SharpCorner, whole_volume};
 pub use offsets::{
-    OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_stations, default_waterlines, keel_height,
+    OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_stations, default_waterlines,
+    keel_height,
 };
 pub use outlines::section_stations;
 pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};

@@ -133,8 +133,12 @@ impl OffsetTable {
     /// waterline meets.
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
-        let mut table =
-            Self::from_hull(hull, &default_stations(hull, StationNumbers::default()), &default_waterlines(hull), &default_buttocks(hull));
+        let mut table = Self::from_hull(
+            hull,
+            &default_stations(hull, StationNumbers::default()),
+            &default_waterlines(hull),
+            &default_buttocks(hull),
+        );
         table.stations.retain(|station| station.half_breadths.iter().any(|cell| cell.value().is_some()));
         table
     }

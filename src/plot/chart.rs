@@ -97,7 +97,9 @@ impl Axis {
     }
 
     fn ticks(&self) -> Vec<f64> {
-        self.powers.clone().unwrap_or_else(|| multiples(self.step, self.range[0].min(self.range[1]), self.range[0].max(self.range[1])))
+        self.powers
+            .clone()
+            .unwrap_or_else(|| multiples(self.step, self.range[0].min(self.range[1]), self.range[0].max(self.range[1])))
     }
 
     fn write(&self, value: f64) -> String {

@@ -234,7 +234,8 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let layout = layout(&extents, &frame);
     let body_scale = layout.body_scale;
     let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)), numbers);
-    let before = inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale), numbers));
+    let before =
+        inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale), numbers));
     let mut canvas = Canvas::new(sheet.size()[0], sheet.size()[1]);
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.5, Anchor::Start);

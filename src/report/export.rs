@@ -483,7 +483,8 @@ pub fn export(
                 text.into_bytes()
             }
             (ExportFormat::DxfPlan, ..) => {
-                write_dxf(&drawn_plan(hull, settings.stations, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
+                write_dxf(&drawn_plan(hull, settings.stations, deviation, settings.datum), settings.unit, settings.dxf)
+                    .into_bytes()
             }
             (ExportFormat::Csv | ExportFormat::Xlsx, ..) => {
                 let text = offsets_csv(&OffsetTable::with_defaults(hull), Notation::Metres, true);
@@ -498,9 +499,12 @@ pub fn export(
             (ExportFormat::Glb, Some(mesh), _) => write_glb(mesh, title),
             (ExportFormat::Step, _, Some(solid)) => write_step(solid, title, settings.unit).into_bytes(),
             (ExportFormat::Iges, _, Some(solid)) => write_iges(solid, title, settings.unit).into_bytes(),
-            (ExportFormat::Dxf, ..) => {
-                write_dxf(&lines_in_space(hull, settings.stations, deviation, settings.datum), settings.unit, settings.dxf).into_bytes()
-            }
+            (ExportFormat::Dxf, ..) => write_dxf(
+                &lines_in_space(hull, settings.stations, deviation, settings.datum),
+                settings.unit,
+                settings.dxf,
+            )
+            .into_bytes(),
             _ => continue,
         };
         files.push(OutputFile { name: file, contents });

@@ -255,6 +255,10 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
             };
             return Failure::Input(list.iter().filter_map(at).collect());
         }
+        if let JobError::NoCourse { .. } = &error {
+            let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
+            return Failure::Input(vec![problem("E180", &job.table_file, error.to_string(), help)]);
+        }
         if let JobError::NoLine { .. } = &error {
             let help = "Run without it: the page and fairing.json list what is proposed";
             return Failure::Input(vec![problem("E180", &job.table_file, error.to_string(), help)]);

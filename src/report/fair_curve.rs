@@ -10,7 +10,9 @@ use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use crate::config::Diagnostic;
 use crate::exchange::{NO_MOVE, curve_csv, curve_json, read_curve};
-use crate::fairing::curve::{CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve};
+use crate::fairing::curve::{
+    CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve,
+};
 use crate::plot::fair_curve_figure;
 use crate::units::Notation;
 

@@ -46,7 +46,8 @@ pub(super) fn lines_in_space(hull: &Hull, numbers: StationNumbers, deviation: f6
 pub(super) fn drawn_plan(hull: &Hull, numbers: StationNumbers, deviation: f64, datum: f64) -> Vec<DxfLine> {
     let particulars = hull.particulars();
     let (length, breadth) = (particulars.length_between_perpendiculars, particulars.breadth);
-    let (stations, waterlines, buttocks) = (default_stations(hull, numbers), default_waterlines(hull), default_buttocks(hull));
+    let (stations, waterlines, buttocks) =
+        (default_stations(hull, numbers), default_waterlines(hull), default_buttocks(hull));
     let along = hull.surface().points().iter().map(|point| point[0]);
     let (aft, fore) = along.fold((0.0_f64, length), |(a, b), x| (a.min(x), b.max(x)));
     let low = hull.bottom() - datum;

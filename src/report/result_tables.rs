@@ -20,7 +20,10 @@ fn offsets(result: &JobResult) -> OffsetTable {
     let hull = &result.hull;
     let (stations, waterlines) = match &result.fairing {
         Some((record, _)) => (record.lines.stations.clone(), record.lines.waterlines.clone()),
-        None => (default_stations(hull, result.conventions.stations), default_waterlines(hull).into_iter().map(decimal).collect()),
+        None => (
+            default_stations(hull, result.conventions.stations),
+            default_waterlines(hull).into_iter().map(decimal).collect(),
+        ),
     };
     let buttocks: Vec<f64> = default_buttocks(hull).into_iter().map(decimal).collect();
     let mut table = OffsetTable::from_hull(hull, &stations, &waterlines, &buttocks);

@@ -10,6 +10,7 @@ use super::{JobFile, message, place};
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
 use crate::fairing::proposals::Accepted;
+use crate::fairing::{LineCourse, LineKind, ProposedLine};
 use crate::hull::OffsetTable;
 use crate::units::{Dimension, decimal, parse_length};
 
@@ -43,6 +44,7 @@ enum Said {
     Monotone(Part, bool),
     Curvature(Part, bool),
     Inflections(Part, usize),
+    Breaks(Part, LineKind),
 }
 
 /// A rule with the place where it stands.
@@ -124,6 +126,12 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     }
     counts(document, job);
     accepted(document, job);
+    // Lines are no rules: the net is made with them.
+    let mut lines = JobFile::default();
+    for (path, kind) in [("lines.knuckle", LineKind::Knuckle), ("lines.tangent", LineKind::Tangent)] {
+        phrases(document, &mut lines, path, |text| part(text).map(|part| Said::Breaks(part, kind)));
+    }
+    job.lines.extend(lines.rules);
     type Make = fn(String, f64) -> Said;
     let angles: [(&str, Make); 4] = [
         ("tangent.entrance", Said::Entrance),
@@ -269,49 +277,82 @@ impl RuleMark {
         message(code, (&self.file, &self.key), self.at, format!("{}: {text}", self.key), help.to_owned())
     }
 
-    /// The rule for a table.
+    /// Place of a station, by its name or its position, which may lie between those of the table \[m\].
+    fn x(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
+        match Mark::new(&self.file, &self.key, self.at).station(table, text) {
+            Ok(index) => Ok(table.stations[index].station.x),
+            Err(problem) => parse_length(text).map_err(|_| problem),
+        }
+    }
+
+    /// Height of a waterline, by its header or its height, which may lie between those of the table \[m\].
+    fn z(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
+        match Mark::new(&self.file, &self.key, self.at).waterline(table, text) {
+            Ok(index) => Ok(table.waterlines[index]),
+            Err(problem) => parse_length(text).map_err(|_| problem),
+        }
+    }
+
+    fn range(&self, from: f64, to: f64) -> Result<[f64; 2], Box<Diagnostic>> {
+        let text = || format!("the range from {from} m to {to} m is empty");
+        if from < to {
+            Ok([from, to])
+        } else {
+            Err(Box::new(self.problem("E177", &text(), "Write the lesser of both first.")))
+        }
+    }
+
+    fn line(&self, table: &OffsetTable, part: &Part) -> Result<Line, Box<Diagnostic>> {
+        let name = &part.name;
+        Ok(if part.station { Line::Station(self.x(table, name)?) } else { Line::Waterline(self.z(table, name)?) })
+    }
+
+    /// The part of a line that is meant \[m\].
+    fn over(&self, table: &OffsetTable, part: &Part) -> Result<[f64; 2], Box<Diagnostic>> {
+        let end = |text: &Option<String>, open: f64| match text {
+            None => Ok(open),
+            Some(text) if part.station => self.z(table, text),
+            Some(text) => self.x(table, text),
+        };
+        self.range(end(&part.from, f64::NEG_INFINITY)?, end(&part.to, f64::INFINITY)?)
+    }
+
+    /// The line that breaks, over the stations or the waterlines of a table where no ends are named; none of rules.
     ///
     /// # Errors
     /// A message that says what the table has.
-    pub fn find(&self, table: &OffsetTable) -> Result<Rule, Box<Diagnostic>> {
-        let name = Mark::new(&self.file, &self.key, self.at);
-        // A station by its name or its position, a waterline by its header or its height; both may lie between those of
-        // the table.
-        let x = |text: &str| match name.station(table, text) {
-            Ok(index) => Ok(table.stations[index].station.x),
-            Err(problem) => parse_length(text).map_err(|_| problem),
+    pub fn find_line(&self, table: &OffsetTable) -> Result<Option<ProposedLine>, Box<Diagnostic>> {
+        let Said::Breaks(part, kind) = &self.said else { return Ok(None) };
+        let (course, at) = match self.line(table, part)? {
+            Line::Station(x) => (LineCourse::Station, x),
+            Line::Waterline(z) => (LineCourse::Waterline, z),
         };
-        let z = |text: &str| match name.waterline(table, text) {
-            Ok(index) => Ok(table.waterlines[index]),
-            Err(problem) => parse_length(text).map_err(|_| problem),
+        let places: Vec<f64> = match course {
+            LineCourse::Station => table.waterlines.clone(),
+            LineCourse::Waterline => table.stations.iter().map(|station| station.station.x).collect(),
         };
-        let range = |from: f64, to: f64| {
-            if from < to {
-                Ok([from, to])
-            } else {
-                Err(Box::new(self.problem(
-                    "E177",
-                    &format!("the range from {from} m to {to} m is empty"),
-                    "Write the lesser of both first.",
-                )))
-            }
-        };
-        let line = |part: &Part| -> Result<Line, Box<Diagnostic>> {
-            Ok(if part.station { Line::Station(x(&part.name)?) } else { Line::Waterline(z(&part.name)?) })
-        };
-        let over = |part: &Part| -> Result<[f64; 2], Box<Diagnostic>> {
-            let end = |text: &Option<String>, open: f64| match text {
-                None => Ok(open),
-                Some(text) if part.station => z(text),
-                Some(text) => x(text),
-            };
-            range(end(&part.from, f64::NEG_INFINITY)?, end(&part.to, f64::INFINITY)?)
-        };
+        let [low, high] = places.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(*p), b.max(*p)]);
+        let [from, to] = self.over(table, part)?;
+        let reach = self.range(from.max(low), to.min(high))?;
+        Ok(Some(ProposedLine { kind: *kind, course, at, reach, gain: 1.0 }))
+    }
+
+    /// The rule for a table; none of lines that break.
+    ///
+    /// # Errors
+    /// A message that says what the table has.
+    pub fn find(&self, table: &OffsetTable) -> Result<Option<Rule>, Box<Diagnostic>> {
+        let x = |text: &str| self.x(table, text);
+        let z = |text: &str| self.z(table, text);
+        let range = |from: f64, to: f64| self.range(from, to);
+        let line = |part: &Part| self.line(table, part);
+        let over = |part: &Part| self.over(table, part);
         let cell = |text: &str| -> Result<[f64; 2], Box<Diagnostic>> {
             let (station, height) = text.split_once('@').unwrap_or((text, ""));
             Ok([x(station.trim())?, z(height.trim())?])
         };
-        Ok(match &self.said {
+        Ok(Some(match &self.said {
+            Said::Breaks(..) => return Ok(None),
             Said::Fixed(part) => Rule::Fixed(FixedLine::Line(line(part)?)),
             Said::Edge(edge) => Rule::Fixed(edge.clone()),
             Said::Named(word) => Rule::Fixed(self.named(table, word)?),
@@ -327,7 +368,7 @@ impl RuleMark {
             Said::Monotone(part, rising) => Rule::Monotone { line: line(part)?, over: over(part)?, rising: *rising },
             Said::Curvature(part, convex) => Rule::Curvature { line: line(part)?, over: over(part)?, convex: *convex },
             Said::Inflections(part, most) => Rule::Inflections { line: line(part)?, most: *most },
-        })
+        }))
     }
 
     fn named(&self, table: &OffsetTable, word: &str) -> Result<FixedLine, Box<Diagnostic>> {

@@ -2,6 +2,7 @@ use super::*;
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
+use crate::fairing::{LineCourse, LineKind as Breaks, ProposedLine};
 use crate::hull::{Cell, FeatureLine, LineKind, StationOffsets};
 
 fn messages(text: &str) -> Vec<String> {
@@ -146,7 +147,8 @@ fn rules_for_lines_and_regions_are_read() {
                 [tangent]\nentrance = { \"2\" = \"12 deg\" }\nrun = { \"4 m\" = 20 }\nstations = { \"9 1/2@2\" = \"0 deg\" }\nwaterlines = { \"50@3\" = -4 }\n\
                 [flat]\nside = \"waterlines 2 to 4, stations 0 to 9 1/2\"\nbottom = [\"stations 10 m to 50 m\"]\n\
                 [shape]\nrising = [\"waterline 2 from 0 to 9 1/2\"]\nfalling = \"station 10\"\nconvex = [\"station 9 1/2 from 1 m\"]\nconcave = [\"waterline 3\"]\n\
-                inflections = { \"waterline 4\" = 1, \"station 0\" = 0 }\n[lines]\naccept = [\"L2\", \"l1\"]";
+                inflections = { \"waterline 4\" = 1, \"station 0\" = 0 }\n[lines]\naccept = [\"L2\", \"l1\"]\n\
+                knuckle = \"waterline 2 from 9 1/2 to 95.5\"\ntangent = [\"station 50 m\"]";
     let file = read_job("j.toml", text).unwrap();
     let mut table = table();
     let points = vec![[0.0, 1.0, 2.5], [95.0, 1.2, 2.4]];
@@ -179,6 +181,15 @@ fn rules_for_lines_and_regions_are_read() {
     }
     assert_eq!(job.rules.len(), expected.len());
     assert_eq!(job.accepted, Accepted::These(vec![2, 1]));
+    let line = |kind, course, at, reach| ProposedLine { kind, course, at, reach, gain: 1.0 };
+    let [low, high] = [table.waterlines[0], *table.waterlines.last().unwrap()];
+    assert_eq!(
+        job.lines,
+        [
+            line(Breaks::Knuckle, LineCourse::Waterline, 2.0, [95.0, 95.5]),
+            line(Breaks::Tangent, LineCourse::Station, 50.0, [low, high]),
+        ]
+    );
     let accepted = |text: &str| read_job("j.toml", &format!("lines.accept = {text}")).unwrap().accepted;
     assert_eq!(accepted("\"all\""), Some(Accepted::All));
     assert_eq!(accepted("\"L1, L3\""), Some(Accepted::These(vec![1, 3])));
