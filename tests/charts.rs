@@ -423,6 +423,7 @@ fn files_and_figures_of_a_canoe_body() {
             .draw(&FigureInputs {
                 hull: &hull,
                 before: None,
+                record: None,
                 design: &design,
                 curves: &curves,
                 source: None,

@@ -5,6 +5,7 @@
 //! station. Heights have a larger scale than lengths: the profile is contracted.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::fairing::{BEYOND, draw_centreplane, is_guessed};
 use super::label::{LabelPlacer, Preference};
 use super::scale::{contracted_scale, drawing_scale, nice_step, sheet_scale};
 use super::sheet::{LETTERS, ROOM};
@@ -138,8 +139,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
             named.push(y);
         }
     }
-    let profile: Vec<[f64; 2]> = outline::centreplane(hull).into_iter().map(|[x, z]| at(x, z)).collect();
-    canvas.polyline(&profile, &OUTLINE);
+    draw_centreplane(&mut canvas, inputs, |[x, z]| at(x, z));
     let deck: Vec<[f64; 2]> = outline::deck_at_side(hull).into_iter().map(|p| at(p[0], p[2])).collect();
     canvas.polyline(&deck, &OUTLINE);
     let curve = Pen::new(0.35, "#0b4a86");
@@ -177,7 +177,8 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     canvas.text([at(length, bottom)[0], floor + 7.6], "FP", &TextStyle::new(LETTERS, Anchor::Middle));
     let heads: Vec<String> = (0..table.stations.len()).map(name).collect();
     draw_table(&mut canvas, (&table, &heads), p.draught, floor + 17.0);
-    let words = format!("{}    {}", caption::design_waterline(inputs), caption::stations(inputs));
+    let beyond = if is_guessed(inputs) { format!("    {BEYOND}") } else { String::new() };
+    let words = format!("{}    {}{beyond}", caption::design_waterline(inputs), caption::stations(inputs));
     canvas.text([10.0, height - 4.0], &words, &TextStyle::new(LETTERS, Anchor::Start));
     canvas.text([ROOM[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
     Ok(canvas)

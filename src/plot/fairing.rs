@@ -11,8 +11,8 @@ use super::label::{LabelPlacer, Preference};
 use super::scale::{drawing_scale, figures};
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::{ROWS, name_stations, number_sections};
-use super::view::{BASE, GRID, THREAD};
-use super::{PlotError, Svg, caption};
+use super::view::{BASE, GRID, OUTLINE, THREAD};
+use super::{FigureInputs, PlotError, Svg, caption, outline};
 use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Face, Hull, OffsetStation};
@@ -448,6 +448,36 @@ pub(super) fn profile_parts(record: &FairRecord, line: &[[f64; 3]]) -> Vec<(bool
         }
     }
     parts
+}
+
+/// The centreplane profile of a hull in its parts: whether beyond the offsets of the table it comes from, and the points
+/// (x, z) \[m\].
+fn profile_of(inputs: &FigureInputs) -> Vec<(bool, Vec<[f64; 3]>)> {
+    let line: Vec<[f64; 3]> = outline::centreplane(inputs.hull).into_iter().map(|[x, z]| [x, 0.0, z]).collect();
+    match inputs.record {
+        Some(record) => profile_parts(record, &line),
+        None => vec![(false, line)],
+    }
+}
+
+/// Whether parts of the profile lie beyond the offsets.
+pub(super) fn is_guessed(inputs: &FigureInputs) -> bool {
+    profile_of(inputs).iter().any(|(beyond, _)| *beyond)
+}
+
+/// Draws the centreplane profile, dashed beyond the offsets, and gives its points on the sheet.
+pub(super) fn draw_centreplane(
+    canvas: &mut Canvas,
+    inputs: &FigureInputs,
+    at: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<[f64; 2]> {
+    let mut all = Vec::new();
+    for (beyond, part) in profile_of(inputs) {
+        let part: Vec<[f64; 2]> = part.into_iter().map(|[x, _, z]| at([x, z])).collect();
+        canvas.polyline(&part, &if beyond { guessed(OUTLINE) } else { OUTLINE });
+        all.extend(part);
+    }
+    all
 }
 
 /// Draws combs and curves.

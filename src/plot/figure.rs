@@ -3,6 +3,7 @@
 use super::canvas::Canvas;
 use super::sheet::Sheet;
 use super::{diagram_sheet, hydrostatics, lines, outline, png, sectional_area, sections};
+use crate::fairing::record::FairRecord;
 use crate::hull::Hull;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
 use resvg::usvg::Tree;
@@ -51,6 +52,8 @@ pub struct FigureInputs<'a> {
     pub hull: &'a Hull,
     /// The hull before fairing, drawn in grey under it; none where there is none.
     pub before: Option<&'a Hull>,
+    /// The faired table that the hull comes from, where there is one: what lies beyond its offsets is dashed.
+    pub record: Option<&'a FairRecord>,
     /// Hydrostatics at the design draught.
     pub design: &'a Hydrostatics,
     /// Hydrostatics over the draughts of interest: their range and conventions.
@@ -198,7 +201,7 @@ impl Figure {
     /// let conventions = Conventions::default();
     /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
     /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
-    /// let inputs = FigureInputs { hull: &hull, before: None, design: &design.rows[0], curves: &curves, source: None, dense: None };
+    /// let inputs = FigureInputs { hull: &hull, before: None, record: None, design: &design.rows[0], curves: &curves, source: None, dense: None };
     /// let lines = Figure::Lines.draw(&inputs)?;
     /// assert!(lines.as_str().starts_with("<svg"));
     /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));

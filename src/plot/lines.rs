@@ -3,6 +3,7 @@
 //! views alone, or diagonals stay away from under the half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::fairing::{BEYOND, is_guessed};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::{LongStyle, Naming};
 use super::scale::{drawing_scale, drawing_scales};
@@ -252,7 +253,9 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
             canvas.text(at, line, &title);
         }
     };
-    name(&mut canvas, &layout.profile, &["PROFILE"], layout.scale);
+    let dashed = format!("PROFILE ({BEYOND})");
+    let words = if is_guessed(inputs) { &[dashed.as_str(), "PROFILE"][..] } else { &["PROFILE"] };
+    name(&mut canvas, &layout.profile, words, layout.scale);
     if before.is_some() {
         key(&mut canvas, [inner_right(&frame), layout.profile.top + 2.0]);
     }

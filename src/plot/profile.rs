@@ -1,10 +1,11 @@
 //! The two long views of a lines plan: profile (sheer plan) and half-breadth plan.
 
+use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
+use super::fairing::draw_centreplane;
 use super::label::{LabelPlacer, Preference, length};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::view::{BASE, BUTTOCK, DESIGN, DESIGN_WATERLINE, DIAGONAL, GRID, OUTLINE, THREAD, View, WATERLINE};
-use super::{FigureInputs, outline};
 use crate::hull::Hull;
 
 /// Room beside the hull for the names of waterlines and buttocks with their distances [mm].
@@ -206,7 +207,7 @@ pub(super) fn draw_profile(
             owners.push((k < plane.on_side).then_some(plane));
         }
     }
-    let outline = view.draw(canvas, outline::centreplane(hull), &OUTLINE);
+    let outline = draw_centreplane(canvas, inputs, |point| view.at(point));
     let deck = view.draw(canvas, grid.deck.iter().map(|p| [p[0], p[2]]), &OUTLINE);
     let inside = frame.grown(-BEYOND);
     placer.add_curve(&outline);

@@ -75,6 +75,7 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
         let inputs = FigureInputs {
             hull: &hull,
             before: None,
+            record: None,
             design: &table.rows[0],
             curves: &table,
             source: None,

@@ -50,7 +50,15 @@ fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
     let conventions = Conventions::default();
     let design = CurvesOfForm::new(hull, &[p.draught], &conventions);
     let curves = CurvesOfForm::new(hull, &[0.2 * p.draught, p.draught, p.depth], &conventions);
-    draw(&FigureInputs { hull, before: None, design: &design.rows[0], curves: &curves, source: None, dense: None })
+    draw(&FigureInputs {
+        hull,
+        before: None,
+        record: None,
+        design: &design.rows[0],
+        curves: &curves,
+        source: None,
+        dense: None,
+    })
 }
 
 #[test]
@@ -246,8 +254,15 @@ fn a_picture_has_a_size() {
 fn curves_need_two_draughts() {
     let hull = wigley();
     let table = CurvesOfForm::new(&hull, &[6.25], &Conventions::default());
-    let inputs =
-        FigureInputs { hull: &hull, before: None, design: &table.rows[0], curves: &table, source: None, dense: None };
+    let inputs = FigureInputs {
+        hull: &hull,
+        before: None,
+        record: None,
+        design: &table.rows[0],
+        curves: &table,
+        source: None,
+        dense: None,
+    };
     for figure in [Figure::Hydrostatics, Figure::DiagramSheet] {
         assert_eq!(figure.draw(&inputs), Err(PlotError::TooFewDraughts(1)), "{}", figure.key());
     }
@@ -258,8 +273,15 @@ fn curves_end_where_the_deck_edge_goes_under() {
     let hull = ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]);
     let p = hull.particulars();
     let table = CurvesOfForm::new(&hull, &[0.5 * p.draught, p.draught, 1.3 * p.depth], &Conventions::default());
-    let inputs =
-        FigureInputs { hull: &hull, before: None, design: &table.rows[1], curves: &table, source: None, dense: None };
+    let inputs = FigureInputs {
+        hull: &hull,
+        before: None,
+        record: None,
+        design: &table.rows[1],
+        curves: &table,
+        source: None,
+        dense: None,
+    };
     let rows = inputs.dense_rows().unwrap();
     let edge = inputs.immersed_edge(&rows).unwrap();
     assert!((edge - p.depth).abs() < 0.05 * p.depth, "{edge}");

@@ -267,7 +267,15 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     ];
     let (source, dense) = (job.inputs.first().map(source_words), OnceLock::new());
     let (source, dense) = (source.as_deref(), Some(&dense));
-    let inputs = FigureInputs { hull: &fitted.hull, before: None, design: &design_row, curves: &table, source, dense };
+    let inputs = FigureInputs {
+        hull: &fitted.hull,
+        before: None,
+        record: None,
+        design: &design_row,
+        curves: &table,
+        source,
+        dense,
+    };
     files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;

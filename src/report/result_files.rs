@@ -56,6 +56,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let inputs = FigureInputs {
         hull,
         before: start,
+        record: result.fairing.as_ref().map(|(record, _)| record),
         design: &design,
         curves: &curves,
         source: Some(&source),
