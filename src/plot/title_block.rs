@@ -66,7 +66,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
             "∇ {0} m³{2}    Δ {1} t{2}    ρ {3:.3} t/m³",
             printed("DISPVOL"),
             printed("DISPM"),
-            star(assumed.length || assumed.breadth),
+            star(assumed.length),
             inputs.curves.conventions.density
         ),
     ];
