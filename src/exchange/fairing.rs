@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
+use crate::fairing::constraint::Constraint;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::job::{Change, Outcome};
 use crate::fairing::program::RowName;
@@ -208,12 +209,17 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .iter()
         .map(|held| {
             let target = held.constraint.target();
-            json!({
+            let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
                 "price": number(held.price), "words": priced(&held.constraint.words(), held.price),
-            })
+            });
+            if let Constraint::SectionArea { x, band, .. } = held.constraint {
+                member["x"] = number(x);
+                member["band"] = number(band);
+            }
+            member
         })
         .collect();
     let rules: Vec<Value> = outcome

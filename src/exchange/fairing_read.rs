@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::fairing::{kind_word, status_word};
 use super::hull_json::json_message;
 use crate::fairing::job::Change;
-use crate::fairing::record::{Crossing, Doubt, TableLines};
+use crate::fairing::record::{AreaTargets, Crossing, Doubt, SectionTarget, TableLines};
 use crate::fairing::smoothing::Trial;
 use crate::fairing::surface::Origin;
 use crate::hull::{LineKind, OffsetStation};
@@ -72,6 +72,8 @@ pub struct FairingFile {
     pub status: Status,
     /// Lines of the table.
     pub lines: TableLines,
+    /// What was asked of the sectional-area curve.
+    pub targets: AreaTargets,
     /// Offsets that their neighbours contradict.
     pub doubts: Vec<Doubt>,
     /// Energy before and after.
@@ -106,6 +108,25 @@ struct Record {
     convergence: Vec<Iterate>,
     #[serde(default)]
     suspects: Vec<SuspectRecord>,
+    #[serde(default)]
+    constraints: Vec<HeldRecord>,
+}
+
+#[derive(Deserialize)]
+struct HeldRecord {
+    kind: String,
+    target: f64,
+    x: Option<f64>,
+    #[serde(default)]
+    band: f64,
+}
+
+/// What was asked of the sectional-area curve; the place of a section is missing from files of old programs.
+fn area_targets(held: &[HeldRecord]) -> AreaTargets {
+    let of = |kind: &str| held.iter().find(|held| held.kind == kind).map(|held| held.target);
+    let sections = held.iter().filter(|held| held.kind == "section_area");
+    let section = |held: &HeldRecord| Some(SectionTarget { x: held.x?, area: held.target, band: held.band });
+    AreaTargets { volume: of("displacement"), lcb: of("lcb"), sections: sections.filter_map(section).collect() }
 }
 
 #[derive(Deserialize, Default)]
@@ -235,6 +256,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
     Ok(FairingFile {
         name: record.name,
         status,
+        targets: area_targets(&record.constraints),
         doubts,
         energy: [record.energy.before, record.energy.after],
         lines: TableLines {

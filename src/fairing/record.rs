@@ -1,6 +1,8 @@
 //! What drawings and reports need of a faired table, without the program that made it: the hulls before and after, the
 //! lines of the table, every offset with its move, the noise and the search for the smoothing weight.
 
+use super::constraint::Constraint;
+use super::held::Held;
 use super::job::{Change, Outcome};
 use super::lines::{self as proposed, LineCourse};
 use super::smoothing::Trial;
@@ -37,6 +39,43 @@ pub struct Crossing {
     pub kind: LineKind,
 }
 
+/// The area that was asked of a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionTarget {
+    /// Its place, forward of AP \[m\].
+    pub x: f64,
+    /// Area below the design draught \[m^2\].
+    pub area: f64,
+    /// How far the area may be off \[m^2\].
+    pub band: f64,
+}
+
+/// What was asked of the sectional-area curve at the design draught.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AreaTargets {
+    /// Its area: the volume of displacement \[m^3\].
+    pub volume: Option<f64>,
+    /// Its centroid, forward of AP \[m\].
+    pub lcb: Option<f64>,
+    /// Its ordinates.
+    pub sections: Vec<SectionTarget>,
+}
+
+impl AreaTargets {
+    fn new(held: &[Held]) -> Self {
+        let mut targets = Self::default();
+        for constraint in held.iter().map(|held| &held.constraint) {
+            match *constraint {
+                Constraint::Displacement(volume) => targets.volume = Some(volume),
+                Constraint::CentreOfBuoyancy(lcb) => targets.lcb = Some(lcb),
+                Constraint::SectionArea { x, area, band } => targets.sections.push(SectionTarget { x, area, band }),
+                _ => {}
+            }
+        }
+        targets
+    }
+}
+
 /// An offset that its neighbours contradict, or the net through all others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
@@ -71,6 +110,8 @@ pub struct FairRecord {
     pub after: Hull,
     /// Lines of the table.
     pub lines: TableLines,
+    /// What was asked of the sectional-area curve.
+    pub targets: AreaTargets,
     /// Every offset that was read.
     pub changes: Vec<Change>,
     /// Offsets that are doubted, those that were left out first heard by their neighbours, then by the net.
@@ -198,6 +239,7 @@ impl FairRecord {
             before: outcome.before.clone(),
             after: outcome.after.clone(),
             lines: TableLines::new(table, outcome),
+            targets: AreaTargets::new(&outcome.held),
             changes: outcome.changes.clone(),
             doubts: Doubt::all(
                 outcome.suspects.iter().map(|suspect| Doubt::of(suspect, &table.waterlines)).collect(),

@@ -70,7 +70,53 @@ impl SectionalAreaCurve {
         };
         stations.iter().map(row).collect()
     }
+
+    /// Ends \[m\] of the parallel middle body: the stretch around the largest section on which areas stay within the part
+    /// `tolerance` of the largest. None where that is no flat, but the rounded top that every curve has: a parabola is
+    /// within a sixteenth of a tolerance on a quarter of the length, a fourth power on half of it.
+    ///
+    /// ```
+    /// use loftsman::hull::SectionalAreaCurve;
+    /// let stations: Vec<f64> = (0..=100).map(f64::from).collect();
+    /// let of = |area: fn(f64) -> f64| {
+    ///     let areas = stations.iter().map(|x| area(*x)).collect();
+    ///     SectionalAreaCurve { draught: 1.0, stations: stations.clone(), areas }.parallel_middle_body(5e-4)
+    /// };
+    /// assert_eq!(of(|x| 1.0 - ((x - 50.0) / 50.0).powi(2)), None);
+    /// let [aft, fore] = of(|x| 1.0 - ((30.0 - x) / 30.0).max((x - 60.0) / 40.0).max(0.0).powi(2)).ok_or("none")?;
+    /// assert!((aft - 29.3).abs() < 0.3 && (fore - 60.9).abs() < 0.3);
+    /// # Ok::<(), &str>(())
+    /// ```
+    #[must_use]
+    pub fn parallel_middle_body(&self, tolerance: f64) -> Option<[f64; 2]> {
+        let flat = self.near_largest(tolerance)?;
+        let wide = self.near_largest(WIDER * tolerance)?;
+        let length = |[aft, fore]: [f64; 2]| fore - aft;
+        let whole = self.stations.last()? - self.stations.first()?;
+        (length(flat) >= SHORTEST * whole && length(flat) >= FLAT * length(wide)).then_some(flat)
+    }
+
+    /// Where the areas around the largest pass the part 1 - `share` of it \[m\], linear between stations; the first and
+    /// the last station where they do not.
+    fn near_largest(&self, share: f64) -> Option<[f64; 2]> {
+        let points: Vec<[f64; 2]> = self.stations.iter().zip(&self.areas).map(|(x, area)| [*x, *area]).collect();
+        let top = (0..points.len()).max_by(|a, b| points[*a][1].total_cmp(&points[*b][1]))?;
+        let level = (1.0 - share) * points[top][1];
+        let passes = |pair: [[f64; 2]; 2]| {
+            let [[x, above], [far, below]] = pair;
+            (below < level).then(|| x + (far - x) * (above - level) / (above - below))
+        };
+        let aft = (1..=top).rev().find_map(|k| passes([points[k], points[k - 1]]));
+        let fore = (top..points.len() - 1).find_map(|k| passes([points[k], points[k + 1]]));
+        (level > 0.0).then(|| [aft.unwrap_or(points[0][0]), fore.unwrap_or(points[points.len() - 1][0])])
+    }
 }
+
+/// A parallel middle body is as long as this part of the stretch within so many times the tolerance.
+const FLAT: f64 = 0.55;
+const WIDER: f64 = 16.0;
+/// Shortest parallel middle body, as a part of the curve.
+const SHORTEST: f64 = 0.02;
 
 /// Where the section ends at a draught.
 #[derive(Debug, Clone, Copy)]

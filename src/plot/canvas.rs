@@ -130,8 +130,71 @@ pub(super) struct Canvas {
     halos: String,
     /// Texts of the group in hand.
     letters: String,
-    clips: usize,
+    /// Lines and areas are cut off outside of it.
+    clip: Option<Rectangle>,
     texts: Vec<PlacedText>,
+}
+
+/// The pieces of a line inside a rectangle.
+fn inside(points: &[[f64; 2]], r: &Rectangle) -> Vec<Vec<[f64; 2]>> {
+    let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut open = false;
+    for pair in points.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        // Liang and Barsky (1984): the part of the segment inside the four half-planes.
+        let (mut enter, mut leave) = (0.0f64, 1.0f64);
+        for (start, step, low, high) in [(a[0], b[0] - a[0], r.left, r.right), (a[1], b[1] - a[1], r.top, r.bottom)] {
+            if step.abs() < 1e-12 {
+                if start < low || start > high {
+                    enter = f64::INFINITY;
+                }
+            } else {
+                let (t, s) = ((low - start) / step, (high - start) / step);
+                enter = enter.max(t.min(s));
+                leave = leave.min(t.max(s));
+            }
+        }
+        if enter > leave {
+            open = false;
+            continue;
+        }
+        let at = |t: f64| {
+            if t <= 0.0 {
+                a
+            } else if t >= 1.0 {
+                b
+            } else {
+                [0, 1].map(|d| a[d] + t * (b[d] - a[d]))
+            }
+        };
+        match pieces.last_mut().filter(|_| open && enter <= 0.0) {
+            Some(piece) => piece.push(at(leave)),
+            None => pieces.push(vec![at(enter), at(leave)]),
+        }
+        open = leave >= 1.0;
+    }
+    pieces
+}
+
+/// The part of a polygon inside a rectangle (Sutherland and Hodgman 1974).
+fn area_inside(points: &[[f64; 2]], r: &Rectangle) -> Vec<[f64; 2]> {
+    let sides = [(0, 1.0, r.left), (0, -1.0, -r.right), (1, 1.0, r.top), (1, -1.0, -r.bottom)];
+    sides.into_iter().fold(points.to_vec(), |polygon, (d, sign, limit)| {
+        let beyond = |p: &[f64; 2]| sign * p[d] - limit;
+        let mut part = Vec::with_capacity(polygon.len() + 2);
+        for (k, p) in polygon.iter().enumerate() {
+            let q = &polygon[(k + 1) % polygon.len()];
+            let (a, b) = (beyond(p), beyond(q));
+            if a >= 0.0 {
+                part.push(*p);
+            }
+            if (a < 0.0) != (b < 0.0) {
+                let t = a / (a - b);
+                part.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
+            }
+        }
+        part
+    })
 }
 
 /// What stays free at the edges of a sheet \[mm\].
@@ -258,7 +321,7 @@ impl Canvas {
             body: String::new(),
             halos: String::new(),
             letters: String::new(),
-            clips: 0,
+            clip: None,
             texts: Vec::new(),
         }
     }
@@ -293,6 +356,13 @@ impl Canvas {
     }
 
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], pen: &Pen) {
+        match self.clip {
+            Some(window) => inside(points, &window).iter().for_each(|piece| self.stroked(piece, pen)),
+            None => self.stroked(points, pen),
+        }
+    }
+
+    fn stroked(&mut self, points: &[[f64; 2]], pen: &Pen) {
         if points.len() > 1 {
             self.body.push_str("<polyline");
             self.points(points);
@@ -303,6 +373,11 @@ impl Canvas {
 
     /// A filled area without an outline.
     pub(super) fn area(&mut self, points: &[[f64; 2]], colour: &str) {
+        let part = self.clip.map(|window| area_inside(points, &window));
+        let points = part.as_deref().unwrap_or(points);
+        if points.len() < 3 {
+            return;
+        }
         self.body.push_str("<polygon");
         self.points(points);
         let _ = writeln!(self.body, " fill=\"{colour}\"/>");
@@ -344,16 +419,11 @@ impl Canvas {
         self.area(&[[r.left, r.top], [r.right, r.top], [r.right, r.bottom], [r.left, r.bottom]], colour);
     }
 
-    /// What follows is drawn inside `window` only, until [`Canvas::end_group`].
+    /// Lines and areas that follow are drawn inside `window` only, until [`Canvas::end_group`].
     pub(super) fn begin_clip(&mut self, window: &Rectangle) {
         self.flush_text();
-        self.clips += 1;
-        let _ = writeln!(
-            self.body,
-            "<clipPath id=\"clip{0}\"><rect {1}/></clipPath>\n<g clip-path=\"url(#clip{0})\">",
-            self.clips,
-            window.attributes()
-        );
+        self.clip = Some(*window);
+        self.body.push_str("<g>\n");
     }
 
     /// A named group, for programs that read the SVG, until [`Canvas::end_group`].
@@ -365,6 +435,7 @@ impl Canvas {
     /// Ends the group; its text comes last in it.
     pub(super) fn end_group(&mut self) {
         self.flush_text();
+        self.clip = None;
         self.body.push_str("</g>\n");
     }
 
@@ -464,6 +535,17 @@ mod tests {
         {
             assert_eq!(number(value), text);
         }
+    }
+
+    #[test]
+    fn lines_and_areas_are_cut_off_at_a_window() {
+        let window = Rectangle::new(0.0, 0.0, 2.0, 2.0);
+        let line = [[-1.0, 1.0], [1.0, 1.0], [1.0, 3.0], [1.5, 3.0], [1.5, 0.5]];
+        assert_eq!(inside(&line, &window), [vec![[0.0, 1.0], [1.0, 1.0], [1.0, 2.0]], vec![[1.5, 2.0], [1.5, 0.5]]]);
+        assert!(inside(&[[3.0, 0.0], [3.0, 2.0]], &window).is_empty());
+        let corner = area_inside(&[[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]], &window);
+        assert_eq!(corner, [[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]);
+        assert!(area_inside(&[[3.0, 3.0], [4.0, 3.0], [4.0, 4.0]], &window).is_empty());
     }
 
     #[test]

@@ -105,7 +105,8 @@ impl Axis {
     fn write(&self, value: f64) -> String {
         if self.powers.is_some() {
             let (decade, value) = (value.floor(), 10f64.powf(value));
-            if !(-4.0..6.0).contains(&decade) {
+            // One way of writing for the whole axis.
+            if !(-4.0..6.0).contains(&decade) || self.range.iter().any(|end| !(-4.0..6.0).contains(end)) {
                 return format!("{value:.1e}").replace(".0e", "e");
             }
             let text = format!("{value:.*}", (1.0 - decade).max(0.0) as usize);

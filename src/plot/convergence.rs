@@ -4,6 +4,7 @@ use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
+use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::qp::Progress;
@@ -47,6 +48,6 @@ pub fn convergence_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError>
     let words = "the last program: what limits are missed by, the gradient of the Lagrangian, the products of slacks and multipliers";
     caption::head(&mut canvas, SHEET[0], "CONVERGENCE", &record.name, words);
     chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, &[])?;
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Some(Svg::new(canvas.finish("convergence"))))
 }

@@ -5,6 +5,7 @@ use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
+use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::units::counted;
@@ -84,6 +85,6 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
         });
     }
     chart.draw(&mut canvas, &mut LabelPlacer::default(), &series, &[])?;
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Some(canvas))
 }

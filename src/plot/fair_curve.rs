@@ -6,6 +6,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step, sheet_scale};
+use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::curve::FairCurve;
 use crate::spline::BsplineCurve;
@@ -116,7 +117,7 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
     }
     canvas.text([SIDES[1], MOVES[1] + 8.0], "x [m]", &TextStyle::new(2.6, Anchor::End));
     moves(&mut canvas, fair, |x| SIDES[0] + (x - from) * scale_x);
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Svg::new(canvas.finish("fair-curve")))
 }
 
@@ -196,6 +197,6 @@ fn moves(canvas: &mut Canvas, fair: &FairCurve, across: impl Fn(f64) -> f64) {
     let step = nice_step(2e3 * reach, 4.0);
     for y in multiples(step, -1e3 * reach, 1e3 * reach) {
         let text = format!("{:.*}", decimals(step), y + 0.0);
-        canvas.text([SIDES[0] - 2.0, middle - 1e-3 * y * unit], &text, &TextStyle::new(2.4, Anchor::End));
+        canvas.text([SIDES[0] - 2.0, middle - 1e-3 * y * unit], &text, &TextStyle::new(LEAST_LETTERS, Anchor::End));
     }
 }

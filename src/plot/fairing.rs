@@ -7,11 +7,11 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::{CombPens, CombScale, LONGEST};
 use super::fairing_combs::FairingCombs;
-use super::label::{LabelPlacer, Preference};
+use super::label::{LabelPlacer, Preference, length};
 use super::scale::{drawing_scale, figures};
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::{ROWS, name_stations, number_sections};
-use super::view::{BASE, GRID, OUTLINE, THREAD};
+use super::view::{BASE, DESIGN, GRID, OUTLINE, THREAD};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
 use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
@@ -24,16 +24,18 @@ const HEAD: f64 = 40.0;
 const FOOT: f64 = 30.0;
 /// Room aft and forward of views along the ship \[mm\]: names and heights stand aft.
 pub(super) const LONG_SIDES: [f64; 2] = [19.5, 10.0];
+/// Room forward of half a ship \[mm\].
+const HALF_SIDE: f64 = 5.5;
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
 const CHORD: f64 = 0.01;
 
-pub(super) const BEFORE: Pen = Pen::new(0.55, "#a6a6a6");
+pub(super) const BEFORE: Pen = Pen::new(0.2, "#7d7d7d");
 pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
 pub(super) const BEFORE_COMB: CombPens = CombPens {
     teeth: Pen::new(0.1, "#dedede"),
-    tips: Pen::new(0.2, "#b4b4b4"),
+    tips: Pen::new(0.15, "#8f8f8f"),
     ring: Pen::new(0.3, "#9a9a9a"),
-    cut: Pen::new(0.2, "#b4b4b4"),
+    cut: Pen::new(0.15, "#8f8f8f"),
 };
 pub(super) const AFTER_COMB: CombPens = CombPens {
     teeth: Pen::new(0.1, "#a9c0e2"),
@@ -47,6 +49,8 @@ pub(super) struct Plan<'a> {
     pub(super) record: &'a FairRecord,
     pub(super) combs: &'a FairingCombs,
     pub(super) title: &'static str,
+    /// Which part of the ship it shows, where that is not the whole.
+    pub(super) part: String,
     pub(super) scale: String,
     /// What the names of the other lines are.
     pub(super) heights: &'static str,
@@ -64,12 +68,111 @@ pub fn fairing_body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet
     Ok(Svg::new(body_plan(record, combs, sheet)?.finish("fairing-body-plan")))
 }
 
-/// Half-breadth plan before and after, bow on the right.
+/// Half-breadth plan before and after, bow on the right; of long ships a sheet for each half.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without waterlines.
-pub fn fairing_half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(half_breadth_plan(record, combs, sheet)?.finish("fairing-half-breadth-plan")))
+pub fn fairing_half_breadth_plan(
+    record: &FairRecord,
+    combs: &FairingCombs,
+    sheet: Sheet,
+) -> Result<Vec<Svg>, PlotError> {
+    let sheets = half_breadth_plan(record, combs, sheet)?;
+    Ok(sheets.into_iter().map(|canvas| Svg::new(canvas.finish("fairing-half-breadth-plan"))).collect())
+}
+
+/// Scale 1 : n of a view along the ship on A3 from which on its halves have a sheet each: rings and names have no room.
+const CROWDED: u32 = 1000;
+/// Distance of rings that can be told apart \[mm\].
+const RINGS_APART: f64 = 2.5;
+
+/// A part of a ship along its length.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reach {
+    /// Aft and fore end \[m\].
+    pub(super) x: [f64; 2],
+    /// What it is called; nothing where it is the whole.
+    pub(super) name: String,
+    /// Whether its ends are those of the ship.
+    outer: [bool; 2],
+}
+
+impl Reach {
+    /// The whole ship.
+    pub(super) fn whole(x: [f64; 2]) -> Self {
+        Self { x, name: String::new(), outer: [true; 2] }
+    }
+
+    /// The whole ship from `x[0]` to `x[1]`; its halves where on A3 the places of
+    /// rings on each of its lines say that it is crowded, or its scale, and halves have a larger one. `scale` is the n of
+    /// the scale 1 : n of a part.
+    pub(super) fn sheets(x: [f64; 2], scale: impl Fn(&Self) -> u32, rings: &[Vec<[f64; 2]>]) -> Vec<Self> {
+        let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < RINGS_APART;
+        let touch = |line: &Vec<[f64; 2]>| (1..line.len()).any(|k| line[..k].iter().any(|other| near(other, &line[k])));
+        let whole = Self::whole(x);
+        let n = scale(&whole);
+        if n < CROWDED && !rings.iter().any(touch) {
+            return vec![whole];
+        }
+        let halves = Self::halves(x);
+        if halves.iter().all(|half| scale(half) < n) { halves } else { vec![whole] }
+    }
+
+    fn halves(x: [f64; 2]) -> Vec<Self> {
+        let at = 0.5 * (x[0] + x[1]);
+        let named = |half: &str, to: &str| format!(", {half} BODY {to} x = {at:.2} m");
+        vec![
+            Self { x: [x[0], at], name: named("AFT", "TO"), outer: [true, false] },
+            Self { x: [at, x[1]], name: named("FORE", "FROM"), outer: [false, true] },
+        ]
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.x[1] - self.x[0]
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        self.outer == [true; 2]
+    }
+
+    /// The longest of some.
+    pub(super) fn longest(reaches: &[Self]) -> Option<&Self> {
+        reaches.iter().max_by(|a, b| a.length().total_cmp(&b.length()))
+    }
+
+    /// The largest scale 1 : n at which it fits along `paper` \[mm\].
+    pub(super) fn scale(&self, paper: [f64; 2]) -> u32 {
+        let forward = if self.is_whole() { LONG_SIDES[1] } else { HALF_SIDE };
+        drawing_scale(self.length(), paper[0] - LONG_SIDES[0] - forward)
+    }
+
+    /// Whether a place along the ship belongs to it.
+    pub(super) fn has(&self, x: f64) -> bool {
+        let slack = 1e-9 * self.length();
+        (self.outer[0] || x >= self.x[0] - slack) && (self.outer[1] || x <= self.x[1] + slack)
+    }
+
+    /// What is drawn of a view with it from `sides[0]` to `sides[1]` on `paper` \[mm\]: all there is beyond the ends of the
+    /// ship, and nothing of the other half.
+    pub(super) fn window(&self, sides: [f64; 2], paper: [f64; 2]) -> Rectangle {
+        let left = if self.outer[0] { 0.0 } else { sides[0] };
+        let right = if self.outer[1] { paper[0] } else { sides[1] };
+        Rectangle::new(left, 0.0, right, paper[1])
+    }
+
+    /// Where the other half begins: at `sides` on a view from `top` to `bottom` \[mm\].
+    pub(super) fn draw_border(&self, canvas: &mut Canvas, sides: [f64; 2], [top, bottom]: [f64; 2]) {
+        for (outer, x) in self.outer.into_iter().zip(sides) {
+            if !outer {
+                canvas.line([x, top], [x, bottom], &DESIGN);
+            }
+        }
+    }
+}
+
+/// Places on a sheet of the inflections of fair lines, line by line.
+pub(super) fn rings_of(combs: &[&Comb], at: impl Fn(&Comb, [f64; 3]) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+    combs.iter().map(|comb| comb.inflections.iter().map(|&place| at(comb, place)).collect()).collect()
 }
 
 /// The curves of a plane on the side of a hull.
@@ -205,6 +308,7 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
         record,
         combs,
         title: "BODY PLAN",
+        part: String::new(),
         scale: format!("1:{n}"),
         heights: "waterlines by z [m] above the base line",
         room: paper,
@@ -232,9 +336,9 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let mut placer = drawn.placer();
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    drawn.name_cut(&mut canvas, &mut placer, &window);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
     number_sections(&mut canvas, record, &drawn.curves, &mut placer, &window);
-    drawn.name_cut(&mut canvas, &mut placer, &window);
     let style = TextStyle::new(LETTERS, Anchor::End);
     for &height in &record.lines.waterlines {
         let [x, y] = frame(-1.0, height);
@@ -257,52 +361,112 @@ pub(super) fn long_left(paper: [f64; 2], width: f64) -> f64 {
     (0.5 * (paper[0] - width)).max(LONG_SIDES[0])
 }
 
-pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Canvas, PlotError> {
-    let paper = sheet.room();
+/// Where a half-breadth plan, or a half of one, stands on its sheet.
+struct HalfBreadths {
+    /// Scale 1 : n along the ship.
+    n: u32,
+    millimetres: f64,
+    stretch: f64,
+    /// Place of the aft end on the centre line \[mm\], and its x \[m\].
+    origin: [f64; 2],
+    from: f64,
+}
+
+impl HalfBreadths {
+    /// The part `reach` on `paper`, at the scale of the longest part.
+    fn new(reach: &Reach, longest: &Reach, breadth: f64, paper: [f64; 2]) -> Self {
+        let room = paper[1] - HEAD - FOOT - 20.0;
+        let n = longest.scale(paper).max(drawing_scale(breadth, room));
+        let millimetres = 1000.0 / f64::from(n);
+        // A whole number of times wider than long, so that waterlines keep apart.
+        let stretch = (room / (breadth * millimetres)).floor().clamp(1.0, 10.0);
+        // What is left of the height stands above and below.
+        let floor = paper[1] - FOOT - 4.0 - 0.5 * (room - stretch * breadth * millimetres).max(0.0);
+        let left = long_left(paper, millimetres * reach.length());
+        Self { n, millimetres, stretch, origin: [left, floor], from: reach.x[0] }
+    }
+
+    fn at(&self, p: [f64; 3]) -> [f64; 2] {
+        let [left, floor] = self.origin;
+        [left + self.millimetres * (p[0] - self.from), floor - self.stretch * self.millimetres * p[1]]
+    }
+}
+
+/// The plan, or its two halves.
+pub(super) fn half_breadth_plan(
+    record: &FairRecord,
+    combs: &FairingCombs,
+    sheet: Sheet,
+) -> Result<Vec<Canvas>, PlotError> {
     let Some((x, breadth, _)) = extent(record).filter(|_| !record.lines.waterlines.is_empty()) else {
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
-    let room = paper[1] - HEAD - FOOT - 20.0;
-    let n = long_scale(x, paper).max(drawing_scale(breadth, room));
-    let millimetres = 1000.0 / f64::from(n);
-    // A whole number of times wider than long, so that waterlines keep apart.
-    let stretch = (room / (breadth * millimetres)).floor().clamp(1.0, 10.0);
+    let cuts: Vec<Cut> = record.lines.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
+    let small = |reach: &Reach| HalfBreadths::new(reach, reach, breadth, Sheet::A3.room());
+    let whole = small(&Reach::whole(x));
+    let rings = rings_of(&combs.on(&cuts)[1], |_, p| whole.at(p));
+    let reaches = Reach::sheets(x, |reach| small(reach).n, &rings);
+    let one = |reach: &Reach| {
+        let longest = Reach::longest(&reaches).unwrap_or(reach);
+        half_breadths(record, combs, sheet, &cuts, (reach, longest, breadth))
+    };
+    Ok(reaches.iter().map(one).collect())
+}
+
+fn half_breadths(
+    record: &FairRecord,
+    combs: &FairingCombs,
+    sheet: Sheet,
+    cuts: &[Cut],
+    (reach, longest, breadth): (&Reach, &Reach, f64),
+) -> Canvas {
+    let paper = sheet.room();
+    let view = &HalfBreadths::new(reach, longest, breadth, paper);
+    let (n, stretch) = (view.n, view.stretch);
     let scale = if stretch > 1.0 { format!("1:{n}, breadths x {stretch:.0}") } else { format!("1:{n}") };
     let plan = Plan {
         record,
         combs,
         title: "HALF-BREADTH PLAN",
+        part: reach.name.clone(),
         scale,
         heights: "waterlines by z [m] above the base line",
         room: paper,
         longest: LONGEST,
     };
-    let left = long_left(paper, millimetres * (x[1] - x[0]));
-    // What is left of the height stands above and below.
-    let floor = paper[1] - FOOT - 4.0 - 0.5 * (room - stretch * breadth * millimetres).max(0.0);
-    let at = move |p: [f64; 3]| [left + millimetres * (p[0] - x[0]), floor - stretch * millimetres * p[1]];
+    let at = move |p: [f64; 3]| view.at(p);
     let mut canvas = Canvas::new(paper[0], paper[1]);
-    for station in &record.lines.stations {
+    let stations: Vec<&OffsetStation> = record.lines.stations.iter().filter(|station| reach.has(station.x)).collect();
+    for station in &stations {
         let x = station.x;
         canvas.line(at([x, 0.0, 0.0]), at([x, breadth, 0.0]), &GRID);
     }
-    canvas.line(at([x[0], 0.0, 0.0]), at([x[1], 0.0, 0.0]), &BASE);
-    let cuts: Vec<Cut> = record.lines.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
-    let drawn = draw(&mut canvas, &plan, &cuts, CHORD / (stretch * millimetres), &|_| at);
+    let ends = reach.x.map(|x| at([x, 0.0, 0.0]));
+    let sides = ends.map(|end| end[0]);
+    canvas.line(ends[0], ends[1], &BASE);
+    reach.draw_border(&mut canvas, sides, [at([0.0, breadth, 0.0])[1] - 6.0, ends[0][1] + 2.0]);
+    let shown = reach.window(sides, paper);
+    canvas.begin_clip(&shown);
+    let drawn = draw(&mut canvas, &plan, cuts, CHORD / (stretch * view.millimetres), &|_| at).inside(&shown);
+    canvas.end_group();
     title(&mut canvas, &plan, &drawn);
     let mut placer = drawn.placer();
-    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    let window = Rectangle::new(4.0, 24.0, paper[0] - 4.0, paper[1] - 14.0);
     // Names of stations under the centreline, every one where there is room.
     let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
-    for station in &record.lines.stations {
+    for station in stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();
         placer.name_point(&mut canvas, &name, &style, &ROWS.map(|down| [px, py + down]), &window);
     }
+    drawn.name_cut(&mut canvas, &mut placer, &window);
     let style = TextStyle::new(LETTERS, Anchor::Middle);
     let count = record.lines.waterlines.len();
     for (k, z) in record.lines.waterlines.iter().enumerate() {
-        let Some(curve) = drawn.curves.iter().position(|(cut, _)| *cut == k) else { continue };
+        // The longest piece bears the name.
+        let pieces = (0..drawn.curves.len()).filter(|curve| drawn.curves[*curve].0 == k);
+        let by_length = |a: &usize, b: &usize| length(&drawn.curves[*a].1).total_cmp(&length(&drawn.curves[*b].1));
+        let Some(curve) = pieces.max_by(by_length) else { continue };
         // Low waterlines are named aft, high ones forward.
         let part = 0.2 + 0.12 * ((k % 3) as f64) + if 2 * k > count { 0.3 } else { 0.0 };
         let preferred = Preference { part, crossings: 3, beside: false };
@@ -311,11 +475,16 @@ pub(super) fn half_breadth_plan(record: &FairRecord, combs: &FairingCombs, sheet
             placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
         }
     }
-    drawn.name_cut(&mut canvas, &mut placer, &window);
     let words = TextStyle::new(3.2, Anchor::Start);
     canvas.text([14.0, paper[1] - 20.0], "AFT", &words);
     canvas.text([paper[0] - 14.0, paper[1] - 20.0], "FORWARD", &TextStyle::new(3.2, Anchor::End));
-    Ok(canvas)
+    canvas
+}
+
+/// The pieces of a line that lie in a window.
+fn pieces_inside(line: &[[f64; 2]], window: &Rectangle) -> Vec<Vec<[f64; 2]>> {
+    let inside = |p: &[f64; 2]| window.contains(&Rectangle::new(p[0], p[1], p[0], p[1]));
+    line.split(|p| !inside(p)).filter(|piece| piece.len() > 1).map(<[_]>::to_vec).collect()
 }
 
 /// What was drawn.
@@ -330,8 +499,8 @@ pub(super) struct Drawn {
     tips: Vec<Vec<[f64; 2]>>,
     /// Arrows for teeth of the fair curves that had to be left out, with their curvature \[1/m\].
     cut: Vec<([[f64; 2]; 2], f64)>,
-    /// Whether teeth had to be left out.
-    left_out: bool,
+    /// The same of the curves before.
+    cut_before: Vec<[[f64; 2]; 2]>,
     /// Whether curves run on beyond the offsets of their lines.
     beyond: bool,
 }
@@ -343,10 +512,22 @@ impl Drawn {
         self.rings.extend(other.rings);
         self.tips.extend(other.tips);
         self.cut.extend(other.cut);
+        self.cut_before.extend(other.cut_before);
+        Self { words: self.words.or(other.words), beyond: self.beyond || other.beyond, ..self }
+    }
+
+    /// What of it is seen in a window.
+    pub(super) fn inside(self, window: &Rectangle) -> Self {
+        let has = |p: &[f64; 2]| window.contains(&Rectangle::new(p[0], p[1], p[0], p[1]));
+        let curves = self.curves.iter();
         Self {
-            words: self.words.or(other.words),
-            left_out: self.left_out || other.left_out,
-            beyond: self.beyond || other.beyond,
+            curves: curves
+                .flat_map(|(k, line)| pieces_inside(line, window).into_iter().map(|piece| (*k, piece)))
+                .collect(),
+            rings: self.rings.into_iter().filter(has).collect(),
+            tips: self.tips.iter().flat_map(|line| pieces_inside(line, window)).collect(),
+            cut: self.cut.into_iter().filter(|([foot, _], _)| has(foot)).collect(),
+            cut_before: self.cut_before.into_iter().filter(|[foot, _]| has(foot)).collect(),
             ..self
         }
     }
@@ -356,7 +537,8 @@ impl Drawn {
         let mut placer = LabelPlacer::default();
         self.curves.iter().for_each(|(_, line)| placer.add_curve(line));
         self.tips.iter().for_each(|line| placer.add_faint(line));
-        self.cut.iter().for_each(|(arrow, _)| placer.add_curve(arrow));
+        self.cut.iter().for_each(|(arrow, _)| placer.add_arrow(*arrow));
+        self.cut_before.iter().for_each(|arrow| placer.add_arrow(*arrow));
         for [x, y] in &self.rings {
             placer.take(Rectangle::new(*x, *y, *x, *y).grown(1.2));
         }
@@ -365,18 +547,21 @@ impl Drawn {
 
     /// Writes the curvature of teeth that had to be left out beside their arrows.
     pub(super) fn name_cut(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, window: &Rectangle) {
-        let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
-        for ([foot, tip], curvature) in &self.cut {
-            let name = format!("{} 1/m", figures(*curvature, 2));
-            let half = 0.5 * Canvas::text_place([0.0, 0.0], &name, &style).width();
-            let out = [0, 1].map(|d| tip[d] - foot[d]);
-            let length = out[0].hypot(out[1]).max(1e-9);
-            let beyond = [tip[0] + (half + 1.5) * out[0] / length, tip[1] + 2.8 * out[1] / length];
-            let beside = [1.0, -1.0].map(|side| [tip[0] + side * (half + 1.5), tip[1]]);
-            let aside = [1.0, -1.0].map(|side| [foot[0] + side * (half + 2.0), 0.5 * (foot[1] + tip[1])]);
-            let places: Vec<[f64; 2]> = [beyond].into_iter().chain(beside).chain(aside).collect();
-            placer.name_clear(canvas, &name, &style, &places, window);
-        }
+        name_curvatures(canvas, placer, &self.cut, window);
+    }
+}
+
+/// Writes the curvature of teeth that had to be left out beside their arrows.
+pub(super) fn name_curvatures(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    cut: &[([[f64; 2]; 2], f64)],
+    window: &Rectangle,
+) {
+    let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
+    for (arrow, curvature) in cut {
+        let name = format!("{} 1/m", figures(*curvature, 2));
+        placer.name_arrow(canvas, &name, &style, *arrow, window, &THREAD);
     }
 }
 
@@ -489,13 +674,16 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
     let [before, after] = plan.combs.on(cuts);
-    let (mut left_out, mut tips, mut left) = (false, Vec::new(), Vec::new());
+    let (mut tips, mut left, mut left_before) = (Vec::new(), Vec::new(), Vec::new());
     for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
         for comb in list {
             let drawn = plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
-            left_out |= !drawn.cut.is_empty();
             tips.extend(drawn.tips);
-            left.extend(drawn.cut.into_iter().filter(|_| fair));
+            if fair {
+                left.extend(drawn.cut);
+            } else {
+                left_before.extend(drawn.cut.into_iter().map(|(arrow, _)| arrow));
+            }
         }
     }
     let (mut drawn, mut beyond) = (Vec::new(), false);
@@ -521,7 +709,7 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
     let bearing = cuts.iter().filter(|cut| after.iter().any(|comb| comb.cut == **cut)).count();
     let words = after.first().map(|comb| plan.combs.words(&comb.cut, [bearing, cuts.len()]));
-    Drawn { curves: drawn, rings, words, tips, cut: left, left_out, beyond }
+    Drawn { curves: drawn, rings, words, tips, cut: left, cut_before: left_before, beyond }
 }
 
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
@@ -548,10 +736,11 @@ pub(super) fn short(value: f64) -> String {
 /// Title, scales and key.
 pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
-    let words = format!("{} BEFORE AND AFTER FAIRING – {name}", plan.title);
+    let words = format!("{} BEFORE AND AFTER FAIRING{} – {name}", plan.title, plan.part);
     canvas.text([0.5 * plan.room[0], 9.0], &words, &TextStyle::new(4.5, Anchor::Middle));
     let (rms, largest, _) = plan.record.moves();
-    let longer = if drawn.left_out { ", arrows: longer than there is room for, with the curvature after" } else { "" };
+    let left_out = !drawn.cut.is_empty() || !drawn.cut_before.is_empty();
+    let longer = if left_out { ", arrows: longer than there is room for, with the curvature after" } else { "" };
     let combs = drawn.words.as_ref().map_or("no combs".to_owned(), |words| format!("{words}{longer}"));
     let second = format!(
         "scale {}    {combs}    moves {:.2} mm RMS, {:.2} mm at most",

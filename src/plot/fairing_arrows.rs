@@ -1,4 +1,4 @@
-//! Body plan before (broad and grey) and after (thin and black) with an arrow for every offset that moved, so many
+//! Body plan before (grey) and after (black) with an arrow for every offset that moved, so many
 //! times longer than the move as the sheet says.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
@@ -19,7 +19,7 @@ const FOOT: f64 = 30.0;
 const LONGEST: f64 = 9.0;
 /// Arrows shorter than this are not drawn \[mm\].
 const LEAST: f64 = 0.25;
-pub(super) const BEFORE: Pen = Pen::new(1.0, "#c4c4c4");
+pub(super) const BEFORE: Pen = Pen::new(0.2, "#7d7d7d");
 pub(super) const AFTER: Pen = Pen::new(0.25, "#000000");
 const OUTWARD: Pen = Pen::new(0.3, "#b35806");
 const INWARD: Pen = Pen::new(0.3, "#2166ac");

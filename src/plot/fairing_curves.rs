@@ -6,8 +6,9 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::comb::CombScale;
-use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, station_cut};
+use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, name_curvatures, station_cut};
 use super::fairing_combs::FairingCombs;
+use super::label::LabelPlacer;
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
@@ -150,7 +151,7 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     let middle = TextStyle::new(4.5, Anchor::Middle);
     canvas.text([0.5 * paper[0], 7.0], &format!("THE {title} THAT MOVED MOST – {name}"), &middle);
     let words = format!(
-        "{}    grey: before, black and blue: after, rings: inflections    strips: offsets less the fair line, bars: tolerances",
+        "{}    grey: before, black and blue: after, rings: inflections, arrows: longer teeth, with the curvature after    strips: offsets less the fair line, bars: tolerances",
         combs.words(&first, [lines.len(); 2])
     );
     canvas.text([0.5 * paper[0], 13.5], &words, &TextStyle::new(LETTERS, Anchor::Middle));
@@ -242,14 +243,24 @@ fn panel(
         ]
     };
     canvas.begin_clip(&upper);
-    for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
+    let (mut placer, mut cut) = (LabelPlacer::default(), Vec::new());
+    for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
         for comb in list {
-            scale.draw(canvas, comb, on, pens);
+            let drawn = scale.draw(canvas, comb, on, pens);
+            drawn.tips.iter().for_each(|line| placer.add_faint(line));
+            drawn.cut.iter().for_each(|(arrow, _)| placer.add_arrow(*arrow));
+            cut.extend(drawn.cut.into_iter().filter(|_| fair));
+            for &place in &comb.inflections {
+                let [x, y] = on(place);
+                placer.take(Rectangle::new(x, y, x, y).grown(1.2));
+            }
         }
     }
     for (lines, pen) in drawn.iter().zip([&BEFORE, &AFTER]) {
         for curve in lines {
-            canvas.polyline(&curve.iter().map(|&p| on(p)).collect::<Vec<_>>(), pen);
+            let curve: Vec<[f64; 2]> = curve.iter().map(|&p| on(p)).collect();
+            canvas.polyline(&curve, pen);
+            placer.add_curve(&curve);
         }
     }
     before.iter().for_each(|comb| CombScale::rings(canvas, comb, on, &BEFORE_COMB));
@@ -257,7 +268,9 @@ fn panel(
     for change in &line.offsets {
         let at = on([change.x, change.before, change.z]);
         canvas.area(&square(at, 0.5), "#000000");
+        placer.take(Rectangle::new(at[0], at[1], at[0], at[1]).grown(0.6));
     }
+    name_curvatures(canvas, &mut placer, &cut, &upper.grown(-0.4));
     canvas.end_group();
     let inner = Rectangle { top: upper.top + room, bottom: upper.bottom - below, ..upper };
     figures(canvas, &inner, &heights, "y [m]");

@@ -1,10 +1,11 @@
 //! Buttocks and diagonals before and after fairing, a strip each, with combs at one scale. Neither was used in the fit:
 //! they are the independent check. Diagonals are in their true shape. Where there are more than a sheet has strips for,
-//! every second or third of them is shown, which the sheet says; heights and distances may be stretched by a whole
-//! number, which is printed; curvatures are those of the ship.
+//! every second or third of them is shown, which the sheet says; where rings touch or the scale is small, halves of the
+//! ship have sheets of their own. Heights and distances may be stretched by a whole number, which is printed; curvatures
+//! are those of the ship.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, long_scale, title};
+use super::fairing::{Drawn, Plan, Reach, curves, draw, extent, long_left, rings_of, title};
 use super::fairing_combs::{FairingCombs, some};
 use super::fairing_curves::{Range, figures};
 use super::scale::drawing_scale;
@@ -12,14 +13,17 @@ use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
 use super::view::GRID;
 use super::{PlotError, Svg, caption};
+use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
-use crate::hull::Cut;
+use crate::hull::{Cut, OffsetStation};
 
 /// Room above and below the strips \[mm\].
 const HEAD: f64 = 22.0;
 const FOOT: f64 = 37.0;
 /// Most strips of a sheet, and room over each for its words \[mm\].
 const MOST: usize = 4;
+/// Most strips of a sheet with half a ship.
+const FEW: usize = 2;
 const WORDS: f64 = 7.5;
 /// Longest tooth of a comb \[mm\]: the room above and below a line in its strip.
 pub(super) const LONGEST: f64 = 10.0;
@@ -54,20 +58,22 @@ impl Kind {
     }
 }
 
-/// Buttocks in the profile, before and after.
+/// Buttocks in the profile, before and after; of long ships a sheet for each half.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without buttocks.
-pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(compose(record, combs, sheet, Kind::Buttocks)?.finish("fairing-buttocks")))
+pub fn fairing_buttocks(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Vec<Svg>, PlotError> {
+    let sheets = compose(record, combs, sheet, Kind::Buttocks)?;
+    Ok(sheets.into_iter().map(|canvas| Svg::new(canvas.finish("fairing-buttocks"))).collect())
 }
 
-/// Diagonals in their true shape, before and after.
+/// Diagonals in their true shape, before and after; of long ships a sheet for each half.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a hull without diagonals.
-pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(compose(record, combs, sheet, Kind::Diagonals)?.finish("fairing-diagonals")))
+pub fn fairing_diagonals(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Vec<Svg>, PlotError> {
+    let sheets = compose(record, combs, sheet, Kind::Diagonals)?;
+    Ok(sheets.into_iter().map(|canvas| Svg::new(canvas.finish("fairing-diagonals"))).collect())
 }
 
 /// Name of a plane: its distance or height, and where it is one of `all` diagonals its number and how far it falls.
@@ -109,13 +115,20 @@ impl Strip {
     }
 }
 
+/// Scale 1 : n along the ship for strips that show `longest` of it and reach `across` \[m\], and how many times larger
+/// what stands across is drawn.
+fn scales(longest: &Reach, across: f64, room: f64, paper: [f64; 2]) -> (u32, f64) {
+    let n = longest.scale(paper).max(drawing_scale(across, room));
+    (n, (room * f64::from(n) / (1000.0 * across)).floor().clamp(1.0, 10.0))
+}
+
+/// The strips on one sheet, or a few of them at a time on a sheet for each half of the ship.
 pub(super) fn compose(
     record: &FairRecord,
     combs: &FairingCombs,
     sheet: Sheet,
     kind: Kind,
-) -> Result<Canvas, PlotError> {
-    let paper = sheet.room();
+) -> Result<Vec<Canvas>, PlotError> {
     let all = if kind == Kind::Buttocks { &combs.buttocks } else { &combs.diagonals };
     let cuts = shown(combs, all);
     let fine = 1e-3 * record.after.particulars().breadth;
@@ -126,66 +139,132 @@ pub(super) fn compose(
     let bounds = points.fold(start, |b, p| [0, 1].map(|d| [b[d][0].min(p[d]), b[d][1].max(p[d])]));
     let nothing = || PlotError::Chart("no plane cuts the side".to_owned());
     let (x, ..) = extent(record).filter(|_| bounds[0][0].is_finite()).ok_or_else(nothing)?;
-    let (low, high) = (bounds[0][0].min(x[0]), bounds[0][1].max(x[1]));
+    let ends = [bounds[0][0].min(x[0]), bounds[0][1].max(x[1])];
     let [bottom, top] = bounds[1];
-    let pitch = (paper[1] - HEAD - FOOT) / cuts.len() as f64;
-    let room = pitch - WORDS - 2.0 * LONGEST;
-    let n = long_scale([low, high], paper).max(drawing_scale((top - bottom).max(fine), room));
+    let across = (top - bottom).max(fine);
+    let room = |paper: [f64; 2], strips: usize| (paper[1] - HEAD - FOOT) / strips as f64 - WORDS - 2.0 * LONGEST;
+    let small = Sheet::A3.room();
+    // Halves are larger only where fewer strips share their sheet.
+    let strips = |reach: &Reach| if reach.is_whole() { cuts.len() } else { cuts.len().min(FEW) };
+    let of = |reach: &Reach| scales(reach, across, room(small, strips(reach)), small);
+    let (n, stretch) = of(&Reach::whole(ends));
     let millimetres = 1000.0 / f64::from(n);
-    let stretch = (room / ((top - bottom).max(fine) * millimetres)).floor().clamp(1.0, 10.0);
-    let [words, across, heights, axis] = kind.words();
-    let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
-    let plan = Plan { record, combs, title: words, scale, heights, room: paper, longest: LONGEST };
-    let left = long_left(paper, millimetres * (high - low));
-    let height = stretch * millimetres * (top - bottom);
-    let mut canvas = Canvas::new(paper[0], paper[1]);
-    let mut drawn: Option<Drawn> = None;
-    for (k, cut) in cuts.iter().enumerate() {
-        let upper = HEAD + pitch * k as f64;
-        let middle = upper + WORDS + 0.5 * (pitch - WORDS);
-        let frame =
-            Rectangle::new(left, middle - 0.5 * height, left + millimetres * (high - low), middle + 0.5 * height);
-        let strip = Strip { frame, from: [low, bottom], millimetres, stretch };
-        for station in &record.lines.stations {
-            canvas.line(strip.at([station.x, bottom]), strip.at([station.x, top]), &GRID);
-        }
-        figures(&mut canvas, &strip.frame, &Range { low: bottom, high: top }, axis);
-        let at = |cut: &Cut| {
-            let (cut, strip) = (*cut, &strip);
-            move |p: [f64; 3]| strip.at(Kind::project(&cut, p))
+    let place = |comb: &Comb, p: [f64; 3]| {
+        let [along, across] = Kind::project(&comb.cut, p);
+        [millimetres * along, stretch * millimetres * across]
+    };
+    let rings = rings_of(&combs.on(&cuts)[1], place);
+    let reaches = Reach::sheets(ends, |reach| of(reach).0, &rings);
+    let longest = Reach::longest(&reaches).ok_or_else(nothing)?;
+    let (most, shown) = (strips(longest), cuts.len());
+    let scales = scales(longest, across, room(sheet.room(), most), sheet.room());
+    let drawn = cuts.chunks(most).flat_map(|cuts| {
+        let strips =
+            Strips { record, combs, kind, all, cuts, most, shown, paper: sheet.room(), scales, heights: [bottom, top] };
+        reaches.iter().map(|reach| strips.draw(reach).ok_or_else(nothing)).collect::<Vec<_>>()
+    });
+    drawn.collect()
+}
+
+/// What is drawn of the lines on every sheet.
+struct Strips<'a> {
+    record: &'a FairRecord,
+    combs: &'a FairingCombs,
+    kind: Kind,
+    all: &'a [Cut],
+    cuts: &'a [Cut],
+    /// Strips that have room on a sheet, and all that are shown.
+    most: usize,
+    shown: usize,
+    paper: [f64; 2],
+    scales: (u32, f64),
+    /// Least and greatest height or distance \[m\].
+    heights: [f64; 2],
+}
+
+impl Strips<'_> {
+    /// The sheet of a part of the ship; none without lines.
+    fn draw(&self, reach: &Reach) -> Option<Canvas> {
+        let Self { record, combs, kind, all, cuts, most, shown, paper, scales: (n, stretch), heights: [bottom, top] } =
+            *self;
+        let millimetres = 1000.0 / f64::from(n);
+        let pitch = (paper[1] - HEAD - FOOT) / most as f64;
+        let [words, across, heights, axis] = kind.words();
+        let scale = if stretch > 1.0 { format!("1:{n}, {across} x {stretch:.0}") } else { format!("1:{n}") };
+        let plan = Plan {
+            record,
+            combs,
+            title: words,
+            part: reach.name.clone(),
+            scale,
+            heights,
+            room: paper,
+            longest: LONGEST,
         };
-        let one = draw(&mut canvas, &plan, std::slice::from_ref(cut), 0.01 / (stretch * millimetres), &at);
-        drawn = Some(match drawn {
-            Some(others) => others.joined(one),
-            None => one,
-        });
-        let shown = combs.on(&[*cut]);
-        let [before, after] = [0, 1].map(|k| shown[k].iter().map(|comb| comb.inflections.len()).sum::<usize>());
-        let bears = if shown[1].is_empty() { String::new() } else { format!("    inflections {before} → {after}") };
-        let style = TextStyle::new(LETTERS, Anchor::Start);
-        canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut, all)), &style);
+        let width = millimetres * reach.length();
+        let left = long_left(paper, width);
+        let height = stretch * millimetres * (top - bottom);
+        let stations: Vec<&OffsetStation> =
+            record.lines.stations.iter().filter(|station| reach.has(station.x)).collect();
+        let window = reach.window([left, left + width], paper);
+        let mut canvas = Canvas::new(paper[0], paper[1]);
+        let mut drawn: Option<Drawn> = None;
+        for (k, cut) in cuts.iter().enumerate() {
+            let upper = HEAD + pitch * k as f64;
+            let middle = upper + WORDS + 0.5 * (pitch - WORDS);
+            let frame = Rectangle::new(left, middle - 0.5 * height, left + width, middle + 0.5 * height);
+            let strip = Strip { frame, from: [reach.x[0], bottom], millimetres, stretch };
+            for station in &stations {
+                canvas.line(strip.at([station.x, bottom]), strip.at([station.x, top]), &GRID);
+            }
+            reach.draw_border(&mut canvas, [left, left + width], [frame.top - 3.0, frame.bottom + 3.0]);
+            figures(&mut canvas, &strip.frame, &Range { low: bottom, high: top }, axis);
+            let at = |cut: &Cut| {
+                let (cut, strip) = (*cut, &strip);
+                move |p: [f64; 3]| strip.at(Kind::project(&cut, p))
+            };
+            canvas.begin_clip(&window);
+            let one = draw(&mut canvas, &plan, std::slice::from_ref(cut), 0.01 / (stretch * millimetres), &at);
+            canvas.end_group();
+            let one = one.inside(&window);
+            drawn = Some(match drawn {
+                Some(others) => others.joined(one),
+                None => one,
+            });
+            let bearing = combs.on(&[*cut]);
+            let [before, after] = [0, 1].map(|k| bearing[k].iter().map(|comb| comb.inflections.len()).sum::<usize>());
+            let bears = if bearing[1].is_empty() {
+                String::new()
+            } else if reach.is_whole() {
+                format!("    inflections {before} → {after}")
+            } else {
+                format!("    inflections of the whole line {before} → {after}")
+            };
+            let style = TextStyle::new(LETTERS, Anchor::Start);
+            canvas.text([left, upper + 2.5], &format!("{}{bears}", name(cut, all)), &style);
+        }
+        let drawn = drawn?;
+        title(&mut canvas, &plan, &drawn);
+        let window = Rectangle::new(4.0, 24.0, paper[0] - 4.0, paper[1] - 14.0);
+        let style = TextStyle::new(LETTERS, Anchor::Middle);
+        let mut placer = drawn.placer();
+        for text in canvas.texts() {
+            placer.take(text.place);
+        }
+        for station in stations {
+            let px = left + millimetres * (station.x - reach.x[0]);
+            let word: String = caption::plain(&station.name).chars().take(9).collect();
+            let places = ROWS.map(|down| [px, paper[1] - FOOT + down]);
+            placer.name_point(&mut canvas, &word, &style, &places, &window);
+        }
+        drawn.name_cut(&mut canvas, &mut placer, &window);
+        if shown < all.len() {
+            let plural = if kind == Kind::Buttocks { "buttocks" } else { "diagonals" };
+            let words = format!("{shown} of {} {plural}; the lines plan has all of them", all.len());
+            canvas.text([0.5 * paper[0], paper[1] - 17.5], &words, &style);
+        }
+        canvas.text([14.0, paper[1] - 17.5], "AFT", &TextStyle::new(3.2, Anchor::Start));
+        canvas.text([paper[0] - 14.0, paper[1] - 17.5], "FORWARD", &TextStyle::new(3.2, Anchor::End));
+        Some(canvas)
     }
-    let drawn = drawn.ok_or_else(nothing)?;
-    title(&mut canvas, &plan, &drawn);
-    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    let style = TextStyle::new(LETTERS, Anchor::Middle);
-    let mut placer = drawn.placer();
-    for text in canvas.texts() {
-        placer.take(text.place);
-    }
-    for station in &record.lines.stations {
-        let px = left + millimetres * (station.x - low);
-        let word: String = caption::plain(&station.name).chars().take(9).collect();
-        let places = ROWS.map(|down| [px, paper[1] - FOOT + down]);
-        placer.name_point(&mut canvas, &word, &style, &places, &window);
-    }
-    drawn.name_cut(&mut canvas, &mut placer, &window);
-    if cuts.len() < all.len() {
-        let plural = if kind == Kind::Buttocks { "buttocks" } else { "diagonals" };
-        let words = format!("{} of {} {plural}; the lines plan has all of them", cuts.len(), all.len());
-        canvas.text([0.5 * paper[0], paper[1] - 17.5], &words, &style);
-    }
-    canvas.text([14.0, paper[1] - 17.5], "AFT", &TextStyle::new(3.2, Anchor::Start));
-    canvas.text([paper[0] - 14.0, paper[1] - 17.5], "FORWARD", &TextStyle::new(3.2, Anchor::End));
-    Ok(canvas)
 }

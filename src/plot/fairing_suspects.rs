@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::{base, extent, midship, station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
-use super::sheet::{LETTERS, Sheet};
+use super::sheet::{LETTERS, Sheet, fitted};
 use super::suspects::{Expected, small_plot};
 use super::view::{BASE, GRID, THREAD};
 use super::{PlotError, Svg, caption};
@@ -157,9 +157,8 @@ fn list(canvas: &mut Canvas, record: &FairRecord, paper: [f64; 2]) -> f64 {
         ];
         for (k, (cell, (shift, _))) in cells.iter().zip(COLUMNS).enumerate() {
             let room = COLUMNS.get(k + 1).map_or(LIST, |next| next.0) - shift - 1.0;
-            let width = Canvas::text_place([0.0, 0.0], cell, &style).width().max(1e-6);
-            let fitted = TextStyle { size: style.size * (room / width).min(1.0), ..style };
-            canvas.text([left + shift, y(row + 1)], cell, &fitted);
+            let (cell, size) = fitted(cell, style.size, room);
+            canvas.text([left + shift, y(row + 1)], &cell, &TextStyle { size, ..style });
         }
     }
     for row in 1..=shown {

@@ -3,13 +3,14 @@
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, DESIGN, EDGE, Level, Series, colour};
 use super::label::LabelPlacer;
+use super::sheet::LEAST_LETTERS;
 use super::{FigureInputs, PlotError, caption};
 use crate::hydrostatics::Hydrostatics;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [300.0, 222.0];
 /// Size of the text of a panel [mm].
-const TEXT: f64 = 2.4;
+const TEXT: f64 = LEAST_LETTERS;
 
 type Value = fn(&Hydrostatics) -> Option<f64>;
 
@@ -138,6 +139,6 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         let mut placer = LabelPlacer::default();
         chart.draw(&mut canvas, &mut placer, &series, &levels)?;
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 5.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(canvas)
 }

@@ -95,6 +95,86 @@ impl LabelPlacer {
         self.taken.push(place);
     }
 
+    /// An arrow, which no name crosses.
+    pub(super) fn add_arrow(&mut self, arrow: [[f64; 2]; 2]) {
+        self.leaders.push(arrow);
+    }
+
+    /// Writes `name` beside an arrow of [`LabelPlacer::add_arrow`], inside `window` and off every text and arrow, where
+    /// it meets fewest curves; where there is no room beside it, farther off with a thread of `pen`. False when there is
+    /// no place at all.
+    pub(super) fn name_arrow(
+        &mut self,
+        canvas: &mut Canvas,
+        name: &str,
+        style: &TextStyle,
+        [foot, tip]: [[f64; 2]; 2],
+        window: &Rectangle,
+        pen: &Pen,
+    ) -> bool {
+        const FAR: [f64; 9] = [4.0, 6.5, 9.0, 12.0, 16.0, 21.0, 28.0, 36.0, 46.0];
+        let style = TextStyle { anchor: Anchor::Middle, ..*style };
+        let size = Canvas::text_place([0.0, 0.0], name, &style);
+        let along = [tip[0] - foot[0], tip[1] - foot[1]];
+        let length = along[0].hypot(along[1]).max(1e-9);
+        let along = along.map(|c| c / length);
+        // From the middle of the name to a line in the direction `way` past its rectangle.
+        let clear = |way: [f64; 2]| 0.5 * (size.width() * way[0].abs() + size.height() * way[1].abs());
+        let mut places: Vec<(f64, [f64; 2], bool)> =
+            vec![(0.0, [0, 1].map(|d| tip[d] + (clear(along) + 1.2) * along[d]), false)];
+        for (k, part) in [1.0, 0.75, 0.5, 0.25].into_iter().enumerate() {
+            for way in [[-along[1], along[0]], [along[1], -along[0]]] {
+                let at = [0, 1].map(|d| foot[d] + part * length * along[d] + (clear(way) + 1.3) * way[d]);
+                places.push((0.1 * (k + 1) as f64, at, false));
+            }
+        }
+        for k in 0..24 {
+            let (s, c) = (std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0).sin_cos();
+            for far in FAR {
+                let at = [tip[0] + (far + clear([c, s])) * c, tip[1] + (far + clear([c, s])) * s];
+                places.push((1.0 + 0.15 * far, at, true));
+            }
+        }
+        let mut best: Option<Arrowed> = None;
+        for (price, at, led) in places {
+            let place = Canvas::text_place(at, name, &style).grown(0.1 * style.size);
+            if best.as_ref().is_some_and(|(least, ..)| *least <= price)
+                || !window.contains(&place)
+                || !self.is_free(&place)
+            {
+                continue;
+            }
+            let thread = led.then(|| {
+                let way = [at[0] - tip[0], at[1] - tip[1]];
+                let far = way[0].hypot(way[1]).max(1e-9);
+                let end = (far - clear(way.map(|c| c / far)) - 0.4).max(0.0) / far;
+                [tip, [tip[0] + end * way[0], tip[1] + end * way[1]]]
+            });
+            let off = |thread: [[f64; 2]; 2]| {
+                [0.05, 1.0].map(|t| [0, 1].map(|d| thread[0][d] + t * (thread[1][d] - thread[0][d])))
+            };
+            if thread.is_some_and(|thread| {
+                self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
+                    || self.leaders.iter().any(|&other| meet(off(thread), other))
+            }) {
+                continue;
+            }
+            let crossed = self.crossings(&place, None) as f64 + 0.5 * self.crossings_of(&place, None, true) as f64;
+            let cost = price + crossed;
+            if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
+                best = Some((cost, at, place, thread));
+            }
+        }
+        let Some((_, at, place, thread)) = best else { return false };
+        self.take(place);
+        if let Some([from, to]) = thread {
+            canvas.line(from, to, pen);
+            self.leaders.push([from, to]);
+        }
+        canvas.text(at, name, &style);
+        true
+    }
+
     /// How many curves there are.
     pub(super) fn curve_count(&self) -> usize {
         self.curves.len()
@@ -288,7 +368,7 @@ impl LabelPlacer {
     ) {
         let free = places.iter().filter_map(|&at| {
             let place = Canvas::text_place(at, name, style).grown(0.1 * style.size);
-            let blocked = !window.contains(&place) || self.taken.iter().any(|taken| taken.overlaps(&place));
+            let blocked = !window.contains(&place) || !self.is_free(&place);
             let crossed = || self.crossings(&place, None) + self.crossings_of(&place, None, true);
             (!blocked).then(|| (crossed(), at, place))
         });
@@ -326,6 +406,9 @@ impl LabelPlacer {
         None
     }
 }
+
+/// Cost, position and place of a name beside an arrow, and its thread where it has one.
+type Arrowed = (f64, [f64; 2], Rectangle, Option<[[f64; 2]; 2]>);
 
 /// Cost, leader, position and place of a name with a leader.
 type Led = (f64, [[f64; 2]; 2], [f64; 2], Rectangle);

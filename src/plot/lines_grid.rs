@@ -70,6 +70,11 @@ fn numeral(halves: i32) -> String {
     }
 }
 
+/// The same with the nought of a half alone, which beside other names would be read as a half of one of them: 1 is `0½`.
+fn station_name(halves: i32) -> String {
+    if halves == 1 { "0½".to_owned() } else { numeral(halves) }
+}
+
 /// Roman numerals up to 39.
 fn roman(number: usize) -> String {
     let units = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX"];
@@ -123,7 +128,7 @@ impl LinesGrid {
             .map(|halves| {
                 let x = 0.5 * f64::from(halves) * station_spacing;
                 let number = numbers.number(0.5 * f64::from(halves));
-                let found = plane(x, numeral((2.0 * number).round() as i32), Cut::Station { x });
+                let found = plane(x, station_name((2.0 * number).round() as i32), Cut::Station { x });
                 let ended = length.iter().any(|end| (x - end).abs() <= INSIDE * (length[1] - length[0]));
                 if ended { in_one_piece(found) } else { found }
             })
@@ -200,8 +205,8 @@ mod tests {
 
     #[test]
     fn half_stations_stand_at_the_ends() {
-        let names: Vec<_> = station_numbers(20, -0.3, 20.6).into_iter().map(numeral).collect();
-        let first = ["0", "½", "1", "1½", "2", "3"];
+        let names: Vec<_> = station_numbers(20, -0.3, 20.6).into_iter().map(station_name).collect();
+        let first = ["0", "0½", "1", "1½", "2", "3"];
         assert_eq!(names[..6], first);
         assert_eq!(names[names.len() - 6..], ["18", "18½", "19", "19½", "20", "20½"]);
         assert_eq!(numeral(-3), "-1½");

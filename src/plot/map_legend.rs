@@ -1,8 +1,9 @@
-//! The legend under the maps of the side of a hull: what colours, lines and grey fields are.
+//! The legend under the maps of the side of a hull: what colours, lines and hatched fields are.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, nice_step};
-use super::surface_map::{JUMP, KEEL_END, KNUCKLE_LINE, NO_SIDE, SHARE, STEPS, SurfaceMapKind, TEXT};
+use super::sheet::LEAST_LETTERS;
+use super::surface_map::{JUMP, KEEL_END, KNUCKLE_LINE, SHARE, STEPS, SurfaceMapKind, TEXT, hatch};
 
 /// Left edge of the legend, width of a field of colour, and distance of the rows \[mm\].
 const LEFT: f64 = 26.0;
@@ -39,7 +40,9 @@ impl Legend {
             if let Some(pen) = pen {
                 canvas.line([x, at], [x + 11.0, at], pen);
             } else {
-                canvas.fill(&Rectangle::new(x, at - 1.8, x + 11.0, at + 1.8), NO_SIDE);
+                let field = Rectangle::new(x, at - 1.8, x + 11.0, at + 1.8);
+                hatch(canvas, &field);
+                canvas.rectangle(&field, &Pen::new(0.08, "#808080"));
             }
             canvas.text([x + 13.0, at], words, &style);
             x = Canvas::text_place([x + 13.0, at], words, &style).right + 6.0;
@@ -94,7 +97,8 @@ impl Legend {
             // The smallest steps have no figures of their own.
             if step == 0 || step.abs() % 2 == 1 && step.abs() > 2 {
                 let style = TextStyle::new(TEXT, Anchor::Middle);
-                let fitted = ((SWATCH - 0.8) / Canvas::text_place([0.0, 0.0], &text, &style).width()).min(1.0);
+                let fitted = ((SWATCH - 0.8) / Canvas::text_place([0.0, 0.0], &text, &style).width())
+                    .clamp(LEAST_LETTERS / TEXT, 1.0);
                 canvas.text([x + 0.5 * SWATCH, y], &text, &TextStyle { size: fitted * TEXT, ..style }.coloured(ink));
             }
             x += SWATCH;

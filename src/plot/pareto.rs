@@ -7,6 +7,7 @@ use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
+use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 
@@ -59,7 +60,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             (1.0 + MARK) * end,
             nice_step(end, 12.0),
         ),
-        left: Axis::new("log10 of the energy", low - room, high + room, 8.0),
+        left: Axis::powers("energy, logarithmic", low - room, high + room, 8),
         top: None,
         right: None,
         text_size: 2.8,
@@ -113,6 +114,6 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             .collect();
         placer.name_clear(&mut canvas, name, &style, &places, &chart.frame);
     }
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Some(canvas))
 }

@@ -59,7 +59,7 @@ pub struct Heading<'a> {
     pub date: Option<&'a str>,
 }
 
-/// A figure that was read, with its size \[mm\] and its number.
+/// A figure that was read, with its size \[mm\].
 struct Read<'a> {
     titles: Titles<'a>,
     tree: Arc<Tree>,
@@ -85,8 +85,9 @@ impl Read<'_> {
         surface: &mut Surface<'_>,
         [sheet, paper]: [Sheet; 2],
         corner: [f64; 2],
+        number: [usize; 2],
     ) -> Result<(), PlotError> {
-        let frame = framed(sheet, paper, &self.titles);
+        let frame = framed(sheet, paper, &Titles { number, ..self.titles });
         place(surface, frame.tree()?.as_ref(), corner)?;
         let [width, height] = self.size;
         // A figure covers what is under it: it stays off the frame.
@@ -118,11 +119,11 @@ fn joint_caption(pair: [&Read<'_>; 2]) -> String {
 }
 
 /// Two figures that stand over each other in the frame of `sheet`, under one title.
-fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet) -> Result<(), PlotError> {
+fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet, number: [usize; 2]) -> Result<(), PlotError> {
     let [upper, lower] = pair.map(|figure| &figure.titles);
     let title = format!("{}. {}", upper.title, lower.title);
     let caption = joint_caption(pair);
-    let titles = Titles { title: &title, caption: &caption, last: lower.number[0], ..*upper };
+    let titles = Titles { title: &title, caption: &caption, number, ..*upper };
     page(document, sheet.size(), |surface| {
         place(surface, framed(sheet, sheet, &titles).tree()?.as_ref(), [0.0, 0.0])?;
         let spare = sheet.room()[1] - pair[0].size[1] - pair[1].size[1];
@@ -136,14 +137,15 @@ fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet) -> Res
 }
 
 /// A figure on a page of its own.
-fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet) -> Result<(), PlotError> {
+fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet, number: [usize; 2]) -> Result<(), PlotError> {
     let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
     page(document, paper, |surface| {
         if fits {
-            return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0]);
+            return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0], number);
         }
         place(surface, &figure.tree, [0.0, 0.0])?;
-        place(surface, numbered_over(sheet, &figure.titles).tree()?.as_ref(), [0.0, 0.0])
+        let titles = Titles { number, ..figure.titles };
+        place(surface, numbered_over(sheet, &titles).tree()?.as_ref(), [0.0, 0.0])
     })
 }
 
@@ -160,43 +162,49 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
     let mut document = Document::new_with(SerializeSettings::default());
     let metadata = Metadata::new().title(heading.ship.to_owned()).creator(caption::program()).language("en".to_owned());
     document.set_metadata(metadata);
-    let read = |(k, figure): (usize, &Page<'a>)| -> Result<Read<'a>, PlotError> {
+    let read = |figure: &Page<'a>| -> Result<Read<'a>, PlotError> {
         let tree = figure.svg.tree()?;
-        let number = [k + 1, figures.len()];
         let Heading { ship, source, date } = *heading;
-        let titles = Titles { ship, title: figure.title, caption: figure.caption, number, last: k + 1, source, date };
+        let titles = Titles { ship, title: figure.title, caption: figure.caption, number: [1, 1], source, date };
         Ok(Read { titles, size: size(&tree), tree })
     };
-    let all = figures.iter().enumerate().map(read).collect::<Result<Vec<_>, _>>()?;
+    let all = figures.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     let is_small = |figure: &Read<'_>| sheet != Sheet::A3 && figure.fits(ROOM);
-    for run in all.chunk_by(|a, b| is_small(a) == is_small(b)) {
-        if !is_small(&run[0]) {
-            let mut rest = run;
-            while let Some((first, others)) = rest.split_first() {
-                rest = match others.split_first() {
-                    Some((below, after)) if first.leaves_room_for(below, sheet) => {
-                        draw_pair(&mut document, [first, below], sheet)?;
-                        after
-                    }
-                    _ => {
-                        draw_alone(&mut document, first, sheet)?;
-                        others
-                    }
-                };
-            }
-            continue;
-        }
-        for four in run.chunks(4) {
-            page(&mut document, sheet.size(), |surface| {
+    let sheets = sheets(&all, sheet, is_small);
+    for (k, figures) in sheets.iter().enumerate() {
+        let number = [k + 1, sheets.len()];
+        match figures {
+            [one] if !is_small(one) => draw_alone(&mut document, one, sheet, number)?,
+            [upper, lower] if !is_small(upper) => draw_pair(&mut document, [upper, lower], sheet, number)?,
+            four => page(&mut document, sheet.size(), |surface| {
                 let [wide, high] = Sheet::A3.size();
                 let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
                 for (k, figure) in four.iter().enumerate() {
                     let corner = [spare[0] + wide * (k % 2) as f64, spare[1] + high * (k / 2) as f64];
-                    figure.draw_framed(surface, [Sheet::A3, sheet], corner)?;
+                    figure.draw_framed(surface, [Sheet::A3, sheet], corner, number)?;
                 }
                 Ok(())
-            })?;
+            })?,
         }
     }
     document.finish().map_err(|found| error(format!("{found:?}")))
+}
+
+/// The figures of each sheet: one, two over each other, or up to four small ones.
+fn sheets<'r, 'a>(all: &'r [Read<'a>], sheet: Sheet, is_small: impl Fn(&Read<'a>) -> bool) -> Vec<&'r [Read<'a>]> {
+    let mut sheets = Vec::new();
+    for run in all.chunk_by(|a, b| is_small(a) == is_small(b)) {
+        if is_small(&run[0]) {
+            sheets.extend(run.chunks(4));
+            continue;
+        }
+        let mut rest = run;
+        while let [first, others @ ..] = rest {
+            let pair = others.first().is_some_and(|below| first.leaves_room_for(below, sheet));
+            let (here, after) = rest.split_at(1 + usize::from(pair));
+            sheets.push(here);
+            rest = after;
+        }
+    }
+    sheets
 }

@@ -85,7 +85,7 @@ fn frame(grid: &LinesGrid, view: &View, low: f64, high: f64) -> Rectangle {
     Rectangle::new(left, top, right, bottom).grown(BEYOND)
 }
 
-/// Stations as upright lines, named above and below where there is room; half stations by ½ alone where there is less.
+/// Stations as upright lines, named above and below where there is room, whole stations first.
 fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
     let style = TextStyle::new(text_size, Anchor::Middle);
     let room = frame.grown(END_ROOM + SIDE_ROOM);
@@ -110,10 +110,7 @@ fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View
     for plane in whole.into_iter().filter(|plane| number(plane) % every == 0).chain(halves) {
         let x = view.at([plane.at, 0.0])[0];
         for y in places {
-            let named = names.name_point(canvas, &plane.name, &style, &[[x, y]], &room);
-            if named.is_none() && plane.name.ends_with('½') {
-                names.name_point(canvas, "½", &style, &[[x, y]], &room);
-            }
+            names.name_point(canvas, &plane.name, &style, &[[x, y]], &room);
         }
     }
     for (name, x) in [("AP", 0.0), ("FP", length)] {

@@ -7,8 +7,8 @@ use super::fairing_long::Kind;
 use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
-    FigureInputs, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves, fairing_long,
-    fairing_moves, fairing_suspects, fairing_table, pareto,
+    FigureInputs, PlotError, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves,
+    fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
 };
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
@@ -89,9 +89,15 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
 /// A table of a Wigley hull with an error of some millimetres and two wrong offsets, written in feet, inches and
 /// eighths, with a knuckle, faired.
 fn record() -> FairRecord {
-    let hull = wigley();
+    record_of(100.0)
+}
+
+/// The same of a ship of another length.
+fn record_of(length: f64) -> FairRecord {
+    let dimensions = Dimensions { length, breadth: 10.0, draught: 6.25, depth: 9.0 };
+    let hull = analytic::wigley("Wigley", &dimensions).unwrap().hull;
     let stations: Vec<OffsetStation> =
-        (0..=20).map(|k| OffsetStation { name: k.to_string(), x: 5.0 * f64::from(k) }).collect();
+        (0..=20).map(|k| OffsetStation { name: k.to_string(), x: 0.05 * length * f64::from(k) }).collect();
     let waterlines: Vec<f64> = (0..=8).map(|k| 0.78125 * f64::from(k)).collect();
     let mut table = OffsetTable::from_hull(&hull, &stations, &waterlines, &[]);
     for (i, station) in table.stations.iter_mut().enumerate() {
@@ -108,6 +114,27 @@ fn record() -> FairRecord {
 }
 
 #[test]
+fn long_ships_have_a_sheet_for_each_half() {
+    let record = record_of(380.0);
+    let combs = FairingCombs::new(&record, &[]);
+    let words = |canvas: &Canvas, part: &str| canvas.texts().iter().any(|text| text.content.contains(part));
+    for sheet in Sheet::ALL {
+        for (name, sheets) in [
+            ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet).unwrap()),
+            ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals).unwrap()),
+        ] {
+            // Diagonals are two to a sheet.
+            let [aft, fore, ..] = &sheets[..] else { panic!("{name}: {} sheets", sheets.len()) };
+            assert!(words(aft, ", AFT BODY TO x = 190.00 m") && words(fore, ", FORE BODY FROM x = 190.00 m"));
+            // On A3 the whole would be 1:2000.
+            assert!(sheet != Sheet::A3 || words(aft, "scale 1:1000") && words(fore, "scale 1:1000"));
+            let found: Vec<String> = sheets.iter().flat_map(|one| faults_within(sheet.room(), name, one)).collect();
+            assert!(found.is_empty(), "{}", found.join("\n"));
+        }
+    }
+}
+
+#[test]
 fn figures_of_faired_tables_keep_their_text_apart() {
     let record = record();
     assert_eq!(record.doubts.len(), 2);
@@ -115,20 +142,22 @@ fn figures_of_faired_tables_keep_their_text_apart() {
     let mut found = Vec::new();
     for sheet in Sheet::ALL {
         let mut scales = std::collections::BTreeSet::new();
+        let one = |canvas: Result<Canvas, PlotError>| canvas.map(|canvas| vec![canvas]);
         let figures = [
-            ("arrows", fairing_arrows::compose(&record, sheet)),
-            ("long arrows", fairing_arrows_long::compose(&record, &Conventions::default(), sheet)),
-            ("body plan", fairing::body_plan(&record, &combs, sheet)),
+            ("arrows", one(fairing_arrows::compose(&record, sheet))),
+            ("long arrows", one(fairing_arrows_long::compose(&record, &Conventions::default(), sheet))),
+            ("body plan", one(fairing::body_plan(&record, &combs, sheet))),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
             ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),
             ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals)),
-            ("suspects", fairing_suspects::compose(&record, sheet).map(Option::unwrap)),
-            ("waterlines", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap())),
-            ("stations", Ok(fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap())),
+            ("suspects", one(fairing_suspects::compose(&record, sheet).map(Option::unwrap))),
+            ("waterlines", Ok(vec![fairing_curves::compose(&record, &combs, sheet, Along::Ship).unwrap()])),
+            ("stations", Ok(vec![fairing_curves::compose(&record, &combs, sheet, Along::Height).unwrap()])),
         ];
-        for (name, canvas) in figures {
+        let sheets =
+            figures.into_iter().flat_map(|(name, sheets)| sheets.unwrap().into_iter().map(move |one| (name, one)));
+        for (name, canvas) in sheets {
             let name = format!("{name} on {}", sheet.as_str());
-            let canvas = canvas.unwrap();
             let words = canvas.texts().iter().filter_map(|text| text.content.split("combs of ").nth(1));
             // How many of all lines bear combs is not the same on all sheets.
             let counted = |word: &str| word == "of" || word.parse::<usize>().is_ok();

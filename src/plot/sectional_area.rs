@@ -4,7 +4,9 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::nice_step;
+use super::sheet::LEAST_LETTERS;
 use super::{FigureInputs, PlotError, caption, outline};
+use crate::fairing::record::SectionTarget;
 use crate::hull::SectionalAreaCurve;
 use crate::hydrostatics::CurvesOfForm;
 
@@ -14,6 +16,14 @@ const SHEET: [f64; 2] = [300.0, 170.0];
 const STATIONS: usize = 401;
 /// How far inside the ends of the immersed length the curve begins, as a part of it.
 const INSIDE: f64 = 1e-4;
+/// Areas of a parallel middle body that is none to the last digit are within this part of the largest.
+const PARALLEL: f64 = 5e-4;
+/// Part of that stretch which sections that are equal to the last digit fill, where they alone are shaded.
+const EQUAL: f64 = 0.8;
+/// Marks of centres: after, before, and what was asked for.
+const CENTRE: [&str; 2] = ["#d55e00", "#a34700"];
+const CENTRE_BEFORE: [&str; 2] = ["#9a9a9a", "#666666"];
+const CENTRE_ASKED: [&str; 2] = ["#007a59", "#007a59"];
 
 /// Draws the curve.
 pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
@@ -52,14 +62,27 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     canvas.text([0.5 * SHEET[0], 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     canvas.text([0.5 * SHEET[0], 15.0], &caption::conventions(inputs), &TextStyle::new(2.6, Anchor::Middle));
     let mut placer = LabelPlacer::default();
-    if let (Some(from), Some(to)) = (design.parallel_body_aft, design.parallel_body_fore) {
-        mark_parallel_body(&mut canvas, &mut placer, &chart, [from, to], largest);
+    let equal = design.parallel_body_aft.zip(design.parallel_body_fore).map(|(aft, fore)| [aft, fore]);
+    if let Some((limits, words)) = parallel_body(&curve, equal) {
+        mark_parallel_body(&mut canvas, &mut placer, &chart, limits, largest, &words);
     }
     // The names stand on the outer sides, off the other mark.
     let aft = design.lcb.zip(design.lcf).is_some_and(|(lcb, lcf)| lcf < lcb);
-    for (name, position, row, aft) in [("LCB", design.lcb, 0.0, !aft), ("LCF", design.lcf, 1.0, aft)] {
+    let before_row = inputs
+        .before
+        .and_then(|hull| CurvesOfForm::new(hull, &[design.draught], &inputs.curves.conventions).rows.pop());
+    let asked = inputs.record.map(|record| &record.targets);
+    let name = if before_row.is_some() { "LCB after" } else { "LCB" };
+    // The higher marks first: where centres are one, all of them are seen.
+    for (name, position, row, aft, colours) in [
+        ("LCB asked for", asked.and_then(|asked| asked.lcb), 3.0, !aft, CENTRE_ASKED),
+        ("LCB before", before_row.as_ref().and_then(|row| row.lcb), 2.0, !aft, CENTRE_BEFORE),
+        ("LCF", design.lcf, 1.0, aft, CENTRE),
+        (name, design.lcb, 0.0, !aft, CENTRE),
+    ] {
         if let Some(x) = position {
-            mark_centre(&mut canvas, &mut placer, &chart, (name, x), row, aft);
+            let digits = if before_row.is_some() && name != "LCF" { 3 } else { 2 };
+            mark_centre(&mut canvas, &mut placer, &chart, (&format!("{name} {x:.digits$} m"), x), row, aft, colours);
         }
     }
     for (name, x) in [("AP", 0.0), ("FP", length)] {
@@ -79,17 +102,22 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         let points = upright_ends(&old, outline::immersed_length(before, design.draught));
         let dash = Some([2.4, 1.2]);
         series.push(Series { name: "before", points, secondary: false, colour: colour::GREY, dash, name_at: 0.8 });
-        let words = format!("the areas before and after differ by {apart:.3} m² at most");
-        canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
-        let lcb = CurvesOfForm::new(before, &[design.draught], &inputs.curves.conventions).rows.pop();
-        let moved = |x: &f64| design.lcb.is_none_or(|after| (x - after).abs() >= 0.005);
-        if let Some(x) = lcb.and_then(|row| row.lcb).filter(moved) {
-            mark_centre(&mut canvas, &mut placer, &chart, ("LCB before", x), 2.0, !aft);
+        let mut words = format!("areas before and after differ by {apart:.3} m² at most");
+        if let Some(row) = &before_row {
+            let volumes = [row.displacement_volume, design.displacement_volume];
+            words.push_str(&format!("    ∇ {:.1} m³ before, {:.1} m³ after", volumes[0], volumes[1]));
         }
+        if let Some(volume) = asked.and_then(|asked| asked.volume) {
+            words.push_str(&format!(", {volume:.1} m³ asked for"));
+        }
+        canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
     }
     chart.draw(&mut canvas, &mut placer, &series, &[])?;
+    for section in asked.iter().flat_map(|asked| &asked.sections) {
+        mark_section(&mut canvas, &mut placer, &chart, section);
+    }
     canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
-    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(canvas)
 }
 
@@ -102,18 +130,65 @@ fn upright_ends(curve: &SectionalAreaCurve, [aft, fore]: [f64; 2]) -> Vec<[f64; 
     [low, first].into_iter().chain(inside).chain([last, high]).collect()
 }
 
+/// Ends of the parallel middle body \[m\] with words for it: where sections are `equal` to the last digit, or where their
+/// areas are as good as equal, if that is much longer.
+fn parallel_body(curve: &SectionalAreaCurve, equal: Option<[f64; 2]>) -> Option<([f64; 2], String)> {
+    let name = |[aft, fore]: [f64; 2]| format!("parallel middle body {aft:.2} – {fore:.2} m");
+    let length = |[aft, fore]: [f64; 2]| fore - aft;
+    match (equal, curve.parallel_middle_body(PARALLEL)) {
+        (Some(equal), near) if near.is_none_or(|near| length(equal) >= EQUAL * length(near)) => {
+            Some((equal, name(equal)))
+        }
+        (_, near) => near.map(|near| (near, format!("{}\nA within {} % of A_X", name(near), 100.0 * PARALLEL))),
+    }
+}
+
+/// The area that was asked of a section, with its band.
+fn mark_section(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Chart, section: &SectionTarget) {
+    let SectionTarget { x, area, band } = *section;
+    let pen = Pen::new(0.4, CENTRE_ASKED[0]);
+    let [low, at, high] = [-1.0, 0.0, 1.0].map(|side| chart.place([x, area + side * band]));
+    canvas.line(low, high, &pen);
+    for (end, half) in [(low, 1.2), (high, 1.2), (at, 2.2)] {
+        canvas.line([end[0] - half, end[1]], [end[0] + half, end[1]], &pen);
+    }
+    let width = if band > 0.0 { format!(" ± {band}") } else { String::new() };
+    let style = TextStyle::new(2.8, Anchor::Middle).coloured(CENTRE_ASKED[1]).halo();
+    let name = format!("{area}{width} m² asked for");
+    let half = 0.5 * Canvas::text_place([0.0, 0.0], &name, &style).width() + 3.0;
+    let places: Vec<[f64; 2]> = [0.0, 4.0, -4.0, 8.0, -8.0, 12.0, -12.0, 18.0]
+        .into_iter()
+        .flat_map(|down| [half, -half, 0.0].map(|aside| [at[0] + aside, at[1] + down]))
+        .collect();
+    placer.name_clear(canvas, &name, &style, &places, &chart.frame);
+}
+
 /// The parallel middle body, shaded from keel to curve.
-fn mark_parallel_body(canvas: &mut Canvas, placer: &mut LabelPlacer, chart: &Chart, limits: [f64; 2], area: f64) {
+fn mark_parallel_body(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    chart: &Chart,
+    limits: [f64; 2],
+    area: f64,
+    name: &str,
+) {
     let [from, to] = limits.map(|x| chart.place([x, area]));
     let bottom = chart.frame.bottom;
     canvas.fill(&Rectangle::new(from[0], from[1], to[0], bottom), "#e8eef4");
-    let name = format!("parallel middle body {:.2} – {:.2} m", limits[0], limits[1]);
-    let style = TextStyle::new(2.6, Anchor::Middle).halo();
-    let at = [0.5 * (from[0] + to[0]), from[1] + 0.45 * (bottom - from[1])];
-    let place = Canvas::text_place(at, &name, &style).grown(0.4);
-    if chart.frame.contains(&place) {
-        placer.take(place);
-        canvas.text(at, &name, &style);
+    for end in [from, to] {
+        canvas.line(end, [end[0], bottom], &Pen::new(0.15, "#5f7a94"));
+    }
+    for (k, line) in name.lines().enumerate() {
+        let style = TextStyle::new(2.8, Anchor::Middle);
+        let half = 0.5 * Canvas::text_place([0.0, 0.0], line, &style).width() + 1.0;
+        // Lines that are wider than what is shaded have a white edge, as they cross its borders.
+        let style = if 2.0 * half > to[0] - from[0] { style.halo() } else { style };
+        let at = [0.5 * (from[0] + to[0]), from[1] + 0.3 * (bottom - from[1]) + 4.6 * k as f64];
+        let place = Canvas::text_place(at, line, &style).grown(0.4);
+        if chart.frame.contains(&place) {
+            placer.take(place);
+            canvas.text(at, line, &style);
+        }
     }
 }
 
@@ -122,20 +197,20 @@ fn mark_centre(
     canvas: &mut Canvas,
     placer: &mut LabelPlacer,
     chart: &Chart,
-    (name, x): (&str, f64),
+    (text, x): (&str, f64),
     row: f64,
     aft: bool,
+    [mark, letters]: [&'static str; 2],
 ) {
     let [at, bottom] = chart.place([x, 0.0]);
     let top = bottom - 9.0 - 5.0 * row;
-    canvas.line([at, bottom], [at, top], &Pen::new(0.5, "#d55e00"));
-    canvas.area(&[[at, bottom], [at - 1.1, bottom - 2.6], [at + 1.1, bottom - 2.6]], "#d55e00");
+    canvas.line([at, bottom], [at, top], &Pen::new(0.5, mark));
+    canvas.area(&[[at, bottom], [at - 1.1, bottom - 2.6], [at + 1.1, bottom - 2.6]], mark);
     let (anchor, beside) = if aft { (Anchor::End, -1.2) } else { (Anchor::Start, 1.2) };
-    let style = TextStyle::new(2.8, anchor).coloured("#a34700").halo();
+    let style = TextStyle::new(2.8, anchor).coloured(letters).halo();
     let place = [at + beside, top + 1.0];
-    let text = format!("{name} {x:.2} m");
-    placer.take(Canvas::text_place(place, &text, &style).grown(0.4));
-    canvas.text(place, &text, &style);
+    placer.take(Canvas::text_place(place, text, &style).grown(0.4));
+    canvas.text(place, text, &style);
 }
 
 /// What the curve amounts to, in one line.

@@ -4,7 +4,7 @@ use super::body_plan::{self, BOTTOM_ROOM, SIDE_ROOM, TOP_ROOM};
 use super::canvas::{Anchor, Canvas, TextStyle};
 use super::lines_grid::LinesGrid;
 use super::scale::drawing_scale;
-use super::sheet::{LETTERS, Sheet};
+use super::sheet::{LEAST_LETTERS, LETTERS, Sheet};
 use super::view::View;
 use super::{FigureInputs, PlotError, caption};
 
@@ -33,7 +33,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let centre = 0.5 * size[0].ceil();
     // A picture of A3 is read on a screen, where letters grow with it; on larger sheets they have the size of those of
     // a lines plan.
-    let letters = LETTERS * (size[0].ceil() / Sheet::A3.size()[0]).min(1.0);
+    let letters = (LETTERS * size[0].ceil() / Sheet::A3.size()[0]).clamp(LEAST_LETTERS, LETTERS);
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
@@ -46,7 +46,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     // z = 0 stands as far above the lower room as the hull reaches below it.
     let base = size[1].ceil() - BOTTOM_ROOM - 6.0 + coarse.height[0].min(0.0) * millimetres;
     let view = View::new([centre, base], scale);
-    body_plan::draw(&mut canvas, inputs, &grid, &view, (letters / 0.9).max(2.4));
+    body_plan::draw(&mut canvas, inputs, &grid, &view, letters / 0.9);
     canvas.text(
         [size[0].ceil() - 4.0, size[1].ceil() - 2.8],
         &caption::program(),

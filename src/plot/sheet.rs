@@ -14,6 +14,24 @@ pub(super) const ROOM: [f64; 2] = Sheet::A3.room();
 /// Least size of letters on a drawing as wide as A3: nine pixels where the drawing is 1200 pixels wide \[mm\].
 pub(super) const LETTERS: f64 = 3.15;
 
+/// Least size of letters on any sheet \[mm\]: capitals of 1.8 mm, the least of ISO 3098.
+pub(super) const LEAST_LETTERS: f64 = 2.5;
+
+/// A text as it fits into `room` \[mm\]: set smaller than `size`, but not below [`LEAST_LETTERS`]; then without its middle.
+pub(super) fn fitted(text: &str, size: f64, room: f64) -> (String, f64) {
+    let size = (size * room / wide(text, size).max(1e-9)).min(size).max(LEAST_LETTERS.min(size));
+    let letters: Vec<char> = text.chars().collect();
+    let without = |count: usize| {
+        let (head, tail) = (letters.len().div_ceil(2) - count.div_ceil(2), letters.len() / 2 - count / 2);
+        let parts = [&letters[..head], &['…'], &letters[letters.len() - tail..]];
+        parts.into_iter().flatten().collect::<String>()
+    };
+    let fits = |text: &String| wide(text, size) <= room * (1.0 + 1e-9);
+    let shorter = (1..letters.len()).map(without);
+    let found = std::iter::once(text.to_owned()).chain(shorter).find(fits);
+    (found.unwrap_or_default(), size)
+}
+
 /// A sheet, landscape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Sheet {
@@ -82,10 +100,8 @@ pub(super) struct Titles<'a> {
     pub(super) title: &'a str,
     /// What to look for.
     pub(super) caption: &'a str,
-    /// Number of the drawing, and how many there are.
+    /// Number of the sheet, and how many there are.
     pub(super) number: [usize; 2],
-    /// Number of the last drawing on it, where it has more than one.
-    pub(super) last: usize,
     /// What the drawing was made from.
     pub(super) source: &'a str,
     /// Its date, as it was given.
@@ -109,7 +125,7 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     title_block::draw_check_bar(&mut canvas, [frame.left + 6.0, top + 9.0]);
     let room = sheet.caption_room();
     let heading = format!("{} – {}", caption::plain(titles.ship), titles.title);
-    let size = 3.8 * (room / wide(&heading, 3.8).max(1.0)).min(1.0);
+    let (heading, size) = fitted(&heading, 3.8, room);
     canvas.text([columns[0] + 4.0, top + 3.7], &heading, &TextStyle::new(size, Anchor::Start));
     let small = TextStyle::new(LETTERS, Anchor::Start);
     for (k, line) in caption_lines(sheet, titles.caption).iter().take(LINES).enumerate() {
@@ -117,12 +133,8 @@ pub(super) fn framed(sheet: Sheet, paper: Sheet, titles: &Titles<'_>) -> Svg {
     }
     let lines = [numbered(titles, paper), titles.source.to_owned(), stamped(titles)];
     for (k, line) in lines.iter().enumerate() {
-        let fitted = ((frame.right - columns[1] - 6.0) / wide(line, LETTERS).max(1.0)).min(1.0);
-        canvas.text(
-            [columns[1] + 3.0, top + 4.0 + 5.0 * k as f64],
-            line,
-            &TextStyle { size: LETTERS * fitted, ..small },
-        );
+        let (line, size) = fitted(line, LETTERS, frame.right - columns[1] - 6.0);
+        canvas.text([columns[1] + 3.0, top + 4.0 + 5.0 * k as f64], &line, &TextStyle { size, ..small });
     }
     Svg::new(canvas.finish(titles.title))
 }
@@ -142,15 +154,10 @@ pub(super) fn has_room_for_caption(sheet: Sheet, caption: &str) -> bool {
     caption_lines(sheet, caption).len() <= LINES
 }
 
-/// `drawing 3 of 24   A3, true size`.
+/// `sheet 3 of 24   A3, true size`.
 fn numbered(titles: &Titles<'_>, sheet: Sheet) -> String {
     let [number, count] = titles.number;
-    let drawings = if titles.last > number {
-        format!("drawings {number} and {}", titles.last)
-    } else {
-        format!("drawing {number}")
-    };
-    format!("{drawings} of {count}   {}, true size", sheet.as_str())
+    format!("sheet {number} of {count}   {}, true size", sheet.as_str())
 }
 
 /// The program and the date.
@@ -158,7 +165,7 @@ fn stamped(titles: &Titles<'_>) -> String {
     titles.date.map_or_else(caption::program, |date| format!("{}   {date}", caption::program()))
 }
 
-/// For a drawing that is a sheet with its own frame and title block: in that, which drawing it is.
+/// For a drawing that is a sheet with its own frame and title block: in that, which sheet it is.
 pub(super) fn numbered_over(sheet: Sheet, titles: &Titles<'_>) -> Svg {
     let [width, height] = sheet.size();
     let mut canvas = Canvas::new(width, height);
@@ -190,6 +197,18 @@ mod tests {
     fn words_are_wrapped_where_they_do_not_fit() {
         let lines = wrapped("one two  three four", |line| line.len() <= 9);
         assert_eq!(lines, ["one two", "three", "four"]);
+    }
+
+    #[test]
+    fn texts_that_do_not_fit_lose_their_middle() {
+        let name = "a-very-long-name-of-a-file-of-offsets.csv  sha256 01234567";
+        let whole = wide(name, 3.0);
+        assert_eq!(fitted(name, 3.0, whole), (name.to_owned(), 3.0));
+        let (text, size) = fitted(name, 3.0, 0.9 * whole);
+        assert!(text == name && (size - 2.7).abs() < 1e-12);
+        let (text, size) = fitted(name, 3.0, 0.4 * whole);
+        assert!(text.starts_with("a-very") && text.contains('…') && text.ends_with("01234567"), "{text}");
+        assert!(size >= LEAST_LETTERS && wide(&text, size) <= 0.4 * whole);
     }
 
     #[test]

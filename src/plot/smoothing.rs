@@ -8,6 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
 use super::scale::figures;
+use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::fairing::smoothing::Trial;
@@ -92,7 +93,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         canvas.fill(&Rectangle::new(at[0] - half, at[1] - half, at[0] + half, at[1] + half), fill);
     };
     let taken = chosen.map(|point| chart.place(point));
-    let style = TextStyle::new(2.4, Anchor::Start).halo();
+    let style = TextStyle::new(LEAST_LETTERS, Anchor::Start).halo();
     for (k, (lambda, point)) in trials.iter().enumerate() {
         let at = chart.place(*point);
         dot(&mut canvas, at, 0.6, "#1f5fa8");
@@ -134,6 +135,6 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         dot(&mut canvas, at, 1.3, "#c00000");
         canvas.line([at[0], at[1]], [at[0], top], &Pen::new(0.25, "#c00000").dashed(&[1.5, 1.0]));
     }
-    canvas.text([SHEET[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([SHEET[0] - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Some(Svg::new(canvas.finish("lcurve"))))
 }

@@ -55,8 +55,20 @@ pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
 /// lengths of the hull.
 pub(super) const KEEL_END: Pen = Pen::new(0.3, "#000000").dashed(&[0.5, 0.9]);
 const MARKED: f64 = 5e-3;
-/// Where there is no side.
-pub(super) const NO_SIDE: &str = "#d9d9d9";
+/// Lines where there is no side, and their distance \[mm\]: a grey would be that of a colour in black and white.
+const NO_SIDE: Pen = Pen::new(0.12, "#a0a0a0");
+const APART: f64 = 2.2;
+
+/// Hatches a field where there is no side.
+pub(super) fn hatch(canvas: &mut Canvas, field: &Rectangle) {
+    canvas.begin_clip(field);
+    let count = ((field.width() + field.height()) / APART).floor() as i32;
+    for k in 1..=count {
+        let by = APART * f64::from(k);
+        canvas.line([field.left + by, field.top], [field.left, field.top + by], &NO_SIDE);
+    }
+    canvas.end_group();
+}
 
 /// What is mapped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -227,7 +239,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
             right: None,
             text_size: TEXT,
         };
-        canvas.fill(&chart.frame, NO_SIDE);
+        hatch(&mut canvas, &chart.frame);
         draw_cells(&mut canvas, &chart, side.map, kind, full);
         if kind != SurfaceMapKind::Zebra && full > 0.0 {
             let place = |at: [f64; 2]| chart.place(at);

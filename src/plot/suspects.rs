@@ -9,7 +9,7 @@ mod points;
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step};
-use super::sheet::LETTERS;
+use super::sheet::{LEAST_LETTERS, LETTERS};
 use super::{PlotError, Svg, caption};
 use crate::fairing::{Suspect, Suspects, height_grid};
 use crate::hull::OffsetTable;
@@ -116,7 +116,7 @@ pub(super) fn compose(table: &OffsetTable, result: &Suspects, words: &Words) -> 
         let more = format!("{} further suspects are in the list", result.suspects.len() - shown);
         canvas.text([MARGIN, height - 4.0], &more, &TextStyle::new(2.6, Anchor::Start));
     }
-    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.4, Anchor::End));
+    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(canvas)
 }
 
@@ -184,7 +184,7 @@ fn draw_map(canvas: &mut Canvas, table: &OffsetTable, result: &Suspects, words: 
         let name: String = caption::plain(&station.station.name).chars().take(8).collect();
         canvas.text([centre(i, 0)[0], map.bottom + 1.2], &name, &upward);
     }
-    let label = TextStyle::new(2.4, Anchor::Start);
+    let label = TextStyle::new(LEAST_LETTERS, Anchor::Start);
     canvas.text([map.left, map.top - 3.0], &format!("{} [m] over station", words.across), &label);
     draw_rings(canvas, result, map, cell, &centre);
 }

@@ -155,7 +155,7 @@ fn figures_bear_the_names_of_their_lines() {
                 "WL 1  1.00 m",
                 "III",
                 "D1",
-                "½",
+                "0½",
                 "19½",
                 "100 mm on paper",
             ],

@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::sheet::{LETTERS, Sheet};
+use super::sheet::{LETTERS, Sheet, fitted};
 use super::{FigureInputs, caption};
 use crate::hull::Hull;
 use crate::hydrostatics::{CoefficientLength, Quantity};
@@ -31,10 +31,9 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     canvas.rectangle(&block, &FRAME);
     let left = block.left + 3.0;
     let name = caption::plain(hull.name());
-    let large = TextStyle::new(4.6, Anchor::Start);
     // A long name is set smaller, so that it stays inside.
-    let fitted = (SIZE[0] - 40.0) / Canvas::text_place([0.0, 0.0], &name, &large).width().max(1.0);
-    canvas.text([left, block.top + 5.0], &name, &TextStyle { size: large.size * fitted.min(1.0), ..large });
+    let (name, size) = fitted(&name, 4.6, SIZE[0] - 40.0);
+    canvas.text([left, block.top + 5.0], &name, &TextStyle::new(size, Anchor::Start));
     canvas.text([block.right - 3.0, block.top + 5.0], "LINES PLAN", &TextStyle::new(3.6, Anchor::End));
     canvas.line([block.left, block.top + 9.5], [block.right, block.top + 9.5], &RULE);
 
@@ -79,7 +78,6 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
         inputs.source.unwrap_or_default().to_owned(),
         caption::program(),
     ];
-    let style = TextStyle::new(LETTERS, Anchor::Start);
     let columns = [
         (&left_column[..], left, SPLIT * SIZE[0] - 4.0),
         (&right_column[..], block.left + SPLIT * SIZE[0], (1.0 - SPLIT) * SIZE[0] - 2.0),
@@ -87,9 +85,9 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     for (column, x, room) in columns {
         for (row, text) in column.iter().enumerate() {
             // Long names of files are set smaller rather than over the edge.
-            let fitted = room / Canvas::text_place([0.0, 0.0], text, &style).width().max(1.0);
-            let style = TextStyle { size: style.size * fitted.min(1.0), ..style };
-            canvas.text([x, block.top + 13.7 + ROW_OF_TEXT * row as f64], text, &style);
+            let (text, size) = fitted(text, LETTERS, room);
+            let style = TextStyle::new(size, Anchor::Start);
+            canvas.text([x, block.top + 13.7 + ROW_OF_TEXT * row as f64], &text, &style);
         }
     }
     draw_check_bar(canvas, [block.left + 0.5 * (SIZE[0] - 100.0), block.bottom - 6.4]);

@@ -13,7 +13,7 @@ pub(super) const DIAGONAL: Pen = Pen::new(0.35, "#00553c");
 /// Profile and deck.
 pub(super) const OUTLINE: Pen = Pen::new(0.5, "#000000");
 /// A hull as it was before, under what it is.
-pub(super) const BEFORE: Pen = Pen::new(0.8, "#b4b4b4");
+pub(super) const BEFORE: Pen = Pen::new(0.2, "#7d7d7d");
 /// Grid.
 pub(super) const GRID: Pen = Pen::new(0.13, "#8a8a8a");
 /// From a name to its curve.

@@ -10,27 +10,29 @@ use crate::plot::{
 /// Resolution of the pictures \[dots per inch\]: about 2600 pixels across.
 const DOTS_PER_INCH: f64 = 160.0;
 
-/// A picture of a faired table; none where there is nothing to draw.
-type Draw = fn(&FairRecord, &FairingCombs) -> Result<Option<Svg>, PlotError>;
+/// The sheets of a picture of a faired table; none where there is nothing to draw.
+type Draw = fn(&FairRecord, &FairingCombs) -> Result<Vec<Svg>, PlotError>;
 
 /// The pictures with their names.
 const PICTURES: [(&str, Draw); 4] = [
-    ("fairing-body-plan", |record, combs| fairing_body_plan(record, combs, Sheet::A3).map(Some)),
-    ("fairing-half-breadth-plan", |record, combs| fairing_half_breadth_plan(record, combs, Sheet::A3).map(Some)),
-    ("fairing-moves", |record, _| fairing_moves(record).map(Some)),
-    ("lcurve", |record, _| smoothing_figure(record)),
+    ("fairing-body-plan", |record, combs| fairing_body_plan(record, combs, Sheet::A3).map(|svg| vec![svg])),
+    ("fairing-half-breadth-plan", |record, combs| fairing_half_breadth_plan(record, combs, Sheet::A3)),
+    ("fairing-moves", |record, _| fairing_moves(record).map(|svg| vec![svg])),
+    ("lcurve", |record, _| Ok(smoothing_figure(record)?.into_iter().collect())),
 ];
 
-/// The pictures of a fair hull, each as SVG and PNG.
+/// The pictures of a fair hull, each as SVG and PNG; the second sheet of one has the number 2 behind its name.
 pub(super) fn fair_figures(record: &FairRecord) -> Result<Vec<OutputFile>, Failure> {
     let combs = FairingCombs::new(record, &[]);
     let mut files = Vec::new();
     for (name, draw) in PICTURES {
         let failure = |error: PlotError| Failure::Internal(format!("{name}: {error}"));
-        let Some(svg) = draw(record, &combs).map_err(failure)? else { continue };
-        let contents = svg.to_png(DOTS_PER_INCH).map_err(failure)?;
-        files.push(OutputFile { name: format!("{name}.png"), contents });
-        files.push(OutputFile::text(&format!("{name}.svg"), svg.as_str().to_owned()));
+        for (k, svg) in draw(record, &combs).map_err(failure)?.into_iter().enumerate() {
+            let name = if k == 0 { name.to_owned() } else { format!("{name}-{}", k + 1) };
+            let contents = svg.to_png(DOTS_PER_INCH).map_err(failure)?;
+            files.push(OutputFile { name: format!("{name}.png"), contents });
+            files.push(OutputFile::text(&format!("{name}.svg"), svg.as_str().to_owned()));
+        }
     }
     Ok(files)
 }

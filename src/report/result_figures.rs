@@ -193,7 +193,7 @@ fn fairing_jobs<'a>(
                 "Half-breadth plan before and after",
                 "The same for the waterlines. Curvatures are those of the ship, also where breadths are stretched.",
             ],
-            one(move |sheet| fairing_half_breadth_plan(record, combs, sheet).map(Some)),
+            Box::new(move |sheet| fairing_half_breadth_plan(record, combs, sheet)),
         ),
         scaled(
             [
@@ -202,7 +202,7 @@ fn fairing_jobs<'a>(
                 "Buttocks were not used in the fit, a strip each: humps of the combs that show here alone are humps of the surface between \
                  the lines.",
             ],
-            one(move |sheet| some(fairing_buttocks(record, combs, sheet))),
+            Box::new(move |sheet| some(fairing_buttocks(record, combs, sheet))),
         ),
         scaled(
             [
@@ -211,7 +211,7 @@ fn fairing_jobs<'a>(
                 "Diagonals cross the hull most squarely and were not used in the fit: the judge of all that went before. Their combs should \
                  run smoothly from end to end.",
             ],
-            one(move |sheet| some(fairing_diagonals(record, combs, sheet))),
+            Box::new(move |sheet| some(fairing_diagonals(record, combs, sheet))),
         ),
         job(
             [
@@ -254,10 +254,10 @@ fn fairing_jobs<'a>(
 }
 
 /// A figure that hulls without such planes do not have.
-fn some(drawn: Result<Svg, PlotError>) -> Result<Option<Svg>, PlotError> {
+fn some(drawn: Result<Vec<Svg>, PlotError>) -> Result<Vec<Svg>, PlotError> {
     match drawn {
-        Err(PlotError::Chart(_)) => Ok(None),
-        drawn => drawn.map(Some),
+        Err(PlotError::Chart(_)) => Ok(Vec::new()),
+        drawn => drawn,
     }
 }
 
@@ -446,13 +446,13 @@ fn jobs<'a>(
             SurfaceMapKind::Gaussian => [
                 kind.key(),
                 "Gaussian curvature",
-                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0, grey is \
+                "Fields of one colour with quiet borders are fair; islands and specks are bumps. White is developable, black lines are 0, hatched is \
                  no side. Along a dashed line the surface has a tangent plane and no more: a step of colour there is hers.",
             ],
             SurfaceMapKind::Mean => [
                 kind.key(),
                 "Mean curvature",
-                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0, grey is no side. \
+                "Bands across the run of the lines are shoulders; specks are bumps that a batten would not follow. Black lines are 0, hatched is no side. \
                  Along a dashed line the surface has a tangent plane and no more: a step of colour there is hers.",
             ],
             SurfaceMapKind::Zebra => [

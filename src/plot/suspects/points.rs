@@ -1,5 +1,6 @@
 //! Suspect points of sections: each in its section, with the nearest point of the curve through its neighbours.
 
+use super::super::sheet::LEAST_LETTERS;
 use super::{ABOVE, BELOW, GREY, MARGIN, MOST_PLOTS, ROW, WIDTH, circle, draw_axes, length, rounded};
 use crate::fairing::{PointSuspect, PointSuspects};
 use crate::hull::OffsetTable;
@@ -50,7 +51,7 @@ fn compose(table: &OffsetTable, result: &PointSuspects) -> Result<Canvas, PlotEr
         let more = format!("{} further suspects are in the list", result.suspects.len() - shown);
         canvas.text([MARGIN, height - 4.0], &more, &TextStyle::new(2.6, Anchor::Start));
     }
-    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(2.2, Anchor::End));
+    canvas.text([WIDTH - 6.0, height - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(canvas)
 }
 
