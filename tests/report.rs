@@ -408,9 +408,8 @@ fn on_a1_drawings_are_larger_and_charts_stand_four_to_a_sheet() {
     assert_eq!(text(&files, "sections.svg"), text(&small, "sections.svg"));
 }
 
-/// Sizes of the letters of a figure in pixels where it is 1200 pixels wide: their attribute times the scale of the
-/// groups around them.
-fn letters(svg: &str) -> Vec<f64> {
+/// Sizes of the letters of a figure \[mm\], their attribute times the scale of the groups around them, and its width.
+fn letters(svg: &str) -> (Vec<f64>, f64) {
     let number = |text: &str, key: &str| -> Option<f64> {
         let rest = &text[text.find(key)? + key.len()..];
         rest[..rest.find(['"', ')', ' '])?].trim_end_matches("mm").parse().ok()
@@ -424,18 +423,68 @@ fn letters(svg: &str) -> Vec<f64> {
         } else if element.starts_with("/g>") {
             scales.pop();
         } else if element.starts_with("text ") || element.starts_with("tspan ") {
-            sizes.extend(number(element, "font-size=\"").map(|size| size * scale * 1200.0 / width));
+            sizes.extend(number(element, "font-size=\"").map(|size| size * scale));
         }
     }
-    sizes
+    (sizes, width)
 }
 
 #[test]
 fn letters_are_nine_pixels_high_where_a_figure_is_1200_wide() {
     for file in faired().1.iter().filter(|file| file.name.ends_with(".svg")) {
-        let sizes = letters(std::str::from_utf8(&file.contents).unwrap());
-        let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        let (sizes, width) = letters(std::str::from_utf8(&file.contents).unwrap());
+        let least = sizes.iter().map(|size| size * 1200.0 / width).fold(f64::INFINITY, f64::min);
         assert!(!sizes.is_empty() && least >= 8.95, "{}: {least:.2} pixels", file.name);
+    }
+}
+
+#[test]
+fn capitals_are_at_least_1_8_mm_high_on_paper() {
+    /// Height of capitals in sizes of DejaVu Sans.
+    const CAPITALS: f64 = 0.729;
+    let check = |name: &str, svg: &str| {
+        let least = letters(svg).0.into_iter().fold(f64::INFINITY, f64::min);
+        assert!(CAPITALS * least >= 1.8, "{name}: {:.2} mm", CAPITALS * least);
+    };
+    for file in faired().1.iter().filter(|file| file.name.ends_with(".svg")) {
+        check(&file.name, std::str::from_utf8(&file.contents).unwrap());
+    }
+    // Hulls of all proportions: their body plans are sheets of all sizes.
+    for entry in fs::read_dir(carried("configs")).unwrap().map(|entry| entry.unwrap().path()) {
+        let Some(name) = entry.file_name().filter(|name| name.to_string_lossy().ends_with(".toml")) else { continue };
+        let (design, bytes) = read_design(&entry).unwrap();
+        let outputs = generate_outputs(&design, (&entry, &bytes), &[]).unwrap();
+        for file in outputs.files.iter().filter(|file| file.name.ends_with(".svg")) {
+            check(&format!("{} of {}", file.name, name.display()), std::str::from_utf8(&file.contents).unwrap());
+        }
+    }
+}
+
+#[test]
+fn the_page_has_the_tables_of_offsets_before_and_after() {
+    let (_, files) = faired();
+    let page = text(files, "report.html");
+    for key in ["offsets", "heights", "diagonals"] {
+        let section = page.split(&format!("<section id=\"{key}\">")).nth(1).unwrap();
+        let section = section.split("</section>").next().unwrap();
+        assert!(section.contains("class=\"sortable\"") && section.contains("<th>hull</th>"), "{key}");
+        let csv = text(files, &format!("{key}-m.csv"));
+        let rows: Vec<&str> = section.split("<tr").skip(2).collect();
+        assert_eq!(rows.len(), 2 * (csv.lines().count() - 1), "{key}");
+        for (line, pair) in csv.lines().skip(1).zip(rows.chunks(2)) {
+            let cells = |row: &str| -> Vec<String> {
+                row.split("<td>").skip(1).map(|cell| cell.split('<').next().unwrap().to_owned()).collect()
+            };
+            let [before, after] = [cells(pair[0]), cells(pair[1])];
+            assert_eq!((before[1].as_str(), after[1].as_str()), ("before", "after"));
+            for (cell, field) in after.iter().skip(2).zip(line.split(',').skip(1)) {
+                let near = match (cell.parse::<f64>(), field.parse::<f64>()) {
+                    (Ok(a), Ok(b)) => (a - b).abs() <= 0.5001e-4,
+                    _ => cell == field,
+                };
+                assert!(near, "{key}: {cell} for {field}");
+            }
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use super::generate::manifest_file;
 use super::result::JobResult;
 use super::result_figures::report_figures;
 use super::result_page::report_page;
-use super::result_tables::report_tables;
+use super::result_tables::{page_tables, report_tables};
 use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
 use crate::numeric::at_once;
@@ -80,7 +80,11 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
     let (pdf, (page, tables)) = at_once(
         || write_pdf(&heading, pages, settings.sheet),
-        || (report_page(result, &design, before.as_ref(), &curves, &figures), report_tables(result, &curves)),
+        || {
+            let tables = report_tables(result, &curves);
+            let offsets = tables.as_ref().map_or_else(|_| Vec::new(), |files| page_tables(result, files));
+            (report_page(result, (&design, before.as_ref()), &curves, &figures, &offsets), tables)
+        },
     );
     let pdf = pdf.map_err(internal)?;
     let mut files =

@@ -434,10 +434,10 @@ fn scene(result: &JobResult) -> String {
 /// The page.
 pub(super) fn report_page(
     result: &JobResult,
-    design: &Hydrostatics,
-    before: Option<&Hydrostatics>,
+    (design, before): (&Hydrostatics, Option<&Hydrostatics>),
     curves: &CurvesOfForm,
     drawn: &[ReportFigure],
+    offsets: &[(&'static str, &'static str, Table)],
 ) -> String {
     let name = escape(result.hull.name());
     let p = result.hull.particulars();
@@ -461,6 +461,10 @@ pub(super) fn report_page(
     }
     sections.push(("condition", "Design condition", condition(result, design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
+    let told = "<p>Metres; x forward of AP, z from the base line, y and distances from the centreplane, diagonals by their height there.</p>\n";
+    for (id, title, table) in offsets {
+        sections.push((id, title, format!("{told}{}", table.html())));
+    }
     if let Some(table) = changes(result) {
         sections.push(("changes", "Every offset before and after", table.html()));
     }

@@ -3,29 +3,30 @@
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::generate::json_file;
-use super::page::conventions_line;
+use super::page::{conventions_line, fixed};
 use super::result::JobResult;
+use super::result_page::Table;
 use crate::exchange::{
     conventions_json, diagonals_csv, heights_csv, hydrostatics_csv, hydrostatics_workbook, micrometres, offsets_csv,
     row_json, section_areas_csv,
 };
 use crate::fairing::inspect::Planes;
-use crate::hull::{Entry, OffsetTable, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{Entry, Hull, OffsetTable, default_buttocks, default_stations, default_waterlines};
 use crate::hydrostatics::{CurvesOfForm, assumed_mark};
 use crate::plot::BonjeanTable;
 use crate::units::{Notation, decimal};
 
-/// Offsets of the hull at the lines of its table where it has one, else at default lines.
-fn offsets(result: &JobResult) -> OffsetTable {
-    let hull = &result.hull;
+/// Offsets of `hull`, that of the result or that before fairing, at the lines of the table where there is one, else at
+/// default lines; buttocks are those of the hull of the result.
+fn offsets(result: &JobResult, hull: &Hull) -> OffsetTable {
     let (stations, waterlines) = match &result.fairing {
         Some((record, _)) => (record.lines.stations.clone(), record.lines.waterlines.clone()),
         None => (
-            default_stations(hull, result.conventions.stations),
-            default_waterlines(hull).into_iter().map(decimal).collect(),
+            default_stations(&result.hull, result.conventions.stations),
+            default_waterlines(&result.hull).into_iter().map(decimal).collect(),
         ),
     };
-    let buttocks: Vec<f64> = default_buttocks(hull).into_iter().map(decimal).collect();
+    let buttocks: Vec<f64> = default_buttocks(&result.hull).into_iter().map(decimal).collect();
     let mut table = OffsetTable::from_hull(hull, &stations, &waterlines, &buttocks);
     for station in &mut table.stations {
         for cell in station.half_breadths.iter_mut().chain(&mut station.heights) {
@@ -69,20 +70,80 @@ fn conventions(result: &JobResult) -> Vec<(String, String)> {
     list
 }
 
-/// The files.
-pub(super) fn report_tables(result: &JobResult, curves: &CurvesOfForm) -> Result<Vec<OutputFile>, Failure> {
-    let table = offsets(result);
+/// Names of the tables of offsets, of heights at buttocks, and of distances along diagonals.
+const OFFSETS: [&str; 3] = ["offsets", "heights", "diagonals"];
+
+/// The three tables of [`OFFSETS`] of a hull, its `table` of offsets given, as CSV.
+fn texts(result: &JobResult, (hull, table): (&Hull, &OffsetTable), notation: Notation) -> [String; 3] {
     let planes = Planes::with_defaults(&result.hull);
     let stations: Vec<_> = table.stations.iter().map(|station| station.station.clone()).collect();
+    [
+        offsets_csv(table, notation, true),
+        heights_csv(table, notation),
+        diagonals_csv(hull, &stations, &planes.diagonals, planes.diagonal_angle, notation),
+    ]
+}
+
+/// The tables of offsets, heights and diagonals of the page, before and after where there is a fairing: key, heading,
+/// table. `files` are those of [`report_tables`].
+pub(super) fn page_tables(result: &JobResult, files: &[OutputFile]) -> Vec<(&'static str, &'static str, Table)> {
+    let before = result
+        .fairing
+        .as_ref()
+        .map(|(record, _)| texts(result, (&record.before, &offsets(result, &record.before)), Notation::Metres));
+    let headings = ["Half-breadths", "Heights at the buttocks", "Distances along the diagonals"];
+    let table = |k: usize| {
+        let name = format!("{}-{METRES}.csv", OFFSETS[k]);
+        let after = files.iter().find(|file| file.name == name)?;
+        let after = std::str::from_utf8(&after.contents).ok()?;
+        let hulls = match &before {
+            Some(before) => vec![("before", before[k].as_str()), ("after", after)],
+            None => vec![("", after)],
+        };
+        Some((OFFSETS[k], headings[k], matrix(&hulls)))
+    };
+    (0..3).filter_map(table).collect()
+}
+
+/// Tables of several hulls with the same rows as one table: a row of each hull in turn, with the word for it.
+fn matrix(hulls: &[(&str, &str)]) -> Table {
+    let rows = |text: &str| -> Vec<Vec<String>> {
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let all: Vec<(&str, Vec<Vec<String>>)> = hulls.iter().map(|(word, text)| (*word, rows(text))).collect();
+    let several = all.len() > 1;
+    let with = |cells: &[String], word: &str| -> Vec<String> {
+        let word = several.then(|| word.to_owned());
+        cells.iter().take(1).cloned().chain(word).chain(cells.iter().skip(1).cloned()).collect()
+    };
+    let rounded = |cell: String| cell.parse::<f64>().map_or(cell, |value| fixed(value, 4));
+    let first = all.first().map_or(&[][..], |(_, rows)| rows.as_slice());
+    let row = |k: usize, (word, rows): &(&str, Vec<Vec<String>>)| {
+        let cells = with(rows.get(k)?, word).into_iter().enumerate();
+        Some((false, cells.map(|(column, cell)| if column == 0 { cell } else { rounded(cell) }).collect()))
+    };
+    Table {
+        heads: first.first().map_or(Vec::new(), |heads| with(heads, "hull")),
+        words: 0,
+        rows: (1..first.len()).flat_map(|k| all.iter().filter_map(move |hull| row(k, hull))).collect(),
+    }
+}
+
+/// End of the names of the files in metres.
+const METRES: &str = "m";
+
+/// The files.
+pub(super) fn report_tables(result: &JobResult, curves: &CurvesOfForm) -> Result<Vec<OutputFile>, Failure> {
+    let table = offsets(result, &result.hull);
     let mut files = Vec::new();
-    for (suffix, notation) in
-        [("m", Notation::Metres), ("mm", Notation::Millimetres), ("feet-inches-eighths", Notation::FeetInchesEighths)]
-    {
-        let mut add = |name: &str, text: String| files.push(OutputFile::text(&format!("{name}-{suffix}.csv"), text));
-        add("offsets", offsets_csv(&table, notation, true));
-        add("heights", heights_csv(&table, notation));
-        let diagonals = diagonals_csv(&result.hull, &stations, &planes.diagonals, planes.diagonal_angle, notation);
-        add("diagonals", diagonals);
+    for (suffix, notation) in [
+        (METRES, Notation::Metres),
+        ("mm", Notation::Millimetres),
+        ("feet-inches-eighths", Notation::FeetInchesEighths),
+    ] {
+        for (name, text) in OFFSETS.into_iter().zip(texts(result, (&result.hull, &table), notation)) {
+            files.push(OutputFile::text(&format!("{name}-{suffix}.csv"), text));
+        }
     }
     let areas = BonjeanTable::with_defaults(&result.hull, result.conventions.stations);
     let text = section_areas_csv(&areas.stations, &areas.heights, &areas.areas);
