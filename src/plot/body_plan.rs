@@ -2,6 +2,7 @@
 
 use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
+use super::fairing::midship_of;
 use super::label::{LabelPlacer, Preference, length, places_over};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::name_assumed;
@@ -49,8 +50,7 @@ impl Half {
 
 /// Draws the body plan around `view`, whose origin is centre line and base line.
 pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, view: &View, text_size: f64) {
-    let hull = inputs.hull;
-    let midship = 0.5 * hull.particulars().length_between_perpendiculars;
+    let midship = midship_of(inputs);
     let half_width = grid.half_breadth * view.scale + BEYOND;
     let (top, bottom) = (view.at([0.0, grid.height[1]])[1] - BEYOND, view.at([0.0, grid.height[0]])[1] + BEYOND);
     let [centre, _] = view.origin;

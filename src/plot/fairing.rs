@@ -289,6 +289,13 @@ pub(super) fn base([low, high]: [f64; 2]) -> f64 {
     0.0_f64.clamp(low, high)
 }
 
+/// Amidships of what is drawn \[m\]: L_PP/2 where it comes from no table.
+pub(super) fn midship_of(inputs: &FigureInputs) -> f64 {
+    let half = 0.5 * inputs.hull.particulars().length_between_perpendiculars;
+    let ends = inputs.record.and_then(|record| Some((record, extent(record)?.0)));
+    ends.map_or(half, |(record, x)| midship(record, x))
+}
+
 /// Amidships \[m\]: L_PP/2, or the middle of the offsets where a table has its stations from elsewhere than AP.
 pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     let half = 0.5 * record.after.particulars().length_between_perpendiculars;

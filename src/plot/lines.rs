@@ -3,7 +3,7 @@
 //! views alone, or diagonals stay away from under the half-breadth plan.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{BEYOND, is_guessed};
+use super::fairing::{BEYOND, is_guessed, midship_of};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::{LongStyle, Naming};
 use super::scale::{drawing_scale, drawing_scales};
@@ -230,13 +230,15 @@ fn key(canvas: &mut Canvas, end: [f64; 2]) {
 pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotError> {
     let hull = inputs.hull;
     let numbers = inputs.curves.conventions.stations;
-    let extents = Extents::new(&LinesGrid::new(hull, 1e-3 * hull.particulars().breadth, numbers));
+    let table = inputs.record.map(|record| &record.lines);
+    let coarse = LinesGrid::new(hull, 1e-3 * hull.particulars().breadth, numbers, table);
+    let extents = Extents::new(&coarse);
     let frame = sheet.frame();
     let layout = layout(&extents, &frame);
     let body_scale = layout.body_scale;
-    let grid = LinesGrid::new(hull, DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)), numbers);
+    let grid = coarse.refined(DEVIATION * 1e-3 * f64::from(body_scale.min(layout.scale)));
     let before =
-        inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale), numbers));
+        inputs.before.map(|before| LinesGrid::new(before, DEVIATION * 1e-3 * f64::from(layout.scale), numbers, table));
     let mut canvas = Canvas::new(sheet.size()[0], sheet.size()[1]);
     canvas.rectangle(&frame, &Pen::new(0.7, "#000000"));
     let title = TextStyle::new(3.5, Anchor::Start);
@@ -295,7 +297,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     );
     let view = View::new([middle, body_base], body_scale);
     if let Some(before) = &before {
-        let midship = 0.5 * hull.particulars().length_between_perpendiculars;
+        let midship = midship_of(inputs);
         let side = |plane: &GridPlane| if plane.at < midship { -1.0 } else { 1.0 };
         draw_before(&mut canvas, &view, &before.stations, |p, plane| [side(plane) * p[1], p[2]]);
     }

@@ -18,6 +18,8 @@ const BARE_SIDE_ROOM: f64 = 4.0;
 pub(super) const TOP_ROOM: f64 = 7.0;
 /// Room below the hull for the names of stations and perpendiculars [mm].
 pub(super) const END_ROOM: f64 = 11.0;
+/// Most waterlines of a table that all bear names.
+const MANY: usize = 16;
 /// Grid lines go this far beyond the hull [mm].
 const BEYOND: f64 = 3.0;
 
@@ -99,15 +101,13 @@ fn draw_stations(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View
     }
     // Whole stations first, so that halves give way where it is narrow; of them every one, or every second, fifth or
     // tenth.
-    let (halves, whole): (Vec<&GridPlane>, Vec<&GridPlane>) =
-        grid.stations.iter().partition(|plane| plane.name.ends_with('½'));
+    let (halves, whole): (Vec<&GridPlane>, Vec<&GridPlane>) = grid.stations.iter().partition(|plane| !plane.whole);
     let widest =
         whole.iter().map(|plane| Canvas::text_place([0.0, 0.0], &plane.name, &style).width()).fold(0.0, f64::max);
     let pitch = grid.station_spacing * view.scale;
     let every = [1, 2, 5, 10].into_iter().find(|&n| f64::from(n) * pitch >= widest + 0.6 * text_size).unwrap_or(20);
-    let number = |plane: &GridPlane| (plane.at / grid.station_spacing).round() as i32;
     let halves = halves.into_iter().filter(|_| every == 1);
-    for plane in whole.into_iter().filter(|plane| number(plane) % every == 0).chain(halves) {
+    for plane in whole.into_iter().filter(|plane| plane.count % every == 0).chain(halves) {
         let x = view.at([plane.at, 0.0])[0];
         for y in places {
             names.name_point(canvas, &plane.name, &style, &[[x, y]], &room);
@@ -298,7 +298,10 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
         let clear = Preference { part, crossings: 0, beside: false };
         // On the curve, or else with a leader on the side of the waterlines, or anywhere.
         let upper = Rectangle { bottom: view.origin[1], ..inside };
+        // Of the many of a table a leader for every second is enough.
+        let led = !grid.of_table[1] || grid.waterlines.len() <= MANY || plane.count % 2 == 0;
         let named = placer.name_curve(canvas, k, &plane.name, &style, clear, &inside)
+            || !led
             || placer.name_by_leader(canvas, k, &plane.name, &style, &THREAD, &upper)
             || placer.name_by_leader(canvas, k, &plane.name, &style, &THREAD, &inside);
         if !named {

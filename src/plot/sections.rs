@@ -21,11 +21,13 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let p = hull.particulars();
     let rooms = [2.0 * SIDE_ROOM + 18.0, TITLE + TOP_ROOM + BOTTOM_ROOM + 8.0];
     let numbers = inputs.curves.conventions.stations;
-    let coarse = LinesGrid::new(hull, 1e-3 * p.breadth, numbers);
+    let table = inputs.record.map(|record| &record.lines);
+    let coarse = LinesGrid::new(hull, 1e-3 * p.breadth, numbers, table);
     let extent = [2.0 * coarse.half_breadth, coarse.height[1] - coarse.height[0].min(0.0)];
     let scale = drawing_scale(extent[0], paper[0] - rooms[0]).max(drawing_scale(extent[1], paper[1] - rooms[1]));
     let millimetres = 1000.0 / f64::from(scale);
-    let grid = LinesGrid::new(hull, DEVIATION / millimetres, numbers);
+    let lowest = coarse.height[0].min(0.0);
+    let grid = coarse.refined(DEVIATION / millimetres);
     // What fits to rounding does not grow by a millimetre.
     let size =
         [(extent[0] * millimetres + rooms[0]).max(180.0), extent[1] * millimetres + rooms[1]].map(|side| side - 1e-6);
@@ -37,14 +39,15 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let title = format!("BODY PLAN – {}", caption::plain(hull.name()));
     canvas.text([centre, 8.0], &title, &TextStyle::new(4.5, Anchor::Middle));
     let line = format!(
-        "1 : {scale}   {}   {}, half stations at the ends   moulded{}",
+        "1 : {scale}   {}   {}, {}   moulded{}",
         caption::dimensions(inputs),
-        caption::stations(inputs),
+        if grid.numbered { caption::stations(inputs) } else { "stations".to_owned() },
+        if grid.of_table[0] { "those of the table" } else { "half stations at the ends" },
         caption::assumed_note(inputs, "   ")
     );
     canvas.text([centre, 15.0], &line, &TextStyle::new(letters.max(2.6), Anchor::Middle));
     // z = 0 stands as far above the lower room as the hull reaches below it.
-    let base = size[1].ceil() - BOTTOM_ROOM - 6.0 + coarse.height[0].min(0.0) * millimetres;
+    let base = size[1].ceil() - BOTTOM_ROOM - 6.0 + lowest * millimetres;
     let view = View::new([centre, base], scale);
     body_plan::draw(&mut canvas, inputs, &grid, &view, letters / 0.9);
     canvas.text(

@@ -106,7 +106,7 @@ fn names_of_stations_stand_clear_of_all_other_text() {
 #[test]
 fn every_waterline_is_named_in_the_half_breadth_plan() {
     for hull in hulls().iter().filter(|hull| hull.name() != "box") {
-        let grid = LinesGrid::new(hull, 1e-3, StationNumbers::default());
+        let grid = LinesGrid::new(hull, 1e-3, StationNumbers::default(), None);
         let scale = drawing_scale(grid.length[1] - grid.length[0], 350.0);
         let mut canvas = Canvas::new(420.0, 297.0);
         let style = LongStyle { text_size: 3.0, naming: Naming::Full, diagonals: true };

@@ -71,8 +71,16 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     ];
     let right_column = [
         format!("sheet {}, moulded, metres", scales.sheet.as_str()),
-        format!("stations {:.3} m, 0 at {}", grid.station_spacing, inputs.curves.conventions.stations.zero()),
-        format!("waterlines {:.2}, buttocks {:.2} m", grid.waterline_spacing, grid.buttock_spacing),
+        if grid.numbered {
+            format!("stations {:.3} m, 0 at {}", grid.station_spacing, inputs.curves.conventions.stations.zero())
+        } else {
+            "stations of the table".to_owned()
+        },
+        if grid.of_table[1] {
+            format!("WL of the table, buttocks {:.2} m", grid.buttock_spacing)
+        } else {
+            format!("waterlines {:.2}, buttocks {:.2} m", grid.waterline_spacing, grid.buttock_spacing)
+        },
         diagonals(grid),
         format!("diag. fall {:.1}° outboard", grid.diagonal_angle.to_degrees()),
         inputs.source.unwrap_or_default().to_owned(),
@@ -150,12 +158,11 @@ fn table_height(rows: usize) -> f64 {
 }
 
 fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
-    grid.stations.iter().filter(|plane| !plane.name.contains('½')).collect()
+    grid.stations.iter().filter(|plane| plane.whole).collect()
 }
 
 fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
-    let even = |plane: &&GridPlane| (plane.at / grid.station_spacing).round() as i64 % 2 == 0;
-    whole_stations(grid).into_iter().filter(even).collect()
+    whole_stations(grid).into_iter().filter(|plane| plane.count % 2 == 0).collect()
 }
 
 /// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; of all
@@ -224,7 +231,6 @@ fn sorted<'a>(planes: impl Iterator<Item = &'a GridPlane>, grid: &'a LinesGrid) 
 }
 
 /// One of `step` of the whole waterlines, with the design waterline among them.
-fn thinned(grid: &LinesGrid, step: i64) -> Vec<&GridPlane> {
-    let even = |plane: &&GridPlane| (plane.at / grid.waterline_spacing).round() as i64 % step == 0;
-    sorted(grid.waterlines.iter().filter(|plane| !plane.name.contains('½')).filter(even), grid)
+fn thinned(grid: &LinesGrid, step: i32) -> Vec<&GridPlane> {
+    sorted(grid.waterlines.iter().filter(|plane| plane.whole && plane.count % step == 0), grid)
 }
