@@ -211,6 +211,46 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
 }
 
+/// A centre of buoyancy that is 1 % of L further aft than the table's comes by a smooth move of the whole hull.
+#[test]
+fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
+    let options = [("--lcb", "hold.LCB", "-1.0 %"), ("--tolerance", "tolerance.table", "0.3 m")];
+    let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
+    outputs.verdict().unwrap();
+    let outcome = &outputs.outcome;
+    let turns = |of: fn(&loftsman::fairing::job::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
+    let (before, after) = (turns(|turns| turns.before), turns(|turns| turns.after));
+    // 305 inflections and 8.5 times the energy where the readings stay where they are.
+    assert!(after < before, "{before} > {after}");
+    assert!(outcome.energy[1] < outcome.energy[0], "{:?}", outcome.energy);
+    let lcb = outcome.held.iter().find(|held| held.constraint.key() == "lcb").unwrap();
+    assert!((lcb.after / lcb.constraint.target() - 1.0).abs() < 1e-9, "{lcb:?}");
+    // What it costs is the move, of which the tolerances have room for all.
+    let (rms, _, _) = outcome.moves();
+    assert!((0.7 * rms..1.1 * rms).contains(&lcb.price), "{} {rms}", lcb.price);
+    let widening = outcome.faired.carried.unwrap();
+    assert!((0.3..1.0).contains(&widening), "{widening}");
+}
+
+/// Two targets that are both out of reach: no single one would do, and each has its interval.
+#[test]
+fn targets_that_are_out_of_reach_together_have_intervals() {
+    let options = [("--displacement", "hold.displacement", "8600 t"), ("--lcb", "hold.LCB", "+3 %")];
+    let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
+    let said = outputs.verdict().unwrap_err().to_string();
+    let found = outputs.outcome.faired.diagnosis.as_ref().unwrap();
+    assert_eq!(found.cheapest(), None);
+    for (held, reach) in outputs.outcome.held.iter().zip(&found.reaches) {
+        let [low, high] = reach.values.unwrap();
+        assert!(low < held.before && held.before < high && reach.missing.is_none(), "{reach:?} {held:?}");
+    }
+    let [least, fair] = [found.widening, outputs.outcome.faired.carried].map(Option::unwrap);
+    assert!(1.0 < least && least < fair, "{least} {fair}");
+    for words in ["no single target would do", "displacement without", "LCB without", "by one smooth move"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
 /// Half a per cent of displacement more than the tolerances leave, and ten times as much as there is: no waves, the
 /// nearest fair hull within the tolerances and an interval that holds what was written.
 #[test]

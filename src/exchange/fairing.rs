@@ -135,6 +135,7 @@ fn diagnosis(outcome: &Outcome) -> Value {
     let cheapest = found.cheapest().and_then(|reach| outcome.held.get(reach.constraint));
     json!({
         "widening": json_number(found.widening),
+        "widening_of_smooth_move": json_number(outcome.faired.carried),
         "nearest": outcome.nearest,
         "alone": reaches,
         "rules": rules,

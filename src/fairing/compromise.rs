@@ -137,6 +137,14 @@ impl<'a> Basic<'a> {
         Ok(basic)
     }
 
+    /// The same about readings that were moved.
+    pub(super) fn carry(&mut self, model: &'a Model, smoother: &'a Smoother) {
+        (self.model, self.smoother) = (model, smoother);
+        if let Some(moved) = &model.carried {
+            self.reference.iter_mut().zip(moved).for_each(|(value, more)| *value += more);
+        }
+    }
+
     /// What the constraints ask for.
     fn targets(&self) -> Vec<Target> {
         let hull = &self.surface.hull;
@@ -287,20 +295,30 @@ impl<'a> Basic<'a> {
         Program::new(self.model, self.smoother, self.lambda, &wider, None)
     }
 
+    /// Adds the limits of half-breadths that a net breaks; false where it breaks none.
+    pub(super) fn limit_breadths(&self, wishes: &mut Wishes, net: &[f64]) -> bool {
+        let limits = broken(&self.surface.hull, net, &self.surface.start, self.greatest, LIMIT_SLACK * self.greatest);
+        wishes.breadths.extend(limits.iter().cloned());
+        !limits.is_empty()
+    }
+
     /// Adds the limits that a net breaks; false where it breaks none.
     fn limit(&self, wishes: &mut Wishes, net: &[f64], widening: f64) -> bool {
-        let hull = &self.surface.hull;
+        let far = self.limit_between(wishes, net, widening, self.room);
+        self.limit_breadths(wishes, net) || far
+    }
+
+    /// Adds the limits that a net breaks of what the surface may move between the offsets: tolerance, which widens, and
+    /// room besides \[m\]; false where it breaks none.
+    pub(super) fn limit_between(&self, wishes: &mut Wishes, net: &[f64], widening: f64, room: [f64; 2]) -> bool {
         let slack = LIMIT_SLACK * self.greatest;
-        let [tolerance, room] = self.room;
-        let limits = broken(hull, net, &self.surface.start, self.greatest, slack);
-        let bands = between(hull, net, &self.reference, [tolerance, widening, room], slack);
-        let any = !(limits.is_empty() && bands.is_empty());
-        wishes.breadths.extend(limits);
+        let bands = between(&self.surface.hull, net, &self.reference, [room[0], widening, room[1]], slack);
+        let any = !bands.is_empty();
         // What is kept back at one place comes out at the next: where targets ask for it, or where it goes on, the net is
         // kept back as a whole.
         let going_on = wishes.between.iter().all(|limit| limit.row.len() > 1) && wishes.between.len() > MANY;
-        if going_on || (self.others.contains(&true) && !bands.is_empty() && wishes.between.is_empty()) {
-            let [tolerance, room] = self.room.map(|room| NET_BETWEEN * room);
+        if going_on || (self.others.contains(&true) && any && wishes.between.is_empty()) {
+            let [tolerance, room] = room.map(|room| NET_BETWEEN * room);
             let net = self.reference.iter().enumerate();
             wishes.between.extend(net.map(|(i, &value)| Between { row: vec![(i, 1.0)], value, tolerance, room }));
         }

@@ -144,6 +144,11 @@ pub struct Faired {
     pub refreshed: Option<Vec<f64>>,
     /// The steps to the least bending energy, where it was asked for and the chart does not fold.
     pub bent: Option<LeastBending>,
+    /// The factor on the tolerances from which what targets other than the table's ask for is one smooth move over the
+    /// whole hull; none where there are no such targets, or they cannot be had at all.
+    pub carried: Option<f64>,
+    /// Each such target by index, and what the linear part of the program has more when it is dropped.
+    pub without: Vec<(usize, Vec<f64>)>,
     /// Rows of the rules, with the index of the rule.
     pub rules: Vec<(usize, Limit)>,
     /// Largest relative error of metacentre and wetted surface before their first new linearisation and after each;
@@ -267,6 +272,7 @@ pub fn fair_prepared(
 ) -> Result<Faired, FairError> {
     let Prepared { smoother, smoothed, .. } = prepared;
     let (lambda, sigma) = (prepared.lambda, prepared.sigma);
+    surface.model.carried = None;
     let hull = &surface.hull;
     let widest = surface.model.readings.iter().map(|reading| reading.value).fold(0.0, f64::max);
     let greatest = widest.max(0.5 * hull.particulars().breadth);
@@ -283,9 +289,16 @@ pub fn fair_prepared(
     let model = &surface.model.clone();
     let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
     let asked = (settings.constraints.as_slice(), settings.others.as_slice());
-    let basic = Basic::new(surface, model, weighed, asked, &wishes, first, &settings.solver)?;
+    let mut basic = Basic::new(surface, model, weighed, asked, &wishes, first, &settings.solver)?;
+    let carry = basic.carried(&wishes)?;
+    let (model, smoother, smoothed) = match &carry.carried {
+        Some(carried) => (&carried.model, &carried.smoother, &carried.smoothed),
+        None => (model, smoother, smoothed),
+    };
+    basic.carry(model, smoother);
     let Answer { mut program, mut solved, mut diagnosis, mut instead, mut programs, mut iterations } =
         basic.solve(&mut wishes)?;
+    programs += carry.programs;
     if diagnosis.is_none()
         && solved.is_optimal()
         && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
@@ -361,6 +374,7 @@ pub fn fair_prepared(
         }
         guarded = Some(found);
     }
+    surface.model.carried.clone_from(&model.carried);
     let mut refreshed = None;
     let (mut final_smoother, mut final_lambda) = (smoother.clone(), lambda);
     if settings.true_curvature
@@ -402,6 +416,8 @@ pub fn fair_prepared(
         }
     }
     Ok(Faired {
+        carried: carry.widening,
+        without: carry.without,
         refreshed,
         bent,
         rules: wishes.rules,
@@ -413,8 +429,8 @@ pub fn fair_prepared(
         sigma,
         lambda: final_lambda,
         trials: prepared.trials.clone(),
-        chosen: smoothed.trial(smoother.count()),
-        edf: smoothed.edf,
+        chosen: prepared.smoothed.trial(smoother.count()),
+        edf: prepared.smoothed.edf,
         program,
         solved,
         forms,

@@ -146,7 +146,15 @@ impl Faired {
             for row in own {
                 (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
             }
-            let solution = solver.solve(&problem).ok()?;
+            // What is smoothed is not moved for a target that is not held.
+            let less = self.without.iter().find(|(other, _)| *other == k);
+            less.into_iter().for_each(|(_, less)| problem.linear.iter_mut().zip(less).for_each(|(b, more)| *b += more));
+            let mut solution = solver.solve(&problem).ok()?;
+            if solution.status != Status::Optimal {
+                // From the answer with the constraint it may be too far.
+                solver.forget();
+                solution = solver.solve(&problem).ok()?;
+            }
             let net = self.smoother.reduced.expand(&solution.x);
             (solution.status == Status::Optimal).then(|| self.moved(model, &self.net) - self.moved(model, &net))
         };
@@ -155,7 +163,7 @@ impl Faired {
 
     /// Root of the mean weighted square of what a net moves the readings by \[m\].
     fn moved(&self, model: &Model, net: &[f64]) -> f64 {
-        let squares = model.misfit(net, self.smoother.weights());
+        let squares = model.moved(net, self.smoother.weights());
         (squares / self.smoother.count().max(1) as f64).sqrt()
     }
 }

@@ -21,8 +21,9 @@ pub struct Reach {
     /// Index of the constraint.
     pub constraint: usize,
     /// Least and greatest value of its quantity within the tolerances and the other constraints, in its unit; where
-    /// these cannot be had themselves, without them; none where the tolerances alone cannot be had. Of what is not linear: the values where its tangent at the start is least and
-    /// greatest, which can be had, if the others are not its like.
+    /// these cannot be had themselves, without them; none where the tolerances alone cannot be had. Of what is not
+    /// linear: the values where its tangent at the start is least and greatest, which can be had, if the others are not
+    /// its like.
     pub values: Option<[f64; 2]>,
     /// Distance of the target from that interval, over the scale of the target; none where the others had to be left
     /// out: giving way alone, it would not do.
@@ -136,18 +137,31 @@ struct Asked<'a, F> {
 }
 
 impl<F: FnMut(&[f64]) -> Option<Program>> Asked<'_, F> {
-    /// Where a constraint's quantity is least and greatest when its own limits are lifted.
-    fn reach(&mut self, name: RowName, along: &Row) -> Result<Option<[Vec<f64>; 2]>, ProblemError> {
-        let Some(least) = self.extreme(name, along, 1.0)? else { return Ok(None) };
-        Ok(self.extreme(name, along, -1.0)?.map(|greatest| [least, greatest]))
+    /// Where a constraint's quantity is least and greatest when its own limits are lifted, and every row `without`.
+    fn reach(
+        &mut self,
+        name: RowName,
+        along: &Row,
+        without: &impl Fn(RowName) -> bool,
+    ) -> Result<Option<[Vec<f64>; 2]>, ProblemError> {
+        let Some(least) = self.extreme(name, along, 1.0, without)? else { return Ok(None) };
+        Ok(self.extreme(name, along, -1.0, without)?.map(|greatest| [least, greatest]))
     }
 
     /// Where it is least for sign 1, greatest for -1.
-    fn extreme(&mut self, name: RowName, along: &Row, sign: f64) -> Result<Option<Vec<f64>>, ProblemError> {
+    fn extreme(
+        &mut self,
+        name: RowName,
+        along: &Row,
+        sign: f64,
+        without: &impl Fn(RowName) -> bool,
+    ) -> Result<Option<Vec<f64>>, ProblemError> {
         let mut found = None;
         for _ in 0..CUTS {
-            let Some(row) = self.program.names.iter().position(|other| *other == name) else { break };
-            let mut problem = self.program.problem.without_objective();
+            // The limits that were broken come with the whole program.
+            let program = self.program.without(without);
+            let Some(row) = program.names.iter().position(|other| *other == name) else { break };
+            let mut problem = program.problem.without_objective();
             (problem.lower[row], problem.upper[row]) = (f64::NEG_INFINITY, f64::INFINITY);
             along.iter().for_each(|&(column, value)| problem.linear[column] += sign * value);
             let solution = self.solver.solve(&problem)?;
@@ -205,17 +219,11 @@ pub fn diagnose(
     for constraint in constraints {
         let own = RowName::Constraint(constraint);
         let Target { limits: [lower, upper], scale, row } = &targets[constraint];
-        let with_others = asked.reach(own, row)?;
+        let with_others = asked.reach(own, row, &|_| false)?;
         let alone = with_others.is_some();
         let ends = match with_others {
             Some(ends) => Some(ends),
-            None => {
-                let all = asked.program.clone();
-                asked.program = all.without(|name| matches!(name, RowName::Constraint(_)) && name != own);
-                let ends = asked.reach(own, row)?;
-                asked.program = all;
-                ends
-            }
+            None => asked.reach(own, row, &|name| matches!(name, RowName::Constraint(_)) && name != own)?,
         };
         let values = ends.and_then(|[a, b]| {
             let (a, b) = (value(constraint, &a)?, value(constraint, &b)?);

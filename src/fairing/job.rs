@@ -257,8 +257,9 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-/// Curves that bend more often after than before, in words.
-fn more_often(lines: &[Turns]) -> Option<String> {
+/// Curves that bend more often after than before, in words; `carried` is the factor on the tolerances from which targets
+/// are had by one smooth move.
+fn more_often(lines: &[Turns], carried: Option<f64>) -> Option<String> {
     let worse: Vec<&Turns> = lines.iter().filter(|turns| turns.after > turns.before).collect();
     let kinds = ["station", "waterline", "buttock", "diagonal"].map(|wanted| {
         let own: Vec<&&Turns> = worse.iter().filter(|turns| kind(&turns.cut) == wanted).collect();
@@ -267,9 +268,13 @@ fn more_often(lines: &[Turns]) -> Option<String> {
     });
     let told: Vec<String> = kinds.into_iter().flatten().collect();
     (!told.is_empty()).then(|| {
+        let wider = match carried.filter(|factor| *factor > 1.0) {
+            Some(factor) => format!("tolerances {factor:.2} times as wide, with which the targets are one smooth move,"),
+            None => "wider tolerances".to_owned(),
+        };
         format!(
-            "bend more often than before: {}; what is wished or locked asks for that, and nearer targets or wider tolerances \
-             would leave a fairer hull",
+            "bend more often than before: {}; what is wished or locked asks for that, and nearer targets or {wider} would leave a \
+             fairer hull",
             told.join(", ")
         )
     })
@@ -423,7 +428,7 @@ impl Job {
             }
             Ok((attempt, None))
         };
-        let asked = settings.constraints.clone();
+        let (asked, carried) = (settings.constraints.clone(), faired.carried);
         let mut refused = None;
         let mut given_up: Vec<usize> = Vec::new();
         let mut kept: Vec<usize> = (0..self.rules.len()).collect();
@@ -492,6 +497,7 @@ impl Job {
         let mut rules = held::rules(&surface, &settings, &faired);
         given_up.iter().for_each(|&rule| rules.insert(rule, HeldRule::given_up(&self.rules[rule], &surface, &after)));
         faired.diagnosis = refused.or(faired.diagnosis);
+        faired.carried = carried;
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
         notes.extend(surface.straight_parts());
         notes.extend(faired.bent.as_ref().map(LeastBending::words));
@@ -522,7 +528,7 @@ impl Job {
             );
         }
         // Before all else: whoever reads no further should know it.
-        notes.splice(0..0, more_often(&lines));
+        notes.splice(0..0, more_often(&lines, faired.carried));
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

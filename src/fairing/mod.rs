@@ -5,6 +5,7 @@ mod adapt;
 pub mod bending;
 pub mod bends;
 pub mod breaks;
+mod carry;
 mod cells;
 mod choice;
 mod compromise;

@@ -49,6 +49,9 @@ pub struct Model {
     pub straight: Option<SymmetricBand>,
     /// Control values to stay near where nothing else is said \[m\].
     pub start: Option<Vec<f64>>,
+    /// What is added to every control value of the readings and the start before they are smoothed \[m\]; the
+    /// tolerances go on being counted from the readings as they are.
+    pub carried: Option<Vec<f64>>,
 }
 
 /// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
@@ -95,10 +98,25 @@ impl Model {
         self.readings.iter().map(|reading| value(&reading.row, c) - reading.value).collect()
     }
 
-    /// sum w_k (a_k c - d_k)^2 \[m^2\].
+    /// sum w_k (a_k c - d_k)^2 \[m^2\], d_k with what is carried.
     #[must_use]
     pub fn misfit(&self, c: &[f64], weights: &[f64]) -> f64 {
+        self.readings
+            .iter()
+            .zip(weights)
+            .map(|(reading, w)| w * (value(&reading.row, c) - self.wished(reading)).powi(2))
+            .sum()
+    }
+
+    /// sum w_k (a_k c - d_k)^2 \[m^2\] to the readings as they are.
+    #[must_use]
+    pub fn moved(&self, c: &[f64], weights: &[f64]) -> f64 {
         self.residuals(c).iter().zip(weights).map(|(r, w)| w * r * r).sum()
+    }
+
+    /// A reading with what is carried \[m\].
+    fn wished(&self, reading: &Reading) -> f64 {
+        reading.value + self.carried.as_ref().map_or(0.0, |carried| value(&reading.row, carried))
     }
 
     /// Takes the known control values out.
@@ -126,17 +144,18 @@ impl Model {
         };
         let (energy, straight) = (reduce(&self.energy), self.straight.as_ref().map(reduce));
         let product = self.energy.apply(&base);
+        let carried = |i: usize| self.carried.as_ref().map_or(0.0, |carried| carried[i]);
         let mut data = SparseRows::new(free.len());
         let mut values = Vec::with_capacity(self.readings.len());
         for reading in &self.readings {
             let (row, offset) = split(&reading.row, &place, &base);
             data.push(row);
-            values.push(reading.value - offset);
+            values.push(self.wished(reading) - offset);
         }
         Reduced {
             pull: free.iter().map(|&i| product[i]).collect(),
             constant: product.iter().zip(&base).map(|(e, c)| e * c).sum(),
-            start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i]).collect()),
+            start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i] + carried(i)).collect()),
             free,
             place,
             energy,

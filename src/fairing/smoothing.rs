@@ -208,6 +208,12 @@ impl Smoother {
         (self.normal.plus(lambda, &self.energy), right)
     }
 
+    /// What the linear part -2 b of a program has more without what these readings have and those of `other` have not.
+    #[must_use]
+    pub fn linear_less(&self, other: &Self) -> Vec<f64> {
+        self.right.iter().zip(&other.right).map(|(own, other)| 2.0 * (own - other)).collect()
+    }
+
     /// The free control values for one weight, with the factor of N.
     fn solved(&self, lambda: f64) -> Result<(Vec<f64>, BandedCholesky), SingularMatrix> {
         let (matrix, mut free) = self.normal(lambda);

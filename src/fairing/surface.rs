@@ -363,7 +363,7 @@ impl FairSurface {
         let plain = is_plain(&hull);
         let straight = straightness(hull.surface(), &courses);
         Ok(Self {
-            model: Model { energy, readings, known, straight, start: (!smooth).then(|| start.clone()) },
+            model: Model { energy, readings, known, straight, start: (!smooth).then(|| start.clone()), carried: None },
             courses,
             places,
             start,

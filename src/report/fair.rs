@@ -18,7 +18,7 @@ use crate::exchange::{
 };
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
-use crate::fairing::infeasible::Reach;
+use crate::fairing::infeasible::{Diagnosis, Reach};
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
 use crate::hull::{Functional, Hull, OffsetTable, StatedParticulars, TableLayout};
@@ -362,11 +362,17 @@ impl FairOutputs {
     /// [`Failure::Infeasible`].
     pub fn verdict(&self) -> Result<(), Failure> {
         let found = self.outcome.faired.diagnosis.as_ref();
-        let least = found.and_then(|found| found.widening).map(|factor| {
-            let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
+        let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
+        let wide = |factor: f64| {
             let [wide, now] = [factor * typical, typical].map(millimetres);
-            format!(" {factor:.3} times as wide ({wide} mm where it is widest now {now} mm) would do;")
-        });
+            format!("{factor:.3} times as wide ({wide} mm where it is widest now {now} mm)")
+        };
+        let least = found.and_then(|found| found.widening).map(|factor| format!(" {} would do;", wide(factor)));
+        // What the least is does by waves: as much of every tolerance as there is.
+        let fair =
+            self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some()).map(|factor| {
+                format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor))
+            });
         let reached = |reach: &Reach| {
             let held = self.outcome.held.get(reach.constraint)?;
             let [low, high] = reach.values?;
@@ -378,15 +384,20 @@ impl FairOutputs {
             let (words, of, missing) = (constraint.words(), constraint.relative_to(), 100.0 * reach.missing?);
             Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", reached(reach)?))
         });
-        // No single one would do: what each could be without the others.
-        let each = found.filter(|_| cheapest.is_none()).into_iter().flat_map(|found| &found.reaches);
-        let each = each.filter_map(|reach| {
+        // Displacement and LCB, and what is out of reach where no single one would do: as far as the tolerances reach.
+        let each = found.into_iter().flat_map(|found| &found.reaches).filter_map(|reach| {
             let held = self.outcome.held.get(reach.constraint)?;
-            let far = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
-            far.then_some(())?;
-            Some(format!(" of {} without the other targets: {};", held.constraint.words(), reached(reach)?))
+            let off = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
+            let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
+            let told = cheapest.is_some() && found.and_then(Diagnosis::cheapest) == Some(reach);
+            ((off && cheapest.is_none() || always) && !told).then_some(())?;
+            let given = if reach.missing.is_some() { "with" } else { "without" };
+            Some(format!(" {} {given} the other targets: {};", held.constraint.words(), reached(reach)?))
         });
         let each: String = each.collect();
+        let none = found.is_some_and(|found| found.reaches.iter().any(|reach| reach.values.is_some()));
+        let none = none && cheapest.is_none();
+        let none = if none { " no single target would do;" } else { "" };
         // Rules whose giving alone would do, the nearest first.
         let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
         let rule = rule.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(rule, give)| {
@@ -402,7 +413,10 @@ impl FairOutputs {
             Status::Infeasible => (
                 "E401",
                 "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
-                match [least, rule, cheapest, Some(each), Some(given_up)].map(Option::unwrap_or_default).concat() {
+                match [least, fair, rule, cheapest, Some(none.to_owned()), Some(each), Some(given_up)]
+                    .map(Option::unwrap_or_default)
+                    .concat()
+                {
                     none if none.is_empty() => {
                         "Widen the tolerance, unlock cells, drop a rule or free one of the targets; no single one of \
                                                 them would do, or none was found that would"

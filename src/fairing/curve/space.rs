@@ -149,7 +149,14 @@ impl CurveSpace {
                 tolerance: tolerances[k],
             })
             .collect();
-        Model { energy, readings, known: vec![None; self.knots.basis_count()], straight: None, start: None }
+        Model {
+            energy,
+            readings,
+            known: vec![None; self.knots.basis_count()],
+            straight: None,
+            start: None,
+            carried: None,
+        }
     }
 
     /// The coefficients of y'' as forms over the control values, of size 1.
