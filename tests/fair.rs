@@ -209,6 +209,25 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     // Within a millimetre of the table, C_B is that of the table but for a part in a hundred.
     assert!(0.59 < least && least < greatest && greatest < 0.62, "{alone}");
     assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
+    // Every file says that it is a compromise.
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    let mark = "# compromise: not all that was wished of this table is held; fairing.json says what is not";
+    let written = read("offsets.csv");
+    assert_eq!(written.lines().next(), Some(mark));
+    for name in ["hull.json", "summary.json"] {
+        let file: Value = serde_json::from_str(&read(name)).unwrap();
+        assert!(file["name"].as_str().unwrap().ends_with(" (compromise)"), "{name}: {}", file["name"]);
+    }
+    let changes = read("changes.csv");
+    assert!(changes.lines().skip(1).all(|line| line.ends_with(",infeasible")), "{changes}");
+    // A table of a compromise that is faired in its turn loses the mark when all that is wished is held.
+    let again = folder("infeasible-again").join("out");
+    let table = out.join("offsets.csv").display().to_string();
+    let output = program(&["fair", &table, "-o", again.to_str().unwrap(), "--no-figures"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!fs::read_to_string(again.join("offsets.csv")).unwrap().contains("compromise"));
+    let summary: Value = serde_json::from_str(&fs::read_to_string(again.join("summary.json")).unwrap()).unwrap();
+    assert!(!summary["name"].as_str().unwrap().contains("compromise"), "{}", summary["name"]);
 }
 
 /// A centre of buoyancy that is 1 % of L further aft than the table's comes by a smooth move of the whole hull.

@@ -23,7 +23,7 @@ fn series60() -> OffsetTable {
 }
 
 fn faired(rules: Vec<Rule>) -> Outcome {
-    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
+    let outcome = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     let gap = outcome.faired.solved.certificate.gap.abs();
     assert!(gap < 1e-8, "gap {gap:e}");
@@ -95,10 +95,14 @@ fn tangents_are_met() {
         Rule::Tangent(TangentPlace::Station(wall), 0.0),
         Rule::Tangent(TangentPlace::Waterline(place), angle),
     ];
-    let outcome =
-        Job { rules, tolerance: Tolerance { table: Some(0.05), ..Job::default().tolerance }, ..Job::default() }
-            .run(&table)
-            .unwrap();
+    let outcome = Job {
+        rules,
+        keep_flat: false,
+        tolerance: Tolerance { table: Some(0.05), ..Job::default().tolerance },
+        ..Job::default()
+    }
+    .run(&table)
+    .unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     assert!(slope(&outcome.after, wall, true).abs() < 1e-6);
     assert!((slope(&outcome.after, place, false) - angle.tan()).abs() < 1e-6);
@@ -136,7 +140,8 @@ fn a_waterline_rises_and_a_part_is_hollow() {
 #[test]
 fn a_line_has_no_more_inflections_than_it_may() {
     // Without the guard of inflections, so that only the rule can be what takes one away.
-    let run = |rules: Vec<Rule>| Job { rules, signs: false, ..Job::default() }.run(&series60()).unwrap();
+    let run =
+        |rules: Vec<Rule>| Job { rules, signs: false, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
     let free = run(Vec::new());
     let turns = |outcome: &Outcome, z: f64| {
         outcome
@@ -149,11 +154,31 @@ fn a_line_has_no_more_inflections_than_it_may() {
     let heights = [0.48768, 1.6256, 3.2512, 4.8768, 6.5024, 8.128];
     let z = heights.into_iter().max_by_key(|&z| turns(&free, z)).unwrap();
     assert!(turns(&free, z) >= 3, "{}", turns(&free, z));
-    let outcome = run(vec![Rule::Inflections { line: Line::Waterline(z), most: 2 }]);
+    let all = [f64::NEG_INFINITY, f64::INFINITY];
+    let outcome = run(vec![Rule::Inflections { line: Line::Waterline(z), over: all, most: 2 }]);
     assert_eq!(outcome.status, Status::Optimal);
     assert!(turns(&outcome, z) <= 2, "z {z}: {} -> {}", turns(&free, z), turns(&outcome, z));
     let rule = only(&outcome);
     assert!(rule.binding > 0 && rule.rows > 20 && rule.violation < 1e-9, "{rule:?}");
+    let rows = rule.rows;
+    // A part of the line: no change of sign of the second differences left in it, where there were some.
+    let over = [20.0, 60.0];
+    let changes = |outcome: &Outcome| {
+        let y = |x: f64| outcome.after.half_breadth(x, z).unwrap();
+        let bend = |k: i32| {
+            let x = 21.0 + 0.5 * f64::from(k);
+            y(x - 0.25) - 2.0 * y(x) + y(x + 0.25)
+        };
+        let bends: Vec<f64> = (0..=76).map(bend).filter(|bend| bend.abs() > 1e-9).collect();
+        bends.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count()
+    };
+    assert!(changes(&free) > 0, "z {z}");
+    let outcome = run(vec![Rule::Inflections { line: Line::Waterline(z), over, most: 0 }]);
+    assert_eq!(outcome.status, Status::Optimal);
+    let rule = only(&outcome);
+    assert!(rule.rule.words().contains("from x = 20.000 to 60.000 m without inflections"), "{}", rule.rule.words());
+    assert!((5..rows).contains(&rule.rows) && rule.violation < 1e-9, "{rule:?}");
+    assert_eq!(changes(&outcome), 0, "z {z}");
 }
 
 #[test]
@@ -163,7 +188,7 @@ fn rules_that_name_nothing_are_refused_all_at_once() {
         Rule::FlatOfSide { x: [200.0, 210.0], z: [1.0, 2.0] },
         Rule::Tangent(TangentPlace::Entrance(40.0), 0.1),
     ];
-    let said = Job { rules, ..Job::default() }.run(&series60()).unwrap_err().to_string();
+    let said = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap_err().to_string();
     for words in ["no station at x = 500", "no cell of the net", "the stem does not reach z = 40"] {
         assert!(said.contains(words), "{said}");
     }
@@ -173,7 +198,7 @@ fn rules_that_name_nothing_are_refused_all_at_once() {
 fn contradictory_rules_are_infeasible_and_say_which() {
     let line = Line::Waterline(6.5024);
     let rules = vec![Rule::Monotone { line, over: [80.0, 115.0], rising: true }, Rule::Fixed(FixedLine::Stern)];
-    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
+    let outcome = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
     assert_eq!(outcome.status, Status::Infeasible);
     let found = outcome.faired.diagnosis.as_ref().unwrap();
     let give = found.rules.iter().map(|(_, give)| give.unwrap_or(f64::INFINITY)).collect::<Vec<_>>();

@@ -151,6 +151,13 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "Flats of bottom: their edge stays where the surface through the table has it.",
     ),
+    key(
+        "flat",
+        "keep",
+        Kind::Switch,
+        &[],
+        "Whether the flat of side that the table shows is kept: offsets at its greatest half-breadth, their outermost aside. Default: true.",
+    ),
     shape(
         "rising",
         "Parts of lines on which the half-breadth rises, forward along a waterline and upward along a station.",
@@ -163,7 +170,7 @@ pub const JOB_KEYS: &[Key] = &[
         "inflections",
         Kind::NamedCounts(r#""waterline 6.5" = 1"#),
         &[],
-        "Most inflections of lines, { \"waterline 6.5\" = 1 }.",
+        "Most inflections of lines or parts of them, { \"waterline 6.5\" = 1, \"station 0 from 2 m to 6 m\" = 0 }.",
     ),
     key(
         "hold",
@@ -260,6 +267,8 @@ pub struct JobFile {
     pub section_areas: Vec<[f64; 3]>,
     /// Whether suspects are left out.
     pub exclude_suspects: Option<bool>,
+    /// Whether the flat of side that the table shows is kept.
+    pub keep_flat: Option<bool>,
     /// Whether signs are imposed.
     pub signs: Option<bool>,
     /// Whether the energy is that of true curvature.
@@ -332,6 +341,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         weight: weight(document),
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
+        keep_flat: document.switch("flat.keep"),
         signs: document.switch("signs.impose"),
         true_curvature: document.switch("energy.true_curvature"),
         bending: document.switch("energy.bending"),
@@ -406,6 +416,7 @@ impl JobFile {
             weight: other.weight.or(self.weight),
             tolerance: other.tolerance.or(self.tolerance),
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
+            keep_flat: other.keep_flat.or(self.keep_flat),
             signs: other.signs.or(self.signs),
             true_curvature: other.true_curvature.or(self.true_curvature),
             bending: other.bending.or(self.bending),
@@ -424,6 +435,7 @@ impl JobFile {
         job.energy.anisotropy = self.anisotropy.unwrap_or(job.energy.anisotropy);
         job.weight = self.weight.flatten();
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
+        job.keep_flat = self.keep_flat.unwrap_or(true);
         job.signs = self.signs.unwrap_or(true);
         job.true_curvature = self.true_curvature.unwrap_or(false);
         job.bending = self.bending.unwrap_or(false);

@@ -360,6 +360,7 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
         "suspect",
         "text before",
         "text after",
+        "status",
     ];
     let mut csv = line(&head.map(str::to_owned));
     let yes = |flag: bool| if flag { "yes".to_owned() } else { String::new() };
@@ -386,6 +387,7 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
             yes(change.suspect),
             text(table, change),
             written.map(|written| text(written, change)).unwrap_or_default(),
+            status_word(outcome.status).to_owned(),
         ]));
     }
     csv

@@ -14,33 +14,50 @@ const SPANNED: f64 = 1e-8;
 /// How far a decided value may be off its limits: in the unit of a row of size 1.
 const SLACK: f64 = 1e-8;
 
-/// An orthonormal basis of equalities.
+/// An orthonormal basis of equalities; unknowns that one alone gives are no part of it.
 #[derive(Debug, Default)]
 pub(super) struct Determined {
-    size: usize,
-    /// Vectors with the value that x has along each.
+    /// Values of unknowns.
+    given: Vec<Option<f64>>,
+    /// Vectors over the others with the value that x has along each.
     basis: Vec<(Vec<f64>, f64)>,
 }
 
 impl Determined {
     /// Over so many unknowns.
     pub(super) fn new(size: usize) -> Self {
-        Self { size, basis: Vec::new() }
+        Self { given: vec![None; size], basis: Vec::new() }
     }
 
     /// Whether there are any.
     pub(super) fn is_empty(&self) -> bool {
-        self.basis.is_empty()
+        self.basis.is_empty() && self.given.iter().all(Option::is_none)
     }
 
-    /// Takes an equality; false when it follows from those before.
+    /// Takes an equality; false when it follows from those before. Those of one unknown are best taken first: they cost
+    /// nothing, and others a product with every one of their like.
     pub(super) fn take(&mut self, row: &Row, value: f64) -> bool {
         let norm = row.iter().map(|(_, a)| a * a).sum::<f64>().sqrt();
         if norm <= 0.0 {
             return value.abs() > SLACK;
         }
-        let (mut vector, mut rest) = (vec![0.0; self.size], value / norm);
-        row.iter().for_each(|&(i, a)| vector[i] += a / norm);
+        let mut rest = value / norm;
+        let mut open: Row = Vec::with_capacity(row.len());
+        for &(i, a) in row {
+            match self.given[i] {
+                Some(given) => rest -= a / norm * given,
+                None => open.push((i, a / norm)),
+            }
+        }
+        if let [(i, a)] = open[..]
+            && a.abs() > SPANNED
+            && self.basis.is_empty()
+        {
+            self.given[i] = Some(rest / a);
+            return true;
+        }
+        let mut vector = vec![0.0; self.given.len()];
+        open.iter().for_each(|&(i, a)| vector[i] += a);
         for _ in 0..2 {
             for (basis, along) in &self.basis {
                 let share: f64 = basis.iter().zip(&vector).map(|(a, b)| a * b).sum();
@@ -63,6 +80,11 @@ impl Determined {
     pub(super) fn decides(&self, row: &Row, [lower, upper]: [f64; 2]) -> bool {
         let norm = row.iter().map(|(_, a)| a * a).sum::<f64>().sqrt();
         let (mut left, mut value) = (norm * norm, 0.0);
+        let given = |&(i, a): &(usize, f64)| self.given[i].map(|given| (a, given));
+        for (a, given) in row.iter().filter_map(given) {
+            left -= a * a;
+            value += a * given;
+        }
         for (basis, along) in &self.basis {
             let share: f64 = row.iter().map(|&(i, a)| a * basis[i]).sum();
             left -= share * share;
@@ -89,5 +111,17 @@ mod tests {
         assert!(!known.decides(&vec![(0, 1.0), (1, 3.0), (2, 2.0)], [5.5, 6.0]));
         assert!(!known.decides(&vec![(3, 1.0)], [-1e9, 1e9]));
         assert!(!known.is_empty() && Determined::new(2).is_empty());
+    }
+
+    #[test]
+    fn unknowns_that_are_given_count_in_rows_of_several() {
+        let mut known = Determined::new(4);
+        assert!(known.take(&vec![(1, 2.0)], 6.0) && !known.take(&vec![(1, -1.0)], -3.0));
+        assert!(known.take(&vec![(1, 1.0)], 4.0), "a contradiction stays");
+        assert!(known.take(&vec![(0, 1.0), (1, 1.0)], 5.0), "gives unknown 0");
+        assert!(known.take(&vec![(2, 1.0), (3, 1.0)], 1.0) && known.take(&vec![(3, 1.0)], 7.0));
+        assert!(!known.take(&vec![(0, 1.0), (1, 1.0), (2, 1.0)], -1.0));
+        assert!(known.decides(&vec![(0, 1.0), (1, 1.0), (3, 1.0)], [12.0, 12.0]));
+        assert!(!known.decides(&vec![(0, 1.0), (1, 1.0), (3, 1.0)], [0.0, 11.0]));
     }
 }

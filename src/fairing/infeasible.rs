@@ -21,7 +21,8 @@ pub struct Reach {
     /// Index of the constraint.
     pub constraint: usize,
     /// Least and greatest value of its quantity within the tolerances and the other constraints, in its unit; where
-    /// these cannot be had themselves, without them; none where the tolerances alone cannot be had. Of what is not
+    /// these cannot be had themselves, without them, and without the rules where these cannot be had either; none where the
+    /// tolerances alone cannot be had. Of what is not
     /// linear: the values where its tangent at the start is least and greatest, which can be had, if the others are not
     /// its like.
     pub values: Option<[f64; 2]>,
@@ -219,12 +220,16 @@ pub fn diagnose(
     for constraint in constraints {
         let own = RowName::Constraint(constraint);
         let Target { limits: [lower, upper], scale, row } = &targets[constraint];
-        let with_others = asked.reach(own, row, &|_| false)?;
-        let alone = with_others.is_some();
-        let ends = match with_others {
-            Some(ends) => Some(ends),
-            None => asked.reach(own, row, &|name| matches!(name, RowName::Constraint(_)) && name != own)?,
-        };
+        let other = |name: RowName| matches!(name, RowName::Constraint(_)) && name != own;
+        let ruled = |name: RowName| matches!(name, RowName::Rule(_));
+        let mut ends = asked.reach(own, row, &|_| false)?;
+        let alone = ends.is_some();
+        if ends.is_none() {
+            ends = asked.reach(own, row, &other)?;
+        }
+        if ends.is_none() && !rules.is_empty() {
+            ends = asked.reach(own, row, &|name| other(name) || ruled(name))?;
+        }
         let values = ends.and_then(|[a, b]| {
             let (a, b) = (value(constraint, &a)?, value(constraint, &b)?);
             Some([a.min(b), a.max(b)])

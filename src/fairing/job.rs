@@ -5,8 +5,9 @@
 
 use super::bends::Line;
 use super::compromise::Instead;
-use super::constraint::{Constraint, FixedLine, Rule};
+use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
+use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::Diagnosis;
 use super::inspect::{ON_CHORD, PolygonSigns, kind, net_signs};
@@ -89,6 +90,9 @@ pub struct Job {
     pub holding: Holding,
     /// Rules for lines and regions.
     pub rules: Vec<Rule>,
+    /// Whether the flat of side that the table shows is kept where no rule says what is flat; not on a net of its own,
+    /// which keeps straight parts straight.
+    pub keep_flat: bool,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
@@ -116,6 +120,7 @@ impl Default for Job {
             weight: None,
             holding: Holding::Table,
             rules: Vec::new(),
+            keep_flat: true,
             accepted: Accepted::None,
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
@@ -175,6 +180,9 @@ pub enum JobError {
 /// Parts of the way from the nearest that targets can be had, where no offset has room left, to the fairest hull within
 /// the tolerances, that are gone back: the first on which no more inflections are counted than before, or the last.
 const GONE_BACK: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Part of a smooth move that just fits into the tolerances which is asked for.
+const WITHIN: f64 = 0.97;
 
 /// A cell and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -253,7 +261,7 @@ pub struct Outcome {
     pub resolution: f64,
     /// Whether targets that cannot be had within the tolerances gave way to the nearest that can.
     pub nearest: bool,
-    /// What was assumed, in words.
+    /// What the job came to in words, and then what the surface through the table had to assume.
     pub notes: Vec<String>,
 }
 
@@ -280,6 +288,54 @@ fn more_often(lines: &[Turns], carried: Option<f64>) -> Option<String> {
     })
 }
 
+/// What may be asked for in the place of targets that are out of reach, in the order in which it is tried: the part of them
+/// that one smooth move has within the tolerances, where these would have to be `carried` times as wide for all; and what
+/// the hulls have on the way from the first of `ends`, the nearest that they can be had, to the second, the fairest. Nothing
+/// that is further from a target than the surface through the table, the first of `starts`; the second has its chart.
+fn within_reach(
+    asked: &[Constraint],
+    [before, start]: [&Hull; 2],
+    ends: &[Vec<f64>; 2],
+    carried: Option<f64>,
+    surface: &FairSurface,
+) -> Result<Vec<Vec<Constraint>>, HullError> {
+    let eased = |constraint: &Constraint, value: f64| {
+        let own = constraint.value(before);
+        let nearer = constraint.missed(value, start) <= constraint.missed(own, start);
+        constraint.eased(if nearer { value } else { own }, start)
+    };
+    let mut choices: Vec<Vec<Constraint>> = Vec::new();
+    let mut smooth = None;
+    for part in GONE_BACK {
+        let [near, fair] = ends;
+        let net: Vec<f64> = near.iter().zip(fair).map(|(near, fair)| near + part * (fair - near)).collect();
+        let had = surface.hull_of(&net)?;
+        choices.push(asked.iter().map(|constraint| eased(constraint, constraint.value(&had))).collect());
+    }
+    if let Some(factor) = carried.filter(|factor| *factor > 1.0 && factor.is_finite()) {
+        let part = WITHIN / factor;
+        let value = |constraint: &Constraint| {
+            let own = constraint.value(before);
+            own + part * (constraint.target() - own)
+        };
+        smooth = Some(asked.iter().map(|constraint| eased(constraint, value(constraint))).collect::<Vec<_>>());
+    }
+    let missed = |choice: &[Constraint]| {
+        let nearest = |asked: &Constraint, eased: &Constraint| {
+            let value = eased.target() + eased.band().copysign(eased.target() - asked.target());
+            asked.missed(value, start)
+        };
+        asked.iter().zip(choice).map(|(asked, eased)| nearest(asked, eased)).sum::<f64>()
+    };
+    // What is nearer than a smooth move takes waves.
+    match smooth {
+        Some(smooth) if choices.iter().any(|choice| missed(&smooth) <= missed(choice)) => choices.insert(0, smooth),
+        Some(smooth) => choices.push(smooth),
+        None => {}
+    }
+    Ok(choices)
+}
+
 impl Job {
     /// Fairs a table.
     ///
@@ -295,7 +351,8 @@ impl Job {
                 locked.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max)
             };
             if other.status == Status::Optimal || moved(&outcome) > moved(&other).max(LOCKED) {
-                other.notes.push(
+                other.notes.insert(
+                    0,
                     "what is wished cannot be had on a net of its own, which follows the table with fewer control values: the \
                      net of the surface through the table was faired"
                         .to_owned(),
@@ -316,7 +373,47 @@ impl Job {
                 return Ok(other);
             }
         }
+        // A flat that the table shows and nobody asked for stands in the way of nothing.
+        let flat = outcome.rules.iter().position(|rule| matches!(rule.rule, Rule::FlatShown { .. }));
+        if let Some(flat) = flat {
+            let gives = |found: &Diagnosis| {
+                found.cheapest().is_none() || found.rules.iter().any(|(rule, give)| *rule == flat && give.is_some())
+            };
+            let hinders = outcome.rules[flat].given_up || outcome.faired.diagnosis.as_ref().is_some_and(gives);
+            if hinders || more(&outcome) > 0 {
+                let mut other = Self { keep_flat: false, ..self.clone() }.run(table)?;
+                let missed = |outcome: &Outcome| {
+                    let each = outcome.held.iter().map(|held| held.constraint.missed(held.after, &outcome.before));
+                    each.sum::<f64>()
+                };
+                let better = other.status == Status::Optimal && outcome.status != Status::Optimal;
+                let told =
+                    |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
+                let nearer = (missed(&other) < missed(&outcome) || told(&other) && !told(&outcome))
+                    && more(&other) <= more(&outcome);
+                if better || other.status == outcome.status && (more(&other) < more(&outcome) || nearer) {
+                    other.notes.insert(
+                        0,
+                        "the flat of side that the table shows was not kept: with it the offsets cannot be had within their tolerances, \
+                         targets are further away or lines bend more often"
+                            .to_owned(),
+                    );
+                    return Ok(other);
+                }
+            }
+        }
         Ok(outcome)
+    }
+
+    /// The rules, and the flat that the table shows where no rule says what is flat.
+    fn rules(&self, table: &OffsetTable, surface: &FairSurface, left_out: &[(usize, usize)]) -> Vec<Rule> {
+        let mut rules = self.rules.clone();
+        let said = rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }));
+        if self.keep_flat && !surface.own && !said {
+            let held = |rule: &Rule| rule.limits(surface).is_ok_and(|limits| !limits.is_empty());
+            rules.extend(shown_flat(table, left_out).filter(held));
+        }
+        rules
     }
 
     /// Fairs a table, on a net of its own where that is allowed and follows it.
@@ -325,6 +422,7 @@ impl Job {
             found,
             before,
             mut notes,
+            assumed,
             noise,
             quantum,
             proposals,
@@ -353,7 +451,8 @@ impl Job {
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         // What a rule says of the inflections of a line stands over the guard of them.
-        let ruled: Vec<Line> = self.rules.iter().filter_map(Rule::counted_line).collect();
+        let wished = self.rules(table, &surface, &excluded);
+        let ruled: Vec<Line> = wished.iter().filter_map(Rule::counted_line).collect();
         let guarded = |line: &Line| !ruled.contains(line);
         let another = |constraint: &Constraint| {
             let off = (constraint.value(&before) - constraint.target()).abs();
@@ -362,7 +461,7 @@ impl Job {
         let mut settings = FairSettings {
             others: constraints.iter().map(another).collect(),
             constraints,
-            rules: self.rules.clone(),
+            rules: wished.clone(),
             weight: self.weight,
             // Whoever names a tolerance for the table says how noisy it is.
             table_noise: Some(self.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
@@ -431,11 +530,11 @@ impl Job {
         let (asked, carried) = (settings.constraints.clone(), faired.carried);
         let mut refused = None;
         let mut given_up: Vec<usize> = Vec::new();
-        let mut kept: Vec<usize> = (0..self.rules.len()).collect();
+        let mut kept: Vec<usize> = (0..wished.len()).collect();
         while let Some(Instead::WithoutRules(rules)) = &faired.instead {
             given_up.extend(rules.iter().map(|&rule| kept[rule]));
             kept.retain(|rule| !given_up.contains(rule));
-            settings.rules = kept.iter().map(|&rule| self.rules[rule].clone()).collect();
+            settings.rules = kept.iter().map(|&rule| wished[rule].clone()).collect();
             refused = refused.or(faired.diagnosis.take());
             solver = RepeatedSolver::new(&self.solver);
             let without = fair_prepared(&mut surface, &settings, &prepared, &mut solver)?;
@@ -445,22 +544,23 @@ impl Job {
         let mut nearest = false;
         let (attempt, held) = match faired.instead.take() {
             // Targets that cannot be had give way: the nearest that leave a fair hull.
-            Some(Instead::Targets([near, fair])) => {
-                let mut best = None;
-                for part in GONE_BACK {
-                    let net: Vec<f64> =
-                        near.iter().zip(&fair).map(|(near, fair)| near + part * (fair - near)).collect();
-                    let had = surface.hull_of(&net)?;
-                    let mut eased = FairSettings {
-                        constraints: asked.iter().map(|constraint| constraint.if_had(&had)).collect(),
-                        ..settings.clone()
-                    };
+            Some(Instead::Targets(ends)) => {
+                let mut best: Option<(Attempt, Option<Vec<Held>>, FairSettings)> = None;
+                for constraints in within_reach(&asked, [&before, &surface.hull], &ends, carried, &surface)? {
+                    let mut eased = FairSettings { constraints, ..settings.clone() };
                     solver = RepeatedSolver::new(&self.solver);
-                    let again = fair_prepared(&mut surface, &eased, &prepared, &mut solver)?.after(&faired);
-                    let (attempt, held) = whole(&mut surface, &mut eased, &mut solver, again)?;
-                    let sum = |count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum::<usize>();
-                    let done = sum(|turns| turns.after) <= sum(|turns| turns.before);
-                    best = Some((attempt, held, eased));
+                    let again = fair_prepared(&mut surface, &eased, &prepared, &mut solver)?;
+                    if !again.solved.is_optimal() && best.is_some() {
+                        continue;
+                    }
+                    let (attempt, held) = whole(&mut surface, &mut eased, &mut solver, again.after(&faired))?;
+                    let sum = |attempt: &Attempt, count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum();
+                    let after: usize = sum(&attempt, |turns| turns.after);
+                    let done = after <= sum(&attempt, |turns| turns.before);
+                    let fewest = best.as_ref().is_none_or(|(best, ..)| after < sum(best, |turns| turns.after));
+                    if done || fewest {
+                        best = Some((attempt, held, eased));
+                    }
                     if done {
                         break;
                     }
@@ -473,7 +573,12 @@ impl Job {
             _ => whole(&mut surface, &mut settings, &mut solver, faired)?,
         };
         let Attempt { mut faired, after, mut lines } = attempt;
-        let changes = changes(table, &surface, &after, &excluded);
+        let mut changes = changes(table, &surface, &after, &excluded);
+        let fixed = |change: &Change| {
+            let deck = matches!(change.origin, Origin::Deck { .. });
+            settings.rules.iter().any(|rule| matches!(rule, Rule::Fixed(line) if line.has([change.x, change.z], deck)))
+        };
+        changes.iter_mut().for_each(|change| change.locked |= fixed(change));
         let least = |turns: &mut Turns| {
             let Some(line) = Line::of(turns.cut) else { return };
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
@@ -495,7 +600,7 @@ impl Job {
             held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver));
         let held = asked.into_iter().zip(held).map(|(constraint, held)| Held { constraint, ..held }).collect();
         let mut rules = held::rules(&surface, &settings, &faired);
-        given_up.iter().for_each(|&rule| rules.insert(rule, HeldRule::given_up(&self.rules[rule], &surface, &after)));
+        given_up.iter().for_each(|&rule| rules.insert(rule, HeldRule::given_up(&wished[rule], &surface, &after)));
         faired.diagnosis = refused.or(faired.diagnosis);
         faired.carried = carried;
         let energy = [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)];
@@ -538,6 +643,7 @@ impl Job {
                     .to_owned(),
             );
         }
+        notes.extend(assumed);
         let signs = [&before, &after].map(|hull| net_signs(hull.surface(), ON_CHORD * resolution));
         Ok(Outcome {
             proposals,
@@ -579,13 +685,8 @@ impl Job {
     /// named.
     pub(super) fn holds(&self, table: &OffsetTable, (station, waterline): (usize, usize)) -> bool {
         let column = &table.stations[station];
-        let (x, z) = (column.station.x, table.waterlines[waterline]);
-        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + b.abs());
-        let fixed = |rule: &Rule| match rule {
-            Rule::Fixed(FixedLine::Line(Line::Station(at))) => near(*at, x),
-            Rule::Fixed(FixedLine::Line(Line::Waterline(at))) => near(*at, z),
-            _ => false,
-        };
+        let place = [column.station.x, table.waterlines[waterline]];
+        let fixed = |rule: &Rule| matches!(rule, Rule::Fixed(line) if line.has(place, false));
         column.half_breadths[waterline].marks.locked
             || self.locked.contains(&(station, waterline))
             || self.tolerance.cells.iter().any(|(s, w, _)| (*s, *w) == (station, waterline))

@@ -13,6 +13,7 @@ pub mod constraint;
 pub mod curve;
 mod determined;
 pub mod fair;
+mod flats;
 pub mod guard;
 pub mod held;
 pub mod infeasible;

@@ -184,24 +184,27 @@ impl Program {
             matches!(row.name, RowName::Rule(_) | RowName::Tolerance(_)) && row.limits[0] >= row.limits[1]
         };
         let mut known = Determined::new(n);
+        let mut follows = vec![false; wanted.len()];
         // Only rules make equalities that follow from each other: lines that cross, flats.
         if wanted.iter().any(|row| matches!(row.name, RowName::Rule(_))) {
-            wanted.iter().filter(|row| equal(row)).for_each(|row| {
-                known.take(&row.row, row.limits[0]);
-            });
+            for single in [true, false] {
+                for (row, follows) in wanted.iter().zip(&mut follows) {
+                    if equal(row) && (row.row.len() == 1) == single {
+                        *follows = !known.take(&row.row, row.limits[0]);
+                    }
+                }
+            }
         }
+        let ruled = !known.is_empty();
         let (mut names, mut tolerances, mut decided) = (Vec::new(), Vec::new(), Vec::new());
-        let mut seen = Determined::new(n);
-        for row in wanted {
+        for (row, follows) in wanted.into_iter().zip(follows) {
             // What a fixed line does beyond 0 or B/2 between the offsets, by which its spline passes them, stays.
             let limits = if matches!(row.name, RowName::Breadth(_) | RowName::Between(_)) {
                 [f64::NEG_INFINITY, f64::INFINITY]
             } else {
                 row.limits
             };
-            let follows = !known.is_empty()
-                && if equal(&row) { !seen.take(&row.row, row.limits[0]) } else { known.decides(&row.row, limits) };
-            if follows {
+            if follows || ruled && !equal(&row) && known.decides(&row.row, limits) {
                 decided.push(row);
                 continue;
             }

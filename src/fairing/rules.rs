@@ -28,7 +28,7 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
 }
 
 /// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only
-/// what lies outside the ranges in which a rule decides the sign of curvature.
+/// what lies outside the ranges in which a rule decides the sign of curvature or the number of inflections.
 pub(super) fn guarded_lines<'a>(lines: &'a [TableLine], rules: &[Rule]) -> Cow<'a, [TableLine]> {
     let bending = |rule: &Rule| matches!(rule, Rule::Inflections { .. } | Rule::Curvature { .. });
     if !rules.iter().any(bending) {
@@ -37,7 +37,8 @@ pub(super) fn guarded_lines<'a>(lines: &'a [TableLine], rules: &[Rule]) -> Cow<'
     let counted = |line: &TableLine| rules.iter().any(|rule| rule.counted_line() == Some(line.line));
     let mut kept: Vec<TableLine> = lines.iter().filter(|line| !counted(line)).cloned().collect();
     for rule in rules {
-        if let Rule::Curvature { line, over: [from, to], .. } = rule {
+        if let Rule::Curvature { line, over: [from, to], .. } | Rule::Inflections { line, over: [from, to], .. } = rule
+        {
             for other in kept.iter_mut().filter(|other| other.line == *line) {
                 other.bends.retain(|bend| bend.at < *from || bend.at > *to);
             }
@@ -65,11 +66,15 @@ pub(super) fn turned(
     net: &[f64],
     mut solve: impl FnMut(&[(usize, Limit)]) -> Result<(Program, Solved), FairError>,
 ) -> Result<Option<Turned>, FairError> {
-    let ruled: Vec<(usize, usize, Line, Vec<Bend>)> = rules
+    let ruled: Vec<(usize, usize, Option<Line>, Vec<Bend>)> = rules
         .iter()
         .enumerate()
         .filter_map(|(k, rule)| match rule {
-            Rule::Inflections { line, most } => Some((k, *most, *line, bends(surface, *line))),
+            Rule::Inflections { line, over: [from, to], most } => {
+                let mut bends = bends(surface, *line);
+                bends.retain(|bend| (*from..=*to).contains(&bend.at));
+                Some((k, *most, rule.counted_line(), bends))
+            }
             _ => None,
         })
         .collect();
@@ -95,7 +100,7 @@ pub(super) fn turned(
         let (mut program, mut solved) = solve(&limits)?;
         if !solved.is_optimal() {
             for (k, most, line, _) in &ruled {
-                let least = lines.iter().find(|other| other.line == *line && other.least_at_most(*most));
+                let least = lines.iter().find(|other| Some(other.line) == *line && other.least_at_most(*most));
                 if let (Some(line), Some(place)) = (least, fresh.iter_mut().find(|(rule, _)| rule == k)) {
                     place.1 = line.wished(net, true);
                 }

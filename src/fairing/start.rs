@@ -26,6 +26,8 @@ pub(super) struct Started {
     /// The surface through the table.
     pub(super) before: Hull,
     pub(super) notes: Vec<String>,
+    /// What the surface through the table had to assume.
+    pub(super) assumed: Vec<String>,
     /// Noise of the table, not below its rounding \[m\].
     pub(super) noise: f64,
     /// Step of its writing \[m\].
@@ -131,7 +133,8 @@ impl Started {
         }
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
-        let Modelled { before, mut notes, proposals, surface, search, watched, .. } = modelled;
+        let Modelled { before, notes: assumed, proposals, surface, search, watched, .. } = modelled;
+        let mut notes = Vec::new();
         for (station, waterline) in kept {
             let (name, z) = (table.stations[station].station.words(), table.waterlines[waterline]);
             notes.push(format!(
@@ -144,7 +147,7 @@ impl Started {
             ));
         }
         let excluded = cleaned.excluded;
-        Ok(Self { found, before, notes, noise, quantum, proposals, surface, search, gap, excluded, watched })
+        Ok(Self { found, before, notes, assumed, noise, quantum, proposals, surface, search, gap, excluded, watched })
     }
 }
 

@@ -236,6 +236,12 @@ impl Hull {
         &self.name
     }
 
+    /// The same hull by another name.
+    #[must_use]
+    pub fn with_name(self, name: String) -> Self {
+        Self { name, ..self }
+    }
+
     /// The main dimensions.
     #[must_use]
     pub fn particulars(&self) -> &PrincipalParticulars {

@@ -187,9 +187,33 @@ fn offsets_name(job: &FairJob) -> String {
     }
 }
 
+/// What the name of a hull ends with that does not hold all wishes: it stands on every drawing and in every file that
+/// has the name.
+const COMPROMISE: &str = " (compromise)";
+
+/// The line above a table of such a hull.
+const COMPROMISE_LINE: &str =
+    "# compromise: not all that was wished of this table is held; fairing.json says what is not";
+
+/// A name without the mark of an earlier fairing, and with it where `compromise`.
+fn marked_name(name: &str, compromise: bool) -> String {
+    let plain = name.trim_end_matches(COMPROMISE);
+    format!("{plain}{}", if compromise { COMPROMISE } else { "" })
+}
+
+/// Marks a table, and takes the mark of an earlier fairing away.
+fn mark(table: &mut OffsetTable, compromise: bool) {
+    table.name = marked_name(&table.name, compromise);
+    table.form.preamble.retain(|line| line != COMPROMISE_LINE);
+    if compromise {
+        table.form.preamble.insert(0, COMPROMISE_LINE.to_owned());
+    }
+}
+
 /// The fair table with the texts of what did not move.
 fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
     let mut table = outcome.table.clone();
+    mark(&mut table, outcome.status != Status::Optimal);
     for (station, old) in table.stations.iter_mut().zip(&job.table.stations) {
         for (cell, old) in station.half_breadths.iter_mut().zip(&old.half_breadths) {
             if let (Some(a), Some(b)) = (cell.value(), old.value())
@@ -286,6 +310,9 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
     };
     let suspects: Vec<Value> = outcome.suspects.iter().map(|suspect| suspect_json(&job.table, suspect)).collect();
     let certificate = fairing_json(&job.table, &outcome, &rounding, &suspects);
+    let compromise = outcome.status != Status::Optimal;
+    let name_of_hull = marked_name(outcome.after.name(), compromise);
+    outcome.after = outcome.after.with_name(name_of_hull);
     let summary = summary(job, &outcome, &rows, &rounding);
     let [start, hull] = [&outcome.before, &outcome.after].map(|hull| write_hull(hull, &job.conventions));
     let mut files = vec![
@@ -300,7 +327,9 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         files.push(OutputFile::text("offsets.toml", text));
     }
     if figures {
-        files.extend(super::fair_figures::fair_figures(&FairRecord::new(&job.table, &outcome))?);
+        let mut record = FairRecord::new(&job.table, &outcome);
+        record.name = marked_name(&record.name, compromise);
+        files.extend(super::fair_figures::fair_figures(&record)?);
     }
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
@@ -327,7 +356,7 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
     let inflections: serde_json::Map<String, Value> =
         kinds.iter().map(|kind| (format!("{kind}s"), json!(outcome.inflections(kind)))).collect();
     json!({
-        "name": job.table.name,
+        "name": marked_name(&job.table.name, outcome.status != Status::Optimal),
         "status": status_word(outcome.status),
         "inputs": job.inputs,
         "particulars": Particulars::from(outcome.after.particulars()),

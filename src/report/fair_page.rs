@@ -16,7 +16,7 @@ use crate::units::Notation;
 const MOST_LINES: usize = 8;
 
 /// Remarks that the page shows.
-const MOST_REMARKS: usize = 8;
+const MOST_REMARKS: usize = 16;
 
 /// A small length in the terms of the table: parts of an inch, or millimetres.
 fn small(length: f64, notation: Notation) -> String {
@@ -82,6 +82,14 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     });
     let (rms, largest, at) = outcome.moves();
     let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
+    let tolerances = kept.iter().filter_map(|change| change.tolerance);
+    let [least, most] =
+        tolerances.fold([f64::INFINITY, 0.0_f64], |[least, most], each| [least.min(each), most.max(each)]);
+    if least < most * (1.0 - 1e-9) {
+        line.push_str(&format!("; tolerances {} to {} mm", millimetres(least), millimetres(most)));
+    } else if most > 0.0 {
+        line.push_str(&format!("; tolerance {} mm", millimetres(most)));
+    }
     line.push_str(&format!(
         ". Moves: {} mm RMS, {} mm at most{at}; {}.",
         millimetres(rms),
@@ -295,6 +303,9 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     }
     for note in outcome.notes.iter().take(MOST_REMARKS) {
         page.push_str(&wrapped(&format!("- {note}"), 2));
+    }
+    if outcome.notes.len() > MOST_REMARKS {
+        page.push_str(&format!("- {} more: notes in fairing.json\n", outcome.notes.len() - MOST_REMARKS));
     }
     let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
     page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));

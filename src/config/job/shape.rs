@@ -213,7 +213,7 @@ fn unclear(document: &mut Document<'_>, path: &str, text: &str, at: &Range<usize
     document.problem("E123", path, at, format!("{path}: \"{}\" is not clear", text.trim()), help);
 }
 
-/// `shape.inflections`: lines with the greatest number of their inflections.
+/// `shape.inflections`: lines or parts of them with the greatest number of their inflections.
 fn counts(document: &mut Document<'_>, job: &mut JobFile) {
     let path = "shape.inflections";
     let Some((raw, span, kind)) = document.raw(path) else { return };
@@ -222,7 +222,7 @@ fn counts(document: &mut Document<'_>, job: &mut JobFile) {
         return;
     };
     for (text, value, at) in fields {
-        let line = part(text).filter(|part| part.from.is_none() && part.to.is_none());
+        let line = part(text);
         let count = match value {
             Raw::Number(value) if value.fract() == 0.0 && (0.0..=99.0).contains(value) => Some(*value as usize),
             _ => None,
@@ -367,7 +367,7 @@ impl RuleMark {
             Said::FlatOfBottom(stations) => Rule::FlatOfBottom { x: range(x(&stations[0])?, x(&stations[1])?)? },
             Said::Monotone(part, rising) => Rule::Monotone { line: line(part)?, over: over(part)?, rising: *rising },
             Said::Curvature(part, convex) => Rule::Curvature { line: line(part)?, over: over(part)?, convex: *convex },
-            Said::Inflections(part, most) => Rule::Inflections { line: line(part)?, most: *most },
+            Said::Inflections(part, most) => Rule::Inflections { line: line(part)?, over: over(part)?, most: *most },
         }))
     }
 

@@ -32,7 +32,7 @@ fn everything_is_read() {
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
-                [suspects]\nexclude = false\n[signs]\nimpose = false";
+                [suspects]\nexclude = false\n[flat]\nkeep = false\n[signs]\nimpose = false";
     let file = read_job("j.toml", text).unwrap();
     assert_eq!((file.table.as_deref(), file.stated.draught), (Some("a.csv"), Some(4.0)));
     let job = file.for_table(&table(), 100.0).unwrap();
@@ -42,7 +42,7 @@ fn everything_is_read() {
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(!job.exclude_suspects && !job.signs && job.true_curvature && job.bending);
+    assert!(!job.exclude_suspects && !job.keep_flat && !job.signs && job.true_curvature && job.bending);
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
@@ -147,7 +147,7 @@ fn rules_for_lines_and_regions_are_read() {
                 [tangent]\nentrance = { \"2\" = \"12 deg\" }\nrun = { \"4 m\" = 20 }\nstations = { \"9 1/2@2\" = \"0 deg\" }\nwaterlines = { \"50@3\" = -4 }\n\
                 [flat]\nside = \"waterlines 2 to 4, stations 0 to 9 1/2\"\nbottom = [\"stations 10 m to 50 m\"]\n\
                 [shape]\nrising = [\"waterline 2 from 0 to 9 1/2\"]\nfalling = \"station 10\"\nconvex = [\"station 9 1/2 from 1 m\"]\nconcave = [\"waterline 3\"]\n\
-                inflections = { \"waterline 4\" = 1, \"station 0\" = 0 }\n[lines]\naccept = [\"L2\", \"l1\"]\n\
+                inflections = { \"waterline 4\" = 1, \"station 0\" = 0, \"waterline 2 from 9 1/2\" = 2 }\n[lines]\naccept = [\"L2\", \"l1\"]\n\
                 knuckle = \"waterline 2 from 9 1/2 to 95.5\"\ntangent = [\"station 50 m\"]";
     let file = read_job("j.toml", text).unwrap();
     let mut table = table();
@@ -167,8 +167,9 @@ fn rules_for_lines_and_regions_are_read() {
         Rule::Monotone { line: Line::Station(100.0), over: open, rising: false },
         Rule::Curvature { line: Line::Station(95.0), over: [1.0, f64::INFINITY], convex: true },
         Rule::Curvature { line: Line::Waterline(3.0), over: open, convex: false },
-        Rule::Inflections { line: Line::Waterline(4.0), most: 1 },
-        Rule::Inflections { line: Line::Station(0.0), most: 0 },
+        Rule::Inflections { line: Line::Waterline(4.0), over: open, most: 1 },
+        Rule::Inflections { line: Line::Station(0.0), over: open, most: 0 },
+        Rule::Inflections { line: Line::Waterline(2.0), over: [95.0, f64::INFINITY], most: 2 },
         Rule::Tangent(TangentPlace::Entrance(2.0), degrees(12.0)),
         Rule::Tangent(TangentPlace::Run(4.0), degrees(20.0)),
         Rule::Tangent(TangentPlace::Waterline([50.0, 3.0]), degrees(-4.0)),

@@ -201,12 +201,21 @@ impl Constraint {
         if let Self::SectionArea { band, .. } = self { *band } else { 0.0 }
     }
 
-    /// The same wish where a hull meets it; else that for what the hull has.
+    /// The same wish where a value meets it; else one whose nearest limit is that value, and that band wide.
     #[must_use]
-    pub fn if_had(self, hull: &Hull) -> Self {
-        let value = self.value(hull);
-        let off = (value - self.target()).abs() - self.band();
-        if off > 1e-9 * self.scale(hull) { self.with_target(value) } else { self }
+    pub fn eased(self, value: f64, hull: &Hull) -> Self {
+        let off = value - self.target();
+        if off.abs() - self.band() > 1e-9 * self.scale(hull) {
+            self.with_target(value - self.band().copysign(off))
+        } else {
+            self
+        }
+    }
+
+    /// By how much a value misses the wish, over its scale.
+    #[must_use]
+    pub fn missed(&self, value: f64, hull: &Hull) -> f64 {
+        ((value - self.target()).abs() - self.band()).max(0.0) / self.scale(hull)
     }
 
     /// Whether the quantity is linear in the net: its row is then that of any hull on the chart.

@@ -24,6 +24,22 @@ pub enum FixedLine {
     Named(String, Vec<[f64; 2]>),
 }
 
+impl FixedLine {
+    /// Whether a place (x, z) \[m\] of the table lies on it, or its offset at the deck at side (`deck`); of stem, stern
+    /// and keel no offset is known to lie on them.
+    #[must_use]
+    pub fn has(&self, [x, z]: [f64; 2], deck: bool) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + b.abs());
+        match self {
+            Self::Line(Line::Station(at)) => near(*at, x),
+            Self::Line(Line::Waterline(at)) => near(*at, z) && !deck,
+            Self::Deck => deck,
+            Self::Named(_, points) => points.iter().any(|point| near(point[0], x) && near(point[1], z)),
+            Self::Stem | Self::Stern | Self::Keel => false,
+        }
+    }
+}
+
 /// Where a tangent is prescribed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TangentPlace {
@@ -50,6 +66,15 @@ pub enum Rule {
         x: [f64; 2],
         /// From and to, above the base line \[m\].
         z: [f64; 2],
+    },
+    /// The flat of side that the table shows: its greatest half-breadth within rectangles, but for their edges.
+    FlatShown {
+        /// The half-breadth \[m\].
+        half_breadth: f64,
+        /// How many offsets of the table lie in it.
+        offsets: usize,
+        /// From and to along x, from and to along z, each between neighbouring stations and waterlines \[m\].
+        rectangles: Vec<[[f64; 2]; 2]>,
     },
     /// The edge of the flat of bottom stays where it is over a range of x \[m\].
     FlatOfBottom {
@@ -78,6 +103,8 @@ pub enum Rule {
     Inflections {
         /// Which line.
         line: Line,
+        /// From and to along the line, infinite for all of it \[m\].
+        over: [f64; 2],
         /// The greatest number.
         most: usize,
     },
@@ -118,6 +145,7 @@ impl Rule {
             Self::Fixed(_) => "fixed_line",
             Self::Tangent(..) => "tangent",
             Self::FlatOfSide { .. } => "flat_of_side",
+            Self::FlatShown { .. } => "flat_of_side_shown",
             Self::FlatOfBottom { .. } => "flat_of_bottom",
             Self::Monotone { rising: true, .. } => "rising",
             Self::Monotone { .. } => "falling",
@@ -155,6 +183,9 @@ impl Rule {
             Self::FlatOfSide { x, z } => {
                 format!("the flat of side from x = {:.3} to {:.3} m, z = {:.3} to {:.3} m", x[0], x[1], z[0], z[1])
             }
+            Self::FlatShown { half_breadth, offsets, .. } => {
+                format!("the flat of side that the table shows ({offsets} offsets at {half_breadth:.3} m)")
+            }
             Self::FlatOfBottom { x } => format!("the flat of bottom from x = {:.3} to {:.3} m", x[0], x[1]),
             Self::Monotone { line, over, rising } => {
                 format!("the {} {}", ranged(line, *over), if *rising { "rising" } else { "falling" })
@@ -162,9 +193,14 @@ impl Rule {
             Self::Curvature { line, over, convex } => {
                 format!("the {} {}", ranged(line, *over), if *convex { "convex" } else { "concave" })
             }
-            Self::Inflections { line, most: 0 } => format!("the {} without inflections", named(line)),
-            Self::Inflections { line, most: 1 } => format!("the {} with one inflection at most", named(line)),
-            Self::Inflections { line, most } => format!("the {} with {most} inflections at most", named(line)),
+            Self::Inflections { line, over, most } => {
+                let count = match most {
+                    0 => "without inflections".to_owned(),
+                    1 => "with one inflection at most".to_owned(),
+                    _ => format!("with {most} inflections at most"),
+                };
+                format!("the {} {count}", ranged(line, *over))
+            }
         }
     }
 
@@ -179,10 +215,13 @@ impl Rule {
         }
     }
 
-    /// The line whose inflections the rule decides, which nothing else should.
+    /// The line whose inflections the rule decides, which nothing else should; none where it decides a part of it.
     #[must_use]
     pub fn counted_line(&self) -> Option<Line> {
-        if let Self::Inflections { line, .. } = self { Some(*line) } else { None }
+        match self {
+            Self::Inflections { line, over: [from, to], .. } if from.is_infinite() && to.is_infinite() => Some(*line),
+            _ => None,
+        }
     }
 
     /// The rows of the rule; of [`Self::Inflections`], whose rows depend on an answer, none.
@@ -194,12 +233,11 @@ impl Rule {
             Self::Fixed(line) => fixed::limits(surface, line),
             Self::Tangent(place, angle) => tangent::limits(surface, *place, *angle),
             Self::FlatOfSide { x, z } => flat::side(surface, *x, *z),
+            Self::FlatShown { half_breadth, rectangles, .. } => Ok(flat::shown(surface, *half_breadth, rectangles)),
             Self::FlatOfBottom { x } => flat::bottom(surface, *x),
             Self::Monotone { line, over, rising } => monotone::limits(surface, *line, *over, *rising),
             Self::Curvature { line, over, convex } => curvature::limits(surface, *line, *over, *convex),
-            Self::Inflections { line, .. } => {
-                along(surface, *line, [f64::NEG_INFINITY, f64::INFINITY]).map(|_| Vec::new())
-            }
+            Self::Inflections { line, over, .. } => along(surface, *line, *over).map(|_| Vec::new()),
         }
     }
 }

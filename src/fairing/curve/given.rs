@@ -117,7 +117,9 @@ pub enum CurveError {
     #[error(transparent)]
     Spline(#[from] SplineError),
     /// Points that do not determine the curve.
-    #[error("the points do not determine the curve: {0}")]
+    #[error(
+        "the points do not determine the curve: every part between knuckles needs two points with an ordinate ({0})"
+    )]
     Undetermined(#[from] SingularMatrix),
     /// Numbers that make no program.
     #[error(transparent)]

@@ -27,6 +27,9 @@ const EXTRA: usize = 4;
 #[derive(Debug, Clone)]
 pub(super) struct CurveSpace {
     pub(super) knots: KnotVector,
+    /// Ends of the stretches between knuckles, and the order of the energy there: no higher than their readings
+    /// determine.
+    orders: Vec<(f64, usize)>,
     pub(super) order: usize,
     /// Points with an ordinate, by index.
     pub(super) read: Vec<usize>,
@@ -75,7 +78,21 @@ impl CurveSpace {
         }
         let knots = KnotVector::from_breakpoints(degree, &breaks, &times)?;
         let bends = curvature_rows(&knots);
-        Ok(Self { knots, order, read, bends })
+        let mut orders = Vec::new();
+        let mut from = 0;
+        for (k, point) in points.iter().enumerate() {
+            if k > from && (point.knuckle || k == last) {
+                let readings = read.iter().filter(|&&k| (points[from].x..=point.x).contains(&points[k].x)).count();
+                orders.push((point.x, order.min(readings).max(2)));
+                from = k;
+            }
+        }
+        Ok(Self { knots, orders, order, read, bends })
+    }
+
+    /// The order of the energy at x.
+    fn order_at(&self, x: f64) -> usize {
+        self.orders.iter().find(|(end, _)| x <= *end).map_or(self.order, |(_, order)| *order)
     }
 
     /// The row of the derivative of this order at x.
@@ -95,7 +112,7 @@ impl CurveSpace {
         let (p, n) = (self.knots.degree(), self.knots.basis_count());
         let mut energy = SymmetricBand::zeros(n, p);
         self.each_node(|span, x, weight| {
-            let (forms, speed) = metric(at, self.order, x);
+            let (forms, speed) = metric(at, self.order_at(x), x);
             let basis = self.knots.basis_derivatives::<5>(span, x);
             let first = span - p;
             let value = |r: usize| forms[0] * basis[2][r] + forms[1] * basis[3][r] + forms[2] * basis[4][r];
@@ -112,7 +129,7 @@ impl CurveSpace {
     pub(super) fn exact_energy(&self, curve: &BsplineCurve<1>) -> f64 {
         let mut sum = 0.0;
         self.each_node(|_, x, weight| {
-            let (forms, speed) = metric(Some(curve), self.order, x);
+            let (forms, speed) = metric(Some(curve), self.order_at(x), x);
             let d = curve.derivatives::<5>(x);
             let value = forms[0] * d[2][0] + forms[1] * d[3][0] + forms[2] * d[4][0];
             sum += weight * speed * value * value;

@@ -5,6 +5,11 @@
 //! before the hull begins; the last cell itself where the table ends with breadth (transom or cut); where the
 //! waterline, continued straight, closes before the next station. Each assumption is told once, with the waterlines it
 //! concerns.
+//!
+//! A zero says that the waterline has ended at its station, not where. Where the zeros of neighbouring waterlines stand
+//! at different stations the profile through them is a staircase, with waves of the sections between the waterlines
+//! (a tanker's stem: 0.2 m); there each waterline ends where it closes when continued straight, at its zero at the
+//! latest.
 
 use super::super::{Entry, LineKind, OffsetTable, StationOffsets};
 use super::monotone::monotone_cubic;
@@ -74,6 +79,7 @@ enum Origin {
     Transom,
     Profile,
     Zero,
+    BeforeZero,
     Cut,
     Continued,
 }
@@ -151,9 +157,10 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
     heights.dedup_by(|a, b| table.waterlines[*a] <= table.waterlines[*b]);
     let mut rows = Vec::new();
     let mut assumed: Vec<(Origin, usize, f64)> = Vec::new();
+    let staircase = staircase(table, &order, &heights);
     for &j in &heights {
         let line = Waterline { table, order: &order, j };
-        if let Some(row) = row(&line, &mut assumed, &mut notes) {
+        if let Some(row) = row(&line, staircase, &mut assumed, &mut notes) {
             rows.push(row);
         } else if order.iter().any(|&i| table.stations[i].half_breadths.get(j).is_some_and(|c| c.value().is_some())) {
             notes.push(format!("the waterline at z = {:.3} m has no length and is left out", table.waterlines[j]));
@@ -171,6 +178,10 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
         (Origin::Transom, "ends on the plane of the transom, its breadth there carried on from its last offsets"),
         (Origin::Profile, "ends on the profile"),
         (Origin::Zero, "ends at the last zero before the hull begins"),
+        (
+            Origin::BeforeZero,
+            "ends where it closes when continued straight, at its zero at the latest: zeros of neighbours stand at other stations",
+        ),
         (Origin::Cut, "is cut off at the last station, where it still has breadth (transom)"),
         (Origin::Continued, "ends where it closes when continued straight, before the next station"),
     ] {
@@ -221,7 +232,28 @@ fn crowded_ends(table: &OffsetTable, order: &mut Vec<usize>, notes: &mut Vec<Str
     }
 }
 
-fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mut Vec<String>) -> Option<Row> {
+/// Whether the zeros at which neighbouring waterlines end stand at different stations, aft and fore.
+fn staircase(table: &OffsetTable, order: &[usize], heights: &[usize]) -> [bool; 2] {
+    [false, true].map(|fore| {
+        let zero = |&j: &usize| {
+            let line = Waterline { table, order, j };
+            let outwards = |n: usize| if fore { order.len() - 1 - n } else { n };
+            let last = (0..order.len()).find(|&n| line.value(outwards(n)).is_some_and(|y| y > 0.0))?;
+            let beyond = last.checked_sub(1)?;
+            let given = table.endings.get(j).and_then(|ends| ends[usize::from(fore)]).is_some();
+            line.value(outwards(beyond)).filter(|y| *y <= 0.0 && !given).map(|_| beyond)
+        };
+        let zeros: Vec<Option<usize>> = heights.iter().map(zero).collect();
+        zeros.windows(2).any(|pair| matches!(pair, [Some(a), Some(b)] if a != b))
+    })
+}
+
+fn row(
+    line: &Waterline<'_>,
+    staircase: [bool; 2],
+    assumed: &mut Vec<(Origin, usize, f64)>,
+    notes: &mut Vec<String>,
+) -> Option<Row> {
     let count = line.order.len();
     let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
     let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
@@ -244,7 +276,7 @@ fn row(line: &Waterline<'_>, assumed: &mut Vec<(Origin, usize, f64)>, notes: &mu
         transom |= on_transom.is_some();
         let (end, origin) = match on_transom {
             Some(end) => (end, Origin::Transom),
-            None => end(line, side, k, step, &value)?,
+            None => end(line, (side, staircase[side]), k, step, &value)?,
         };
         *place = end;
         if origin != Origin::Given {
@@ -318,7 +350,7 @@ fn on_transom(line: &Waterline<'_>, first: usize, last: usize, value: &dyn Fn(us
 
 fn end(
     line: &Waterline<'_>,
-    side: usize,
+    (side, staircase): (usize, bool),
     k: usize,
     step: isize,
     value: &dyn Fn(usize) -> Option<f64>,
@@ -339,8 +371,18 @@ fn end(
         return Some((End { x, y: 0.0 }, Origin::Zero));
     }
     let Some(next) = next else { return Some((End { x, y }, Origin::Cut)) };
+    let straight = || {
+        let back = (1..)
+            .map_while(|n| k.checked_add_signed(-step * n))
+            .take(3)
+            .find_map(|b| if b < line.order.len() { line.value(b).map(|y| (line.x(b), y)) } else { None });
+        back.and_then(|(xb, yb)| if yb > y { Some(x + (x - xb) * y / (yb - y)) } else { None })
+    };
     if value(next).is_some_and(|y| y <= 0.0) {
-        return Some((End { x: line.x(next), y: 0.0 }, Origin::Zero));
+        let zero = line.x(next);
+        let before = straight().filter(|&at| staircase && outward(zero, at));
+        let origin = if before.is_some() { Origin::BeforeZero } else { Origin::Zero };
+        return Some((End { x: before.unwrap_or(zero), y: 0.0 }, origin));
     }
     if let Some(at) = profile_crossing(line, k, step) {
         // A profile that leaves the waterline at the station itself, or so near that the waterline could not close
@@ -357,13 +399,8 @@ fn end(
     }
     // Straight on, not beyond the next station.
     let beyond = line.x(next);
-    let back = (1..)
-        .map_while(|n| k.checked_add_signed(-step * n))
-        .take(3)
-        .find_map(|b| if b < line.order.len() { line.value(b).map(|y| (line.x(b), y)) } else { None });
-    let straight = back.and_then(|(xb, yb)| if yb > y { Some(x + (x - xb) * y / (yb - y)) } else { None });
     let limit = x + 0.9 * (beyond - x);
-    let at = straight.map_or(limit, |s| if outward(limit, s) { s } else { limit });
+    let at = straight().map_or(limit, |s| if outward(limit, s) { s } else { limit });
     Some((End { x: at, y: 0.0 }, Origin::Continued))
 }
 
