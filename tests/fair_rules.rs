@@ -161,7 +161,8 @@ fn a_line_has_no_more_inflections_than_it_may() {
     let rule = only(&outcome);
     assert!(rule.binding > 0 && rule.rows > 20 && rule.violation < 1e-9, "{rule:?}");
     let rows = rule.rows;
-    // A part of the line: no change of sign of the second differences left in it, where there were some.
+    // A part of the line: no change of sign of the second differences left in it, where there were some. What is below
+    // a micrometre on half a metre departs from its chord by less than a twentieth of a millimetre.
     let over = [20.0, 60.0];
     let changes = |outcome: &Outcome| {
         let y = |x: f64| outcome.after.half_breadth(x, z).unwrap();
@@ -169,7 +170,7 @@ fn a_line_has_no_more_inflections_than_it_may() {
             let x = 21.0 + 0.5 * f64::from(k);
             y(x - 0.25) - 2.0 * y(x) + y(x + 0.25)
         };
-        let bends: Vec<f64> = (0..=76).map(bend).filter(|bend| bend.abs() > 1e-9).collect();
+        let bends: Vec<f64> = (0..=76).map(bend).filter(|bend| bend.abs() > 1e-6).collect();
         bends.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count()
     };
     assert!(changes(&free) > 0, "z {z}");
