@@ -171,7 +171,7 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
     let off = match held.after - target {
         off if nearest && off.abs() > held.constraint.band() + 1e-9 * target.abs() => {
             format!(
-                "{} were asked for and are out of reach: this is near the nearest that the tolerances leave",
+                "{} were asked for and are out of reach: this is the nearest found that leaves a fair hull",
                 fixed(target, decimals) + unit
             )
         }

@@ -158,8 +158,8 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
     let sites = between(&job.space, points, &tolerances, settings, &reference);
     let Within { free, mut status, diagnosis, nearest, mut contradictory } = job.within(&wished, &sites, &reference)?;
     let z = scores(&job.forms[0], &job.smoother, &smoothed, &free.net);
-    let choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
-    let (mut solved, pattern) = match choice.taken {
+    let mut choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
+    let (mut solved, mut pattern) = match choice.taken.take() {
         Some(taken) => (taken.solved, Some(taken.signs.pattern(&z))),
         None => (free.clone(), None),
     };
@@ -175,7 +175,17 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
             let kept = (job.model.energy.clone(), job.smoother.clone(), job.lambda);
             let curve = job.space.curve(&solved.net)?;
             job.remeasure(&curve);
-            let next = job.solve(&wishes, pattern.as_ref())?;
+            let mut next = job.solve(&wishes, pattern.as_ref())?;
+            // What kept to its number of changes by itself may not do so with another metric.
+            let often = |(s, count): (usize, &usize)| changes(&job, &next, starts[s], starts[s + 1]) > *count;
+            if pattern.is_none()
+                && choice.counts.iter().enumerate().any(often)
+                && let Some(found) = job.pattern(&z, &starts, &choice.counts)?
+            {
+                choice.price = ((found.solved.objective - next.objective) / (sigma * sigma)).max(0.0);
+                pattern = Some(found.signs.pattern(&z));
+                next = found.solved;
+            }
             let now = if next.is_optimal() { job.exact(&next.net)? } else { f64::INFINITY };
             if now >= exact * (1.0 - FALL) {
                 (job.model.energy, job.smoother, job.lambda) = kept;
@@ -365,6 +375,8 @@ fn moved(points: &[CurvePoint], curve: &BsplineCurve<1>, tolerances: &[Option<f6
 /// What was decided about the signs.
 struct Choice {
     taken: Option<Patterned>,
+    /// Changes that each stretch keeps to by itself; none where they are imposed, or may be any.
+    counts: Vec<usize>,
     allowed: Option<usize>,
     price: f64,
     refused: Vec<(usize, f64)>,
@@ -380,7 +392,8 @@ fn choose(
     free: &Solved,
     sigma: f64,
 ) -> Result<Choice, CurveError> {
-    let mut choice = Choice { taken: None, allowed: None, price: 0.0, refused: Vec::new(), widening: 1.0 };
+    let mut choice =
+        Choice { taken: None, counts: Vec::new(), allowed: None, price: 0.0, refused: Vec::new(), widening: 1.0 };
     let raw: Vec<usize> = (0..starts.len() - 1).map(|s| changes(job, free, starts[s], starts[s + 1])).collect();
     let price = |solved: &Solved| ((solved.objective - free.objective) / (sigma * sigma)).max(0.0);
     match job.settings.inflections {
@@ -403,6 +416,7 @@ fn choose(
             }
             // The curve keeps to the number by itself.
             choice.allowed = Some(counts.iter().sum());
+            choice.counts = counts;
         }
         InflectionWish::AtMost(wished) => {
             let mut counts = vec![0; raw.len()];
@@ -412,6 +426,7 @@ fn choose(
             }
             choice.allowed = Some(wished);
             if counts.iter().zip(&raw).all(|(count, raw)| count >= raw) {
+                choice.counts = counts;
                 return Ok(choice);
             }
             choice.taken = job.pattern(z, starts, &counts)?;
