@@ -547,7 +547,7 @@ mod tests {
         assert_eq!(placer.name_point(&mut canvas, "7", &style, &[[40.0, 10.0]], &sheet), Some(0));
         assert_eq!(placer.name_point(&mut canvas, "8", &style, &[[10.0, 20.5]], &sheet), None);
         let places =
-            [15.0, 20.0].map(|y| Canvas::text_place([41.0, y], "1.5", &TextStyle { anchor: Anchor::End, ..style }));
+            [15.0, 20.0].map(|y| Canvas::text_place([41.2, y], "1.5", &TextStyle { anchor: Anchor::End, ..style }));
         let shift = placer.clear_shift(&places, 8.0);
         assert!((shift - 1.5).abs() < 1e-9, "{shift}");
         assert!(placer.clear_shift(&places, 0.5) <= 0.5);

@@ -47,6 +47,14 @@ pub(super) fn accuracy_words(record: &FairRecord) -> (f64, String) {
     }
 }
 
+/// A small length in the terms of the table, in millimetres to three figures.
+fn small(length: f64, notation: Notation) -> String {
+    match notation {
+        Notation::FeetInchesEighths => notation.small(length),
+        _ => format!("{} mm", millimetres(length)),
+    }
+}
+
 /// How many offsets stayed within the accuracy of the table, and how far they moved.
 fn kept(record: &FairRecord) -> String {
     let (limit, shown) = accuracy_words(record);
@@ -67,10 +75,7 @@ fn kept(record: &FairRecord) -> String {
     });
     let (rms, largest, _) = record.moves();
     let notation = record.lines.notation;
-    let [rms, largest, noise] = [rms, largest, record.sigma].map(|length| match notation {
-        Notation::FeetInchesEighths => notation.small(length),
-        _ => format!("{} mm", millimetres(length)),
-    });
+    let [rms, largest, noise] = [rms, largest, record.sigma].map(|length| small(length, notation));
     line.push_str(&format!(". Moves: {rms} RMS, {largest} at most; noise of the table {noise}."));
     line
 }
@@ -91,7 +96,7 @@ fn tolerances(record: &FairRecord) -> String {
         1 => "1 offset stops at its own".to_owned(),
         n => format!("{n} offsets stop at theirs"),
     };
-    let small = |t: f64| record.lines.notation.small(t);
+    let small = |t: f64| small(t, record.lines.notation);
     if most - least <= 1e-9 {
         format!("tolerance of every offset {}, {stopped}", small(most))
     } else {
