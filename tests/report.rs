@@ -461,6 +461,20 @@ fn capitals_are_at_least_1_8_mm_high_on_paper() {
 }
 
 #[test]
+fn the_verdict_says_how_many_offsets_were_kept_and_with_which_settings() {
+    let svg = text(&faired().1, "verdict.svg");
+    for part in [
+        "450 of 451 offsets kept within",
+        "1 suspected typing error left out",
+        "Settings: toleranc",
+        "smoothing weight",
+        "Made from offsets.csv (sha256",
+    ] {
+        assert!(svg.contains(part), "{part} is not in {svg}");
+    }
+}
+
+#[test]
 fn the_page_has_the_tables_of_offsets_before_and_after() {
     let (_, files) = faired();
     let page = text(files, "report.html");
@@ -572,7 +586,9 @@ fn figures_look_as_the_kept_ones() {
     for (a, b) in told.lines().zip(kept.lines()) {
         assert_eq!(a, b);
     }
-    for key in ["bonjean", "gaussian-map", "lines", "zebra-map"] {
+    assert_eq!(told.lines().count(), kept.lines().count());
+    let of_hull = ["bonjean", "gaussian-map", "lines", "zebra-map"].map(|key| (key, &files));
+    for (key, files) in of_hull.into_iter().chain([("fairing-body-plan", &faired().1)]) {
         let name = format!("{key}.png");
         let picture = &files.iter().find(|file| file.name == name).unwrap().contents;
         if write {
@@ -606,16 +622,30 @@ const DRIVE: &str = "<pre id=\"driven\"></pre><script>(async () => {
     for (let k = 0; k < pixels.length; k++) { sum = (sum * 31 + pixels[k]) >>> 0; if (pixels[k] < 200) dark++; }
     return [sum, dark / pixels.length];
   };
-  const states = [];
+  const maps = () => ['gaussian', 'mean', 'zebra'].map((id) => document.getElementById(id).disabled);
+  // Whether nothing is cut off by the edge of the view.
+  const whole = () => {
+    const [w, h] = [canvas.width, canvas.height];
+    return [[0, 0, w, 1], [0, h - 1, w, 1], [0, 0, 1, h], [w - 1, 0, 1, h]].every(([x, y, dx, dy]) => {
+      const pixels = new Uint8Array(4 * dx * dy);
+      gl.readPixels(x, y, dx, dy, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      return pixels.every((value) => value === 255);
+    });
+  };
+  const states = [], open = maps();
   const note = async (name) => { await wait(); states.push([name, ...look()]); };
   await note('start');
   for (const id of ['station', 'waterline', 'buttock', 'diagonal', 'combs', 'gaussian', 'mean', 'zebra', 'surface', 'half']) {
     document.getElementById(id).click();
     await note(id);
   }
+  const closed = maps();
   for (const button of document.querySelectorAll('[data-view]')) { button.click(); await note(button.dataset.view); }
   document.getElementById('body').click();
   await note('body');
+  document.getElementById('station').click();
+  await note('sections');
+  const inside = whole();
   document.getElementById('before').click();
   await note('before');
   const head = document.querySelector('#changes th:nth-child(7) button'), column = () =>
@@ -625,7 +655,7 @@ const DRIVE: &str = "<pre id=\"driven\"></pre><script>(async () => {
   head.click();
   const falling = column().every((value, k, all) => k === 0 || all[k - 1] >= value);
   document.getElementById('driven').textContent = JSON.stringify({
-    states, faults, rising, falling, viewer: document.documentElement.dataset.viewer, figures: document.querySelectorAll('figure svg').length,
+    states, faults, open, closed, inside, rising, falling, viewer: document.documentElement.dataset.viewer, figures: document.querySelectorAll('figure svg').length,
     wide: document.documentElement.scrollWidth <= innerWidth, outside: performance.getEntriesByType('resource').map((r) => r.name).filter((n) => !n.startsWith('data:')) });
 })();</script>";
 
@@ -666,10 +696,16 @@ fn the_page_works_in_a_browser() {
     assert_eq!(told["viewer"], "drawn");
     assert_eq!(told["outside"], serde_json::json!([]), "the page asks for other files");
     assert_eq!((&told["rising"], &told["falling"], &told["wide"]), (&true.into(), &true.into(), &true.into()));
+    // Maps can be chosen where there is a surface to paint them on.
+    assert_eq!(
+        (&told["open"], &told["closed"]),
+        (&serde_json::json!([false, false, false]), &serde_json::json!([true, true, true]))
+    );
+    assert_eq!(told["inside"], true, "combs leave the body plan");
     // Tables stand on the page as text.
-    assert_eq!(told["figures"], HULL.len() + FAIRED.len() - 6);
+    assert_eq!(told["figures"], HULL.len() + FAIRED.len() - 9);
     let states = told["states"].as_array().unwrap();
-    assert_eq!(states.len(), 17);
+    assert_eq!(states.len(), 18);
     for pair in states.windows(2) {
         // The view in space is the first one, and before differs by less than pixels on this table.
         let same = pair[1][0] == "before" || pair[1][0] == "space";

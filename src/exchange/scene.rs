@@ -3,8 +3,8 @@
 //!
 //! Port side alone; lengths in metres to a tenth of a millimetre, curvatures to four digits. `midship` is L_PP/2;
 //! `full` the Gaussian and mean curvature of the full colours; `hulls` are in the order they were given; each has
-//! `name`, `rows` (points of a column), `points` (x, y, z, column by column from aft, keel to deck), `gaussian` and
-//! `mean` (as long as there are points; 0 where there is no tangent plane), `curves` by kind as lists of x, y, z, and
+//! `name`, `rows` (points of a column), `points` (x, y, z, column by column from aft, keel to deck), `normals` of the surface at
+//! them, `gaussian` and `mean` (as long as there are points; 0 where there is no tangent plane), `curves` by kind as lists of x, y, z, and
 //! `combs` by kind as `feet` and `teeth`, the tooth in 1/m.
 
 use serde_json::{Value, json};
@@ -24,6 +24,11 @@ const SHARE: f64 = 0.95;
 fn rounded(value: f64) -> f64 {
     let value = (1e4 * value).round() / 1e4;
     if value.is_finite() { value + 0.0 } else { 0.0 }
+}
+
+/// A normal to a hundred-thousandth, which is finer than reflections show; 0 where there is none.
+fn normal(normal: Option<[f64; 3]>) -> [f64; 3] {
+    normal.unwrap_or_default().map(|c| if c.is_finite() { (1e5 * c).round() / 1e5 + 0.0 } else { 0.0 })
 }
 
 /// Four digits.
@@ -61,6 +66,7 @@ pub fn scene_json(hulls: &[(&str, &Hull)], cuts: &[Cut], tolerance: f64) -> Valu
                 "name": name,
                 "rows": map.rows,
                 "points": flat(map.points.iter().map(|p| p.at)),
+                "normals": map.points.iter().flat_map(|p| normal(p.normal)).collect::<Vec<_>>(),
                 "gaussian": curvature(0),
                 "mean": curvature(1),
                 "curves": curves,

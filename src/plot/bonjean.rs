@@ -14,7 +14,7 @@ use super::{FigureInputs, PlotError, Svg, caption, outline};
 use crate::hull::{Hull, SectionalAreaCurve, StationNumbers, keel_height};
 
 /// Room aft and forward of the profile \[mm\].
-const SIDES: [f64; 2] = [20.0, 14.0];
+const SIDES: [f64; 2] = [20.0, 17.0];
 /// Upper edge of the profile, and its largest height \[mm\].
 const TOP: f64 = 30.0;
 const HEIGHT: f64 = 130.0;
@@ -94,6 +94,8 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let name = |k: usize| stations.number((table.stations[k] / spacing).round()).to_string();
     let n = drawing_scale(top - bottom, HEIGHT);
     let upward = 1000.0 / f64::from(n);
+    let step = nice_step(p.depth, ROWS);
+    let is_round = |z: f64| (z / step - (z / step).round()).abs() < 1e-9;
     let floor = TOP + upward * (top - bottom);
     let levels: Vec<f64> = (0..=LEVELS).map(|k| bottom + (top - bottom) * k as f64 / LEVELS as f64).collect();
     let dense = BonjeanTable::new(hull, &table.stations, &levels);
@@ -128,15 +130,17 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
     }
     let right = TextStyle::new(LETTERS, Anchor::Start);
-    canvas.text([at(end, p.draught)[0] + 1.5, at(end, p.draught)[1]], "DWL", &right);
-    // The height of the design waterline before those beside it.
-    let mut named = vec![at(low, p.draught)[1]];
-    canvas.text([left - 2.0, named[0]], &format!("{:.2} m", p.draught), &names);
-    for &z in &table.heights {
+    // The design waterline bears its height on the other side, where it takes no place from those beside it.
+    let [x, y] = at(end, p.draught);
+    for (row, words) in ["DWL".to_owned(), format!("{:.2} m", p.draught)].iter().enumerate() {
+        canvas.text([x + 1.5, y + 3.8 * row as f64], words, &right);
+    }
+    let mut named: Option<f64> = None;
+    for &z in table.heights.iter().filter(|z| (**z - p.draught).abs() > 1e-9 || is_round(**z)) {
         let y = at(low, z)[1];
-        if named.iter().all(|other| (other - y).abs() >= 3.6) {
+        if named.is_none_or(|other| (other - y).abs() >= 3.6) {
             canvas.text([left - 2.0, y], &format!("{z:.2} m"), &names);
-            named.push(y);
+            named = Some(y);
         }
     }
     draw_centreplane(&mut canvas, inputs, |[x, z]| at(x, z));

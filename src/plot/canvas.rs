@@ -197,6 +197,8 @@ fn area_inside(points: &[[f64; 2]], r: &Rectangle) -> Vec<[f64; 2]> {
     })
 }
 
+/// Width of the white edge around letters, half of it outside of them, in sizes of the text.
+const EDGED: f64 = 0.42;
 /// What stays free at the edges of a sheet \[mm\].
 const EDGE: f64 = 3.0;
 
@@ -482,13 +484,11 @@ impl Canvas {
         if style.halo {
             let edge = format!(
                 "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\" aria-hidden=\"true\"",
-                number(0.35 * style.size)
+                number(EDGED * style.size)
             );
             write_element(&mut self.halos, at, pieces, style, &edge);
-            // A line through a gap between words, or beside a point, reads as a hyphen or a colon.
-            if text.trim().contains([' ', '.', '\u{2013}']) {
-                let _ = writeln!(self.halos, "<rect {} fill=\"#ffffff\"/>", place.attributes());
-            }
+            // A line through a gap between words, or beside a point or a 1, reads as a hyphen or a colon.
+            let _ = writeln!(self.halos, "<rect {} fill=\"#ffffff\"/>", place.attributes());
         }
         write_element(&mut self.letters, at, pieces, style, &format!("fill=\"{}\"", style.colour));
     }

@@ -32,6 +32,8 @@ pub(super) struct CombScale {
 pub(super) struct DrawnComb {
     /// The lines of the tips.
     pub(super) tips: Vec<Vec<[f64; 2]>>,
+    /// The teeth, foot and tip.
+    pub(super) teeth: Vec<[[f64; 2]; 2]>,
     /// Arrows for teeth that had to be left out, foot and point, with the largest curvature of those \[1/m\].
     pub(super) cut: Vec<([[f64; 2]; 2], f64)>,
 }
@@ -114,6 +116,7 @@ impl CombScale {
             end(canvas, &mut drawn, &mut longest);
             if k % DRAWN == 0 {
                 canvas.line(feet[k], tip(size), &pens.teeth);
+                drawn.teeth.push([feet[k], tip(size)]);
             }
             tips.push(tip(size));
         }

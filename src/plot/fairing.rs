@@ -26,6 +26,8 @@ const FOOT: f64 = 30.0;
 pub(super) const LONG_SIDES: [f64; 2] = [19.5, 10.0];
 /// Room forward of half a ship \[mm\].
 const HALF_SIDE: f64 = 5.5;
+/// A row below all of [`ROWS`] for names of stations that combs leave no other place \[mm\].
+const LAST_ROW: f64 = 17.4;
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
 const CHORD: f64 = 0.01;
 
@@ -33,7 +35,7 @@ pub(super) const BEFORE: Pen = Pen::new(0.2, "#7d7d7d");
 pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
 pub(super) const BEFORE_COMB: CombPens = CombPens {
     teeth: Pen::new(0.1, "#dedede"),
-    tips: Pen::new(0.15, "#8f8f8f"),
+    tips: Pen::new(0.18, "#8f8f8f").dashed(&[0.7, 0.5]),
     ring: Pen::new(0.3, "#9a9a9a"),
     cut: Pen::new(0.15, "#8f8f8f"),
 };
@@ -343,15 +345,28 @@ pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet)
     let mut placer = drawn.placer();
     title(&mut canvas, &plan, &drawn);
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    // Heights stand outside the reach of the combs, all in one column.
+    let style = TextStyle::new(LETTERS, Anchor::End);
+    let heights: Vec<([f64; 2], String)> = record
+        .lines
+        .waterlines
+        .iter()
+        .map(|&height| (frame(-1.0, height), format!("{height:.3}")))
+        .map(|([x, y], name)| ([x - 2.0, y], name))
+        .collect();
+    let places: Vec<Rectangle> =
+        heights.iter().map(|(at, name)| Canvas::text_place(*at, name, &style).grown(0.6)).collect();
+    let left = places.iter().map(|place| place.left).fold(f64::INFINITY, f64::min);
+    let shift = placer.clear_shift(&places, left - window.left);
+    for ([x, y], name) in heights {
+        if shift > 0.0 {
+            canvas.line([x - shift + 0.8, y], [x + 2.0, y], &GRID);
+        }
+        placer.name_point(&mut canvas, &name, &style, &[[x - shift, y]], &window);
+    }
     drawn.name_cut(&mut canvas, &mut placer, &window);
     name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
     number_sections(&mut canvas, record, &drawn.curves, &mut placer, &window);
-    let style = TextStyle::new(LETTERS, Anchor::End);
-    for &height in &record.lines.waterlines {
-        let [x, y] = frame(-1.0, height);
-        let places = [[x - 2.0, y], [x - 9.0, y]];
-        placer.name_point(&mut canvas, &format!("{:.3}", height), &style, &places, &window);
-    }
     let words = TextStyle::new(3.2, Anchor::Middle);
     canvas.text([0.5 * paper[0] - 60.0, paper[1] - 20.0], "AFT", &words);
     canvas.text([0.5 * paper[0] + 60.0, paper[1] - 20.0], "FORWARD", &words);
@@ -464,7 +479,8 @@ fn half_breadths(
     for station in stations {
         let [px, py] = at([station.x, 0.0, 0.0]);
         let name: String = caption::plain(&station.name).chars().take(9).collect();
-        placer.name_point(&mut canvas, &name, &style, &ROWS.map(|down| [px, py + down]), &window);
+        let rows: Vec<[f64; 2]> = ROWS.into_iter().chain([LAST_ROW]).map(|down| [px, py + down]).collect();
+        placer.name_point(&mut canvas, &name, &style, &rows, &window);
     }
     drawn.name_cut(&mut canvas, &mut placer, &window);
     let style = TextStyle::new(LETTERS, Anchor::Middle);
@@ -502,8 +518,9 @@ pub(super) struct Drawn {
     rings: Vec<[f64; 2]>,
     /// The scale of the combs; none where there are no combs.
     words: Option<String>,
-    /// Tips of the combs.
+    /// Tips of the combs, and teeth of the fair ones.
     tips: Vec<Vec<[f64; 2]>>,
+    teeth: Vec<[[f64; 2]; 2]>,
     /// Arrows for teeth of the fair curves that had to be left out, with their curvature \[1/m\].
     cut: Vec<([[f64; 2]; 2], f64)>,
     /// The same of the curves before.
@@ -518,6 +535,7 @@ impl Drawn {
         self.curves.extend(other.curves);
         self.rings.extend(other.rings);
         self.tips.extend(other.tips);
+        self.teeth.extend(other.teeth);
         self.cut.extend(other.cut);
         self.cut_before.extend(other.cut_before);
         Self { words: self.words.or(other.words), beyond: self.beyond || other.beyond, ..self }
@@ -533,6 +551,7 @@ impl Drawn {
                 .collect(),
             rings: self.rings.into_iter().filter(has).collect(),
             tips: self.tips.iter().flat_map(|line| pieces_inside(line, window)).collect(),
+            teeth: self.teeth.into_iter().filter(|[foot, _]| has(foot)).collect(),
             cut: self.cut.into_iter().filter(|([foot, _], _)| has(foot)).collect(),
             cut_before: self.cut_before.into_iter().filter(|[foot, _]| has(foot)).collect(),
             ..self
@@ -544,6 +563,7 @@ impl Drawn {
         let mut placer = LabelPlacer::default();
         self.curves.iter().for_each(|(_, line)| placer.add_curve(line));
         self.tips.iter().for_each(|line| placer.add_faint(line));
+        placer.add_teeth(&self.teeth);
         self.cut.iter().for_each(|(arrow, _)| placer.add_arrow(*arrow));
         self.cut_before.iter().for_each(|arrow| placer.add_arrow(*arrow));
         for [x, y] in &self.rings {
@@ -681,13 +701,14 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     at: &dyn Fn(&Cut) -> F,
 ) -> Drawn {
     let [before, after] = plan.combs.on(cuts);
-    let (mut tips, mut left, mut left_before) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut tips, mut teeth, mut left, mut left_before) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
         for comb in list {
             let drawn = plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
             tips.extend(drawn.tips);
             if fair {
                 left.extend(drawn.cut);
+                teeth.extend(drawn.teeth);
             } else {
                 left_before.extend(drawn.cut.into_iter().map(|(arrow, _)| arrow));
             }
@@ -716,7 +737,7 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
     let bearing = cuts.iter().filter(|cut| after.iter().any(|comb| comb.cut == **cut)).count();
     let words = after.first().map(|comb| plan.combs.words(&comb.cut, [bearing, cuts.len()]));
-    Drawn { curves: drawn, rings, words, tips, cut: left, cut_before: left_before, beyond }
+    Drawn { curves: drawn, rings, words, tips, teeth, cut: left, cut_before: left_before, beyond }
 }
 
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
@@ -760,10 +781,10 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     canvas.text(
         [0.5 * plan.room[0], plan.room[1] - 12.5],
         &format!(
-            "{}    {}    rings: inflections of bends {:.2} mm or more off their chord{}",
+            "{}    {}    rings: inflections of bends {} or more off their chord{}",
             station_words(plan.record),
             plan.heights,
-            1e3 * plan.record.tolerance(),
+            plan.record.lines.notation.small(plan.record.tolerance()),
             if drawn.beyond { format!("    {BEYOND}") } else { String::new() }
         ),
         &words,

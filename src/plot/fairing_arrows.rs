@@ -99,10 +99,13 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
         let from = at(change.x, change.before, change.z);
         if change.suspect {
             ring(&mut canvas, from);
+            placer.take(Rectangle::new(from[0], from[1], from[0], from[1]).grown(1.8));
             continue;
         }
         let length = times * millimetres * (change.after - change.before);
-        arrow(&mut canvas, from, [length * side(change.x), 0.0], length);
+        if let Some(drawn) = arrow(&mut canvas, from, [length * side(change.x), 0.0], length) {
+            placer.add_arrow(drawn);
+        }
     }
     drawn.iter().for_each(|(_, line)| placer.add_curve(line));
     name_stations(&mut canvas, record, &drawn, &mut placer, &window, [0.5 * paper[0], midship]);
@@ -121,11 +124,11 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
 }
 
 /// An arrow along `by` \[mm\], orange where `sign` is positive and blue elsewhere; its head is at most a third of it.
-/// None where it would be too short to be seen.
-pub(super) fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64) {
+/// None where it would be too short to be seen; its foot and tip otherwise.
+pub(super) fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64) -> Option<[[f64; 2]; 2]> {
     let length = by[0].hypot(by[1]);
     if length < LEAST {
-        return;
+        return None;
     }
     let pen = if sign > 0.0 { &OUTWARD } else { &INWARD };
     let along = by.map(|d| d / length);
@@ -136,6 +139,7 @@ pub(super) fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64
     let corner =
         |s: f64| [tip[0] - head * along[0] - s * wide * along[1], tip[1] - head * along[1] + s * wide * along[0]];
     canvas.area(&[tip, corner(1.0), corner(-1.0)], pen.colour);
+    Some([from, tip])
 }
 
 /// A ring around an offset that was left out.
@@ -166,7 +170,7 @@ pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspec
     for (sign, word) in [1.0, -1.0].into_iter().zip(signs) {
         let from = add(canvas, word);
         let start = if sign > 0.0 { from } else { from + 11.0 };
-        arrow(canvas, [start, y], [9.0 * sign, 0.0], sign);
+        let _ = arrow(canvas, [start, y], [9.0 * sign, 0.0], sign);
     }
     if suspects {
         let from = add(canvas, "left out as a suspect");

@@ -58,8 +58,10 @@ impl LongView {
         ]
     }
 
-    fn arrow(&self, canvas: &mut Canvas, from: [f64; 3], by: f64) {
-        arrow(canvas, self.at(from), [0.0, -1000.0 * by / self.move_a_millimetre], by);
+    fn arrow(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, from: [f64; 3], by: f64) {
+        if let Some(drawn) = arrow(canvas, self.at(from), [0.0, -1000.0 * by / self.move_a_millimetre], by) {
+            placer.add_arrow(drawn);
+        }
     }
 }
 
@@ -194,13 +196,13 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
             }
         }
     }
-    rises.iter().for_each(|(from, by)| profile.arrow(&mut canvas, *from, *by));
+    rises.iter().for_each(|(from, by)| profile.arrow(&mut canvas, &mut placer, *from, *by));
     for change in &record.changes {
         let from = [change.x, change.before, change.z];
         if change.suspect {
             ring(&mut canvas, plan.at(from));
         } else {
-            plan.arrow(&mut canvas, from, change.after - change.before);
+            plan.arrow(&mut canvas, &mut placer, from, change.after - change.before);
         }
     }
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);

@@ -30,6 +30,8 @@ const NAMES: f64 = 16.0;
 const WORDS: f64 = 6.0;
 const STRIP: f64 = 0.34;
 const AXIS: f64 = 8.0;
+/// What stays free at the left edge of a sheet \[mm\].
+const EDGE_OF_SHEET: f64 = 3.0;
 /// Longest tooth of a comb \[mm\].
 pub(super) const LONGEST: f64 = 7.0;
 /// Offsets of a line that is shown, at least.
@@ -168,7 +170,8 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     let y = paper[1] - 5.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut words = format!("{} {plural} of the table, by the RMS of their moves", lines.len());
-    words.push_str(&format!("    inflections: of bends {:.2} mm or more off their chord", 1e3 * record.tolerance()));
+    let chord = record.lines.notation.small(record.tolerance());
+    words.push_str(&format!("    inflections: of bends {chord} or more off their chord"));
     let any = |which: fn(&Change) -> bool| lines.iter().flat_map(|line| &line.offsets).any(|change| which(change));
     if any(|change| change.locked && !change.suspect) {
         words.push_str("    large red squares: locked");
@@ -248,6 +251,9 @@ fn panel(
         for comb in list {
             let drawn = scale.draw(canvas, comb, on, pens);
             drawn.tips.iter().for_each(|line| placer.add_faint(line));
+            if fair {
+                placer.add_teeth(&drawn.teeth);
+            }
             drawn.cut.iter().for_each(|(arrow, _)| placer.add_arrow(*arrow));
             cut.extend(drawn.cut.into_iter().filter(|_| fair));
             for &place in &comb.inflections {
@@ -295,15 +301,56 @@ fn square([x, y]: [f64; 2], half: f64) -> [[f64; 2]; 4] {
 }
 
 /// Figures at the left side of a frame, no more of them than keep apart.
-pub(super) fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
-    let step = nice_step(range.high - range.low, (frame.height() / (1.4 * LETTERS)).clamp(1.0, 5.0));
+fn figures(canvas: &mut Canvas, frame: &Rectangle, range: &Range, name: &str) {
     let style = TextStyle::new(LETTERS, Anchor::End);
-    for value in multiples(step, range.low, range.high) {
-        let y = frame.bottom - range.share(value) * frame.height();
-        canvas.line([frame.left, y], [frame.right, y], &LIGHT);
-        canvas.text([frame.left - 1.0, y], &format!("{:.*}", decimals(step), value + 0.0), &style);
+    for (y, text) in rules(canvas, frame, range) {
+        canvas.text([frame.left - 1.0, y], &text, &style);
     }
     let middle = [frame.left - 13.0, 0.5 * (frame.top + frame.bottom)];
+    canvas.text(middle, name, &TextStyle::new(LETTERS, Anchor::Middle).upward());
+}
+
+/// Light lines across a frame, no more of them than leave room for their figures, which are returned with their places.
+pub(super) fn rules(canvas: &mut Canvas, frame: &Rectangle, range: &Range) -> Vec<(f64, String)> {
+    let step = nice_step(range.high - range.low, (frame.height() / (1.4 * LETTERS)).clamp(1.0, 5.0));
+    let rule = |value: f64| {
+        let y = frame.bottom - range.share(value) * frame.height();
+        canvas.line([frame.left, y], [frame.right, y], &LIGHT);
+        (y, format!("{:.*}", decimals(step), value + 0.0))
+    };
+    multiples(step, range.low, range.high).into_iter().map(rule).collect()
+}
+
+/// The figures of [`rules`] left of a frame that combs reach out of: outside their reach where the sheet has room, or else
+/// on a clear ground; what an arrow passes through has no figure.
+pub(super) fn figures_clear(
+    canvas: &mut Canvas,
+    placer: &mut LabelPlacer,
+    frame: &Rectangle,
+    rules: &[(f64, String)],
+    name: &str,
+) {
+    let style = TextStyle::new(LETTERS, Anchor::End).halo();
+    let at = |y: f64| [frame.left - 1.0, y];
+    let places: Vec<Rectangle> =
+        rules.iter().map(|(y, text)| Canvas::text_place(at(*y), text, &style).grown(0.5)).collect();
+    let left = places.iter().map(|place| place.left).fold(frame.left - 1.0, f64::min);
+    // Between the figures and the edge of the sheet stands the name of the axis.
+    let shift = placer.clear_shift(&places, left - EDGE_OF_SHEET - 1.5 * LETTERS);
+    for ((y, text), place) in rules.iter().zip(&places) {
+        let place = Rectangle { left: place.left - shift, right: place.right - shift, ..*place };
+        if placer.has_arrow(&place) {
+            continue;
+        }
+        let [x, y] = at(*y);
+        if shift > 0.0 {
+            canvas.line([x - shift + 0.6, y], [frame.left, y], &LIGHT);
+        }
+        canvas.text([x - shift, y], text, &style);
+        placer.take(place);
+    }
+    let usual = (frame.left - 13.0).min(left - shift - 0.9 * LETTERS);
+    let middle = [usual.max(EDGE_OF_SHEET + 0.5 * LETTERS), 0.5 * (frame.top + frame.bottom)];
     canvas.text(middle, name, &TextStyle::new(LETTERS, Anchor::Middle).upward());
 }
 

@@ -7,7 +7,7 @@
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::{Drawn, Plan, Reach, curves, draw, extent, long_left, rings_of, title};
 use super::fairing_combs::{FairingCombs, some};
-use super::fairing_curves::{Range, figures};
+use super::fairing_curves::{Range, figures_clear, rules};
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
@@ -218,7 +218,7 @@ impl Strips<'_> {
                 canvas.line(strip.at([station.x, bottom]), strip.at([station.x, top]), &GRID);
             }
             reach.draw_border(&mut canvas, [left, left + width], [frame.top - 3.0, frame.bottom + 3.0]);
-            figures(&mut canvas, &strip.frame, &Range { low: bottom, high: top }, axis);
+            let ruled = rules(&mut canvas, &strip.frame, &Range { low: bottom, high: top });
             let at = |cut: &Cut| {
                 let (cut, strip) = (*cut, &strip);
                 move |p: [f64; 3]| strip.at(Kind::project(&cut, p))
@@ -227,6 +227,7 @@ impl Strips<'_> {
             let one = draw(&mut canvas, &plan, std::slice::from_ref(cut), 0.01 / (stretch * millimetres), &at);
             canvas.end_group();
             let one = one.inside(&window);
+            figures_clear(&mut canvas, &mut one.placer(), &strip.frame, &ruled, axis);
             drawn = Some(match drawn {
                 Some(others) => others.joined(one),
                 None => one,

@@ -54,6 +54,10 @@ pub(super) struct Preference {
     pub(super) beside: bool,
 }
 
+/// Length of the heads of arrows, and what stays free around them \[mm\].
+const HEAD: f64 = 1.6;
+const AROUND_HEAD: f64 = 0.5;
+
 /// Chords of a curve that are looked at together.
 const PIECE: usize = 16;
 
@@ -67,8 +71,12 @@ pub(super) struct LabelPlacer {
     bounds: Vec<Rectangle>,
     /// The rectangles around every [`PIECE`] chords of them.
     pieces: Vec<Vec<Rectangle>>,
+    /// Teeth of combs, which names keep off where they can.
+    teeth: Vec<[[f64; 2]; 2]>,
     taken: Vec<Rectangle>,
     leaders: Vec<[[f64; 2]; 2]>,
+    /// Both sides of the heads of arrows.
+    heads: Vec<[[f64; 2]; 2]>,
 }
 
 impl LabelPlacer {
@@ -90,14 +98,25 @@ impl LabelPlacer {
         }
     }
 
+    /// Teeth of a comb, foot and tip.
+    pub(super) fn add_teeth(&mut self, teeth: &[[[f64; 2]; 2]]) {
+        self.teeth.extend_from_slice(teeth);
+    }
+
     /// A place that is taken.
     pub(super) fn take(&mut self, place: Rectangle) {
         self.taken.push(place);
     }
 
-    /// An arrow, which no name crosses.
+    /// An arrow, foot and tip, which no name crosses.
     pub(super) fn add_arrow(&mut self, arrow: [[f64; 2]; 2]) {
         self.leaders.push(arrow);
+        let [foot, tip] = arrow;
+        let along = [tip[0] - foot[0], tip[1] - foot[1]];
+        let length = along[0].hypot(along[1]).max(1e-9);
+        let [x, y] = along.map(|c| HEAD.min(length) * c / length);
+        let corner = |side: f64| [tip[0] - x - 0.4 * side * y, tip[1] - y + 0.4 * side * x];
+        self.heads.extend([-1.0, 1.0].map(|side| [tip, corner(side)]));
     }
 
     /// Writes `name` beside an arrow of [`LabelPlacer::add_arrow`], inside `window` and off every text and arrow, where
@@ -121,7 +140,7 @@ impl LabelPlacer {
         // From the middle of the name to a line in the direction `way` past its rectangle.
         let clear = |way: [f64; 2]| 0.5 * (size.width() * way[0].abs() + size.height() * way[1].abs());
         let mut places: Vec<(f64, [f64; 2], bool)> =
-            vec![(0.0, [0, 1].map(|d| tip[d] + (clear(along) + 1.2) * along[d]), false)];
+            vec![(0.0, [0, 1].map(|d| tip[d] + (clear(along) + 1.5) * along[d]), false)];
         for (k, part) in [1.0, 0.75, 0.5, 0.25].into_iter().enumerate() {
             for way in [[-along[1], along[0]], [along[1], -along[0]]] {
                 let at = [0, 1].map(|d| foot[d] + part * length * along[d] + (clear(way) + 1.3) * way[d]);
@@ -159,8 +178,8 @@ impl LabelPlacer {
             }) {
                 continue;
             }
-            let crossed = self.crossings(&place, None) as f64 + 0.5 * self.crossings_of(&place, None, true) as f64;
-            let cost = price + crossed;
+            let crossed = self.crossings(&place, None) + self.crossings_of(&place, None, true);
+            let cost = price + crossed as f64 + 0.7 * self.teeth_in(&place) as f64;
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, at, place, thread));
             }
@@ -202,6 +221,45 @@ impl LabelPlacer {
             .sum()
     }
 
+    /// Teeth of combs in a place; many are as bad as three.
+    fn teeth_in(&self, place: &Rectangle) -> usize {
+        let near = |[a, b]: &&[[f64; 2]; 2]| {
+            a[0].min(b[0]) < place.right
+                && a[0].max(b[0]) > place.left
+                && a[1].min(b[1]) < place.bottom
+                && a[1].max(b[1]) > place.top
+        };
+        self.teeth.iter().filter(near).filter(|[a, b]| crosses(place, *a, *b)).take(3).count()
+    }
+
+    /// Curves, tips and teeth of combs in a place.
+    fn lines_in(&self, place: &Rectangle) -> usize {
+        self.crossings(place, None) + self.crossings_of(place, None, true) + self.teeth_in(place)
+    }
+
+    /// How far to the left `places` have to be moved, all by the same and at most by `farthest` \[mm\], to stand clear of
+    /// lines, combs, arrows and text; where none of them is clear, the shift at which fewest lines are met.
+    pub(super) fn clear_shift(&self, places: &[Rectangle], farthest: f64) -> f64 {
+        const STEP: f64 = 0.5;
+        let met = |shift: f64| {
+            let moved = places.iter().map(|r| Rectangle { left: r.left - shift, right: r.right - shift, ..*r });
+            moved.map(|place| if self.is_free(&place) { self.lines_in(&place) } else { 10 }).sum::<usize>()
+        };
+        let shifts = (0..=(farthest.max(0.0) / STEP).floor() as i32).map(|k| STEP * f64::from(k));
+        shifts.min_by_key(|shift| met(*shift)).unwrap_or(0.0)
+    }
+
+    /// Whether an arrow passes through a place.
+    pub(super) fn has_arrow(&self, place: &Rectangle) -> bool {
+        self.leaders.iter().any(|&[a, b]| crosses(place, a, b)) || self.has_head(place)
+    }
+
+    /// Whether the head of an arrow stands in a place.
+    fn has_head(&self, place: &Rectangle) -> bool {
+        let around = place.grown(AROUND_HEAD);
+        self.heads.iter().any(|&[a, b]| crosses(&around, a, b))
+    }
+
     /// Writes `name` on curve number `curve` (in the order of [`LabelPlacer::add_curve`]), as near to the part that is
     /// preferred as there is room inside `window`; where every place meets another curve, at the place that meets fewest.
     /// False when every place meets other text or too many curves.
@@ -230,7 +288,7 @@ impl LabelPlacer {
                 continue;
             }
             let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
-            let faint = 0.5 * self.crossings_of(&place, None, true) as f64;
+            let faint = 0.7 * self.crossings_of(&place, None, true) as f64 + 0.15 * self.teeth_in(&place) as f64;
             let cost = faint + crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
             if crossings <= preferred.crossings && best.is_none_or(|(least, _, _)| cost < least) {
                 best = Some((cost, at, place));
@@ -242,10 +300,9 @@ impl LabelPlacer {
         true
     }
 
-    /// Whether neither text nor a leader stands in `place`.
+    /// Whether neither text nor a leader nor an arrow stands in `place`.
     fn is_free(&self, place: &Rectangle) -> bool {
-        !self.taken.iter().any(|taken| taken.overlaps(place))
-            && !self.leaders.iter().any(|&[a, b]| crosses(place, a, b))
+        !self.taken.iter().any(|taken| taken.overlaps(place)) && !self.has_arrow(place)
     }
 
     /// Writes `name` off every curve and text inside `window`, with a leader of `pen` to curve number `curve`; the
@@ -295,7 +352,8 @@ impl LabelPlacer {
                     let crossed = (0..self.curves.len())
                         .filter(|&k| k != curve && self.chords(k, &around).any(|chord| meet(leader, chord)))
                         .count();
-                    let cost = length + CROSSING * crossed as f64;
+                    let combs = self.crossings_of(&place, None, true) + self.teeth_in(&place);
+                    let cost = length + CROSSING * crossed as f64 + combs as f64;
                     if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                         best = Some((cost, leader, at, place));
                     }
@@ -338,7 +396,7 @@ impl LabelPlacer {
             let clear = k == 0
                 || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
                     && !self.leaders.iter().any(|&other| meet(thread, other));
-            let crossed = self.crossings(&place, None) + self.crossings_of(&place, None, true);
+            let crossed = self.lines_in(&place);
             let order = (crossed + 3 * usize::from(!clear), k);
             if best.as_ref().is_none_or(|(least, ..)| order < *least) {
                 best = Some((order, at, apart));
@@ -369,8 +427,7 @@ impl LabelPlacer {
         let free = places.iter().filter_map(|&at| {
             let place = Canvas::text_place(at, name, style).grown(0.1 * style.size);
             let blocked = !window.contains(&place) || !self.is_free(&place);
-            let crossed = || self.crossings(&place, None) + self.crossings_of(&place, None, true);
-            (!blocked).then(|| (crossed(), at, place))
+            (!blocked).then(|| (self.lines_in(&place), at, place))
         });
         if let Some((_, at, place)) = free.min_by_key(|(crossings, _, _)| *crossings) {
             self.take(place);
@@ -378,8 +435,8 @@ impl LabelPlacer {
         }
     }
 
-    /// Writes `name` at the first of `places` that keeps off other text and stays inside `window`, and returns
-    /// which; none when none does.
+    /// Writes `name` at that of `places` off other text and heads of arrows and inside `window` where it meets fewest
+    /// arrows, curves and combs, at the first of several, and returns which; none when there is none.
     pub(super) fn name_point(
         &mut self,
         canvas: &mut Canvas,
@@ -388,22 +445,31 @@ impl LabelPlacer {
         places: &[[f64; 2]],
         window: &Rectangle,
     ) -> Option<usize> {
+        /// What an arrow that is crossed counts, in curves.
+        const ARROW: usize = 4;
+        let mut best: Option<(usize, usize, Rectangle)> = None;
         for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style);
-            if window.contains(&place) && !self.taken.iter().any(|taken| taken.overlaps(&place)) {
-                // Names side by side need more room between them than names in rows.
-                let (beside, above) = (0.5 * style.size, 0.08 * style.size);
-                self.take(Rectangle::new(
-                    place.left - beside,
-                    place.top - above,
-                    place.right + beside,
-                    place.bottom + above,
-                ));
-                canvas.text(at, name, style);
-                return Some(k);
+            if !window.contains(&place)
+                || self.taken.iter().any(|taken| taken.overlaps(&place))
+                || self.has_head(&place)
+            {
+                continue;
+            }
+            let met = if self.has_arrow(&place) { ARROW } else { 0 } + self.lines_in(&place);
+            if best.as_ref().is_none_or(|(least, ..)| met < *least) {
+                best = Some((met, k, place));
+            }
+            if met == 0 {
+                break;
             }
         }
-        None
+        let (_, k, place) = best?;
+        // Names side by side need more room between them than names in rows.
+        let (beside, above) = (0.5 * style.size, 0.08 * style.size);
+        self.take(Rectangle::new(place.left - beside, place.top - above, place.right + beside, place.bottom + above));
+        canvas.text(places[k], name, style);
+        Some(k)
     }
 }
 
@@ -462,6 +528,29 @@ mod tests {
     fn segments_meet_or_do_not() {
         assert!(meet([[0.0, 0.0], [2.0, 2.0]], [[0.0, 2.0], [2.0, 0.0]]));
         assert!(!meet([[0.0, 0.0], [2.0, 2.0]], [[3.0, 2.0], [2.1, 0.0]]));
+    }
+
+    #[test]
+    fn names_keep_off_combs_and_heads_of_arrows() {
+        let mut canvas = Canvas::new(100.0, 50.0);
+        let mut placer = LabelPlacer::default();
+        let (style, sheet) = (TextStyle::new(3.0, Anchor::Middle), canvas.sheet());
+        placer.add_arrow([[10.0, 30.0], [10.0, 20.0]]);
+        placer.add_teeth(&[[[40.0, 5.0], [40.0, 24.0]]]);
+        // The head is in the way of the first, the shaft of the second.
+        assert_eq!(
+            placer.name_point(&mut canvas, "5", &style, &[[10.9, 20.5], [10.0, 27.0], [10.0, 35.0]], &sheet),
+            Some(2)
+        );
+        assert_eq!(placer.name_point(&mut canvas, "6", &style, &[[40.0, 10.0], [40.0, 30.0]], &sheet), Some(1));
+        // What has no other place stands on a tooth, but never on a head.
+        assert_eq!(placer.name_point(&mut canvas, "7", &style, &[[40.0, 10.0]], &sheet), Some(0));
+        assert_eq!(placer.name_point(&mut canvas, "8", &style, &[[10.0, 20.5]], &sheet), None);
+        let places =
+            [15.0, 20.0].map(|y| Canvas::text_place([41.2, y], "1.5", &TextStyle { anchor: Anchor::End, ..style }));
+        let shift = placer.clear_shift(&places, 8.0);
+        assert!((shift - 1.5).abs() < 1e-9, "{shift}");
+        assert!(placer.clear_shift(&places, 0.5) <= 0.5);
     }
 
     #[test]

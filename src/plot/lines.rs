@@ -1,6 +1,7 @@
 //! The lines plan on A3 or A1: profile, half-breadth plan and body plan in true proportion at scales of the list, with
-//! a title block and a table of half-breadths. Where a larger scale is had for it, names stand at one end of the long
-//! views alone, or diagonals stay away from under the half-breadth plan.
+//! a title block and a table of half-breadths. Diagonals in their true shape always stand under the half-breadth plan:
+//! they are the judge of fairness, and worth a smaller scale. Where a larger scale is had for it, names stand at one end
+//! of the long views alone.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::{BEYOND, is_guessed, midship_of};
@@ -54,24 +55,17 @@ impl Extents {
         [
             self.length * millimetres + style.naming.rooms().iter().sum::<f64>(),
             self.height * millimetres + ends,
-            (self.half_breadth + self.below(style)) * millimetres + ends,
+            (self.half_breadth + self.diagonals) * millimetres + ends,
         ]
     }
 
-    /// How far the half-breadth plan goes below its centre line [m].
-    fn below(&self, style: LongStyle) -> f64 {
-        if style.diagonals { self.diagonals } else { 0.0 }
-    }
-
-    /// What a layout is worth: the square of the scale of the two long views times that of the body plan, so that
-    /// neither grows at the cost of the other; a third of it when the table does not fit, and the same when there are
-    /// no diagonals.
+    /// What a layout is worth: the fourth power of the scale of the two long views times that of the body plan, so that
+    /// a body plan twice as large is not worth a step of the long views; a third of it when the table does not fit.
     fn merit(&self, layout: &Layout) -> f64 {
         let [long, body] = [layout.scale, layout.body_scale].map(|scale| 1000.0 / f64::from(scale));
         let table =
             layout.table.width() >= self.table[0] - ROUNDING && layout.table.height() >= self.table[1] - ROUNDING;
-        let part = |has: bool, without: f64| if has { 1.0 } else { without };
-        long * long * body * part(table, 0.35) * part(layout.style.diagonals, 0.35)
+        long.powi(4) * body * if table { 1.0 } else { 0.35 }
     }
 
     /// Height of the body plan with its names at 1 : `scale` [mm].
@@ -115,10 +109,8 @@ struct Long {
 fn layout(extents: &Extents, frame: &Rectangle) -> Layout {
     let inner = frame.grown(-GAP);
     let mut best: Option<(f64, Layout)> = None;
-    let styles = [true, false]
-        .into_iter()
-        .flat_map(|diagonals| Naming::ALL.map(|naming| LongStyle { text_size: TEXT, naming, diagonals }));
-    for (style, scale) in styles.flat_map(|style| drawing_scales().map(move |scale| (style, scale))) {
+    let styles = Naming::ALL.map(|naming| LongStyle { text_size: TEXT, naming });
+    for (style, scale) in styles.into_iter().flat_map(|style| drawing_scales().map(move |scale| (style, scale))) {
         let views = extents.long_views(scale, style);
         let long = Long { scale, style, views };
         let choices = beside(extents, &long, &inner).into_iter().chain(below(extents, &long, &inner));
@@ -132,7 +124,7 @@ fn layout(extents: &Extents, frame: &Rectangle) -> Layout {
     let nothing = Rectangle::new(inner.left, inner.top, inner.right, inner.top);
     let otherwise = Layout {
         scale: 1_000_000,
-        style: LongStyle { text_size: TEXT, naming: Naming::Full, diagonals: true },
+        style: LongStyle { text_size: TEXT, naming: Naming::Full },
         body_scale: 1_000_000,
         profile: nothing,
         half_breadths: nothing,
@@ -187,7 +179,10 @@ fn below(extents: &Extents, long: &Long, inner: &Rectangle) -> Vec<Layout> {
         let beside = column - extents.table[0] - GAP;
         let between =
             over.height() < extents.table[1] - ROUNDING && beside - GAP - inner.left >= extents.body_width(body_scale);
-        let body = Rectangle::new(inner.left, top, if between { beside - GAP } else { column }, inner.bottom);
+        let right = if between { beside - GAP } else { column };
+        // Names beside the body plan stay off the frame of the table.
+        let right = (right - GAP).max(inner.left + extents.body_width(body_scale)).min(right);
+        let body = Rectangle::new(inner.left, top, right, inner.bottom);
         let table = if between { Rectangle::new(beside, top, column - GAP, inner.bottom) } else { over };
         Layout { scale, style, body_scale, profile: upper, half_breadths: lower, body, table }
     };
@@ -268,16 +263,14 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     }
     profile::draw_profile(&mut canvas, inputs, &grid, &view, style);
 
-    let long_words = ["HALF-BREADTH PLAN, diagonals in true shape below", "HALF-BREADTH PLAN"];
-    let words = if style.diagonals { &long_words[..] } else { &long_words[1..] };
-    name(&mut canvas, &layout.half_breadths, words, layout.scale);
-    let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.below(style) * millimetres;
+    let words = ["HALF-BREADTH PLAN, diagonals in true shape below", "HALF-BREADTH PLAN"];
+    name(&mut canvas, &layout.half_breadths, &words, layout.scale);
+    let centre = layout.half_breadths.bottom - profile::END_ROOM - extents.diagonals * millimetres;
     let view = View::new([origin_x, centre], layout.scale);
     if let Some(before) = &before {
         draw_before(&mut canvas, &view, &before.waterlines, |p, _| [p[0], p[1]]);
         draw_before(&mut canvas, &view, std::slice::from_ref(&before.design_waterline), |p, _| [p[0], p[1]]);
-        let diagonals = if style.diagonals { before.diagonals.as_slice() } else { &[] };
-        draw_before(&mut canvas, &view, diagonals, |p, plane| {
+        draw_before(&mut canvas, &view, &before.diagonals, |p, plane| {
             let [x, s] = LinesGrid::expanded(p, plane.at);
             [x, -s]
         });

@@ -1,7 +1,7 @@
 //! The legend under the maps of the side of a hull: what colours, lines and hatched fields are.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::scale::{decimals, nice_step};
+use super::scale::{decimals, figures, nice_step};
 use super::sheet::LEAST_LETTERS;
 use super::surface_map::{JUMP, KEEL_END, KNUCKLE_LINE, SHARE, STEPS, SurfaceMapKind, TEXT, hatch};
 
@@ -16,6 +16,8 @@ pub(super) struct Legend {
     pub(super) kind: SurfaceMapKind,
     /// Curvature of the full colours.
     pub(super) full: f64,
+    /// Curvature that both sides of a line of zero reach beside it, as a part of the full colours.
+    pub(super) floor: f64,
     /// Knot lines at which curvature may jump and that are not marked.
     pub(super) more: usize,
     /// Whether lines where curvature jumps, and knuckles, are marked.
@@ -111,7 +113,10 @@ impl Legend {
         let words = format!("{}   {words}; full: what {share:.0} % of the side do not pass", kind.unit());
         canvas.text([x + 3.0, y], &words, &style);
         let words = format!(
-            "steps of colour are squares: step k of {STEPS} is (k/{STEPS})² of the full, so that little curvature shows beside much"
+            "steps of colour are squares: step k of {STEPS} is (k/{STEPS})² of the full, so that little curvature shows beside much; \
+             zero is drawn where both sides reach {} {}",
+            figures(self.floor * full, 1),
+            kind.unit()
         );
         let row = if self.more > 0 || self.pair && self.marked[0] { 4.0 } else { 3.0 };
         canvas.text([LEFT, y + row * ROW], &words, &style);

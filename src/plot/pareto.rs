@@ -27,8 +27,9 @@ pub fn pareto_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
 }
 
 pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> {
-    // Deviation [mm] and power of ten of the energy.
-    let point = |rms: f64, energy: f64| (rms.is_finite() && energy > 0.0).then(|| [1e3 * rms, energy.log10()]);
+    // Deviation [mm] and power of ten of the energy over that of the surface through the table.
+    let unit = if record.energy[0] > 0.0 { record.energy[0] } else { 1.0 };
+    let point = |rms: f64, energy: f64| (rms.is_finite() && energy > 0.0).then(|| [1e3 * rms, (energy / unit).log10()]);
     let mut front: Vec<[f64; 2]> =
         record.trials.iter().chain([&record.chosen]).filter_map(|trial| point(trial.rms, trial.energy)).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -60,7 +61,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             (1.0 + MARK) * end,
             nice_step(end, 12.0),
         ),
-        left: Axis::powers("energy, logarithmic", low - room, high + room, 8),
+        left: Axis::powers("energy / that of the surface through the table", low - room, high + room, 8),
         top: None,
         right: None,
         text_size: 2.8,

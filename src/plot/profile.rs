@@ -68,8 +68,6 @@ pub(super) struct LongStyle {
     pub(super) text_size: f64,
     /// What stands beside them.
     pub(super) naming: Naming,
-    /// Whether diagonals stand under the half-breadth plan.
-    pub(super) diagonals: bool,
 }
 
 /// Largest distance from the centreplane along a diagonal [m].
@@ -238,13 +236,10 @@ fn name_twice(
     }
 }
 
-/// The half-breadth plan: waterlines above the centre line, diagonals, where they are wanted, in their true shape below
-/// it; the origin of `view` is AP on the centre line.
+/// The half-breadth plan: waterlines above the centre line, diagonals in their true shape below it; the origin of `view` is AP on the centre line.
 pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesGrid, view: &View, style: LongStyle) {
     let text_size = style.text_size;
-    let diagonals = if style.diagonals { grid.diagonals.as_slice() } else { &[] };
-    let reach = if style.diagonals { diagonal_reach(grid) } else { 0.0 };
-    let frame = frame(grid, view, -reach, grid.half_breadth);
+    let frame = frame(grid, view, -diagonal_reach(grid), grid.half_breadth);
     canvas.begin_group("half-breadth-plan");
     draw_stations(canvas, hull, grid, view, &frame, text_size);
     let mut names = LabelPlacer::default();
@@ -263,7 +258,7 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
             owners.push((k < plane.on_side).then_some((plane, pen)));
         }
     }
-    for plane in diagonals {
+    for plane in &grid.diagonals {
         let expanded = |point: &[f64; 3]| {
             let [x, s] = LinesGrid::expanded(point, plane.at);
             [x, -s]

@@ -16,7 +16,7 @@ use super::label::LabelPlacer;
 use super::map_legend::Legend;
 use super::scale::nice_step;
 use super::sheet::ROOM;
-use super::zero_lines::zero_lines;
+use super::zero_lines::{FAINT, zero_lines};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{KnotLine, MapPoint, SurfaceMap};
 use crate::hull::Hull;
@@ -55,6 +55,8 @@ pub(super) const KNUCKLE_LINE: Pen = Pen::new(0.6, "#d0107a");
 /// lengths of the hull.
 pub(super) const KEEL_END: Pen = Pen::new(0.3, "#000000").dashed(&[0.5, 0.9]);
 const MARKED: f64 = 5e-3;
+/// How near to its end an axis has a round number that it begins with, in lengths of the hull.
+const AT_END: f64 = 2e-3;
 /// Lines where there is no side, and their distance \[mm\]: a grey would be that of a colour in black and white.
 const NO_SIDE: Pen = Pen::new(0.12, "#a0a0a0");
 const APART: f64 = 2.2;
@@ -220,6 +222,10 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
     let (full, jump) = (full(which), full(jumps));
     let points = || sides.iter().flat_map(|side| &side.map.points);
     let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.at[0]), b.max(p.at[0])));
+    let step = nice_step(high - low, 16.0);
+    // An end that a round number stands next to bears it.
+    let round = step * (low / step).round();
+    let low = if (low - round).abs() <= AT_END * (high - low) { low.min(round) } else { low };
     let girth = points().map(|p| p.girth).fold(0.0, f64::max);
     let foot = 22.0 + PITCH * sides.len() as f64;
     let ends: Vec<f64> = maps.keel.into_iter().filter(|x| (x - low).min(high - x) > MARKED * (high - low)).collect();
@@ -233,7 +239,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
         let top = 28.0 + PITCH * k as f64;
         let chart = Chart {
             frame: Rectangle::new(26.0, top, ROOM[0] - 14.0, top + HEIGHT),
-            bottom: Axis::exact("x forward of AP [m]", low, high, nice_step(high - low, 16.0)),
+            bottom: Axis::exact("x forward of AP [m]", low, high, step),
             left: Axis::new("girth [m]", 0.0, girth, 8.0),
             top: None,
             right: None,
@@ -267,6 +273,7 @@ pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas
     let legend = Legend {
         kind,
         full,
+        floor: FAINT * ZERO,
         more: sides.iter().map(|side| side.map.more_breaks).max().unwrap_or(0),
         marked,
         ends: !ends.is_empty(),

@@ -109,7 +109,7 @@ fn every_waterline_is_named_in_the_half_breadth_plan() {
         let grid = LinesGrid::new(hull, 1e-3, StationNumbers::default(), None);
         let scale = drawing_scale(grid.length[1] - grid.length[0], 350.0);
         let mut canvas = Canvas::new(420.0, 297.0);
-        let style = LongStyle { text_size: 3.0, naming: Naming::Full, diagonals: true };
+        let style = LongStyle { text_size: 3.0, naming: Naming::Full };
         profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([40.0, 150.0], scale), style);
         for plane in grid.waterlines.iter().chain([&grid.design_waterline]).filter(|plane| plane.on_side > 0) {
             let named = canvas.texts().iter().any(|text| text.content == plane.name);

@@ -2,7 +2,7 @@
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::sheet::{LETTERS, Sheet, fitted};
+use super::sheet::{LEAST_LETTERS, LETTERS, Sheet, fitted, wide};
 use super::{FigureInputs, caption};
 use crate::hull::Hull;
 use crate::hydrostatics::{CoefficientLength, Quantity};
@@ -136,20 +136,30 @@ const MANY: [usize; 2] = [8, 16];
 /// Width of its first column [mm].
 const FIRST_COLUMN: f64 = 29.0;
 
-/// Width with every second station, and height with every second or fourth waterline where there are many [mm].
+/// Width with every second station, or every fourth where their names are wide, and height with every second or fourth waterline where there are many [mm].
 pub(super) fn smallest_table(grid: &LinesGrid) -> [f64; 2] {
     let rows = match grid.waterlines.len() {
         count if count > MANY[1] => thinned(grid, 4).len(),
         count if count > MANY[0] => thinned(grid, 2).len(),
         _ => waterlines(grid).len(),
     };
-    [FIRST_COLUMN + column(grid) * every_second(grid).len() as f64, table_height(rows)]
+    [table_width(grid, &smallest_list(grid), LEAST_LETTERS), table_height(rows)]
 }
 
-/// Width of a column of the table [mm].
-fn column(grid: &LinesGrid) -> f64 {
-    let widest = format!("{:.3}", grid.half_breadth);
-    Canvas::text_place([0.0, 0.0], &widest, &TextStyle::new(LETTERS, Anchor::End)).width() + APART
+/// Width of a column of numbers [mm].
+fn numbers(grid: &LinesGrid) -> f64 {
+    wide(&format!("{:.3}", grid.half_breadth), LETTERS)
+}
+
+/// Width of a column of the table with some stations, their names in letters of `size` [mm].
+fn column(grid: &LinesGrid, stations: &[&GridPlane], size: f64) -> f64 {
+    let names = stations.iter().map(|station| wide(&station.name, size));
+    names.fold(numbers(grid), f64::max) + APART
+}
+
+/// Width of the table with some stations [mm], their names in letters of `size`.
+fn table_width(grid: &LinesGrid, stations: &[&GridPlane], size: f64) -> f64 {
+    FIRST_COLUMN + column(grid, stations, size) * stations.len() as f64
 }
 
 /// Height of the table with so many waterlines [mm].
@@ -161,11 +171,18 @@ fn whole_stations(grid: &LinesGrid) -> Vec<&GridPlane> {
     grid.stations.iter().filter(|plane| plane.whole).collect()
 }
 
-fn every_second(grid: &LinesGrid) -> Vec<&GridPlane> {
-    whole_stations(grid).into_iter().filter(|plane| plane.count % 2 == 0).collect()
+/// Every second or fourth of the whole stations.
+fn one_of(grid: &LinesGrid, step: i32) -> Vec<&GridPlane> {
+    whole_stations(grid).into_iter().filter(|plane| plane.count % step == 0).collect()
 }
 
-/// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second of them; of all
+/// The fewest stations of a table: every second, and every fourth where their names are wider than numbers.
+fn smallest_list(grid: &LinesGrid) -> Vec<&GridPlane> {
+    let second = one_of(grid, 2);
+    if column(grid, &second, LEAST_LETTERS) > numbers(grid) + APART { one_of(grid, 4) } else { second }
+}
+
+/// Draws half-breadths of as many stations as there is room for: all, whole stations, or every second or fourth of them; of all
 /// waterlines, or of every second or fourth of them and the design waterline.
 pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid, room: &Rectangle) {
     let hull = inputs.hull;
@@ -173,24 +190,26 @@ pub(super) fn draw_offsets(canvas: &mut Canvas, inputs: &FigureInputs, grid: &Li
     let tables = [waterlines(grid), thinned(grid, 2), thinned(grid, 4)];
     let Some(mut planes) = tables.into_iter().find(fits) else { return };
     let all: Vec<&GridPlane> = grid.stations.iter().collect();
-    let width = |count: usize| FIRST_COLUMN + column(grid) * count as f64;
-    let stations = [all, whole_stations(grid), every_second(grid)]
+    let stations = [all, whole_stations(grid), one_of(grid, 2), smallest_list(grid)]
         .into_iter()
-        .find(|list| width(list.len()) <= room.width() + 1e-9);
-    let Some(stations) = stations else { return };
+        .flat_map(|list| [LETTERS, LEAST_LETTERS].map(|size| (list.clone(), size)))
+        .find(|(list, size)| table_width(grid, list, *size) <= room.width() + 1e-9);
+    let Some((stations, size)) = stations else { return };
+    let each = column(grid, &stations, size);
+    let end_of = |column: usize| room.left + FIRST_COLUMN + each * (column + 1) as f64;
     // Waterlines of which no station of the table has an offset.
     planes.retain(|plane| stations.iter().any(|station| half_breadth(hull, station, plane).is_some()));
     let height = table_height(planes.len());
     let (left, top) = (room.left, room.bottom - height + 4.0);
-    let right = left + width(stations.len());
+    let right = left + table_width(grid, &stations, size);
     let style = TextStyle::new(LETTERS, Anchor::End);
     let head = TextStyle { anchor: Anchor::Start, ..style };
     canvas.text([left, top - 2.8], "HALF-BREADTHS [m] of the surface", &TextStyle { size: 3.5, ..head });
     let row_at = |row: usize| top + ROW * (row as f64 + 0.5);
     canvas.text([left + 1.0, row_at(0)], "station", &head);
     for (column, station) in stations.iter().enumerate() {
-        let x = left + width(column + 1) - 1.0;
-        canvas.text([x, row_at(0)], &station.name, &style);
+        let x = end_of(column) - 0.5 * APART;
+        canvas.text([x, row_at(0)], &station.name, &TextStyle { size, ..style });
         for (row, plane) in planes.iter().enumerate() {
             if let Some(y) = half_breadth(hull, station, plane) {
                 canvas.text([x, row_at(row + 1)], &format!("{:.3}", y.max(0.0)), &style);

@@ -12,8 +12,8 @@ use crate::fairing::inspect::SurfaceMap;
 
 /// How near both signs stand, in cells.
 const NEAR: usize = 3;
-/// Part of the least size down to which a line goes on.
-const FAINT: f64 = 1e-6;
+/// Part of the least size down to which a line goes on: what stays below it on either side is rounding.
+pub(super) const FAINT: f64 = 0.08;
 /// Most pieces of a gap that is filled.
 const GAP: usize = 6;
 /// Least length of a line [mm].

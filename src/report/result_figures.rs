@@ -8,14 +8,13 @@ use std::thread;
 use serde_json::Value;
 
 use super::failure::Failure;
-use super::fair_page::limit;
 use super::page::conventions_line;
 use super::result::JobResult;
 use super::result_files::ReportSettings;
 use super::result_page::{
     PRICES, Table, condition, constraints, hydrostatics, inflections, inflections_words, list, text,
 };
-use super::verdict::verdict;
+use super::verdict::{accuracy_words, verdict};
 use crate::exchange::read_texts;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{Conventions, Hydrostatics};
@@ -106,7 +105,7 @@ fn words(figure: Figure) -> [&'static str; 3] {
     }
 }
 
-/// What is drawn of a faired table, before the hull.
+/// What is drawn of a faired table, before the hull: what is doubted, what moved and where, the curves, what holding costs.
 fn fairing_jobs<'a>(
     record: &'a FairRecord,
     fairing: &'a Value,
@@ -116,23 +115,6 @@ fn fairing_jobs<'a>(
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
-        job(
-            [
-                "constraints",
-                "What is held, and at which price",
-                "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
-            ],
-            one(|_| Ok(sheet("CONSTRAINTS AND PRICES", PRICES, constraints(fairing)))),
-        ),
-        job(
-            [
-                "fairing-moves",
-                "What moved",
-                "Every offset with its move, outward positive. Look for runs of one sign along a line: they are a change of shape, not \
-                 noise. Locked cells are framed, cells at their tolerance underlined, knuckles and tangent lines have diamonds.",
-            ],
-            one(|_| fairing_moves(record).map(Some)),
-        ),
         scaled(
             [
                 "suspects",
@@ -142,6 +124,15 @@ fn fairing_jobs<'a>(
                  the neighbours expect over what they are sure of, as standard deviations of a normal law.",
             ],
             one(|sheet| fairing_suspects(record, sheet)),
+        ),
+        job(
+            [
+                "fairing-moves",
+                "What moved",
+                "Every offset with its move, outward positive. Look for runs of one sign along a line: they are a change of shape, not \
+                 noise. Locked cells are framed, cells at their tolerance underlined, knuckles and tangent lines have diamonds.",
+            ],
+            one(|_| fairing_moves(record).map(Some)),
         ),
         scaled(
             [
@@ -215,6 +206,14 @@ fn fairing_jobs<'a>(
         ),
         job(
             [
+                "constraints",
+                "What is held, and at which price",
+                "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
+            ],
+            one(|_| Ok(sheet("CONSTRAINTS AND PRICES", PRICES, constraints(fairing)))),
+        ),
+        job(
+            [
                 "deviation",
                 "Moves against the assumed noise",
                 "If the moves are the noise of the table the steps follow the bell. Long tails are wrong readings; a middle off zero \
@@ -276,7 +275,7 @@ fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a V
                  in the table as the fair hull has it.",
             ],
             Box::new(move |_| {
-                let (limit, words) = limit(record.lines.quantum, record.sigma, record.lines.notation);
+                let (limit, words) = accuracy_words(record);
                 let texts = result.changes.as_deref().map(read_texts).unwrap_or_default();
                 Ok(fairing_table(record, &texts, limit, &words))
             }),
@@ -400,7 +399,7 @@ fn jobs<'a>(
     let came = [
         "verdict",
         "What the fairing came to",
-        "Moves, inflections and prices in one look; the sheets that follow prove them.",
+        "Moves, settings, inflections and prices in one look; the sheets that follow prove them.",
     ];
     jobs.insert(
         0,

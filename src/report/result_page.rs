@@ -139,7 +139,7 @@ pub(super) fn text(value: &Value) -> String {
 }
 
 /// A number of a file to `digits` figures; plain where it is neither very large nor very small.
-fn figures(value: &Value, digits: usize) -> String {
+pub(super) fn figures(value: &Value, digits: usize) -> String {
     let Some(number) = value.as_f64() else { return String::new() };
     let size = number.abs();
     if size == 0.0 {
@@ -297,10 +297,10 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 /// What the columns of [`inflections`] are.
 pub(super) fn inflections_words(record: &FairRecord) -> String {
     format!(
-        "bends that leave their chord by less than {:.2} mm are flat and do not count; least: what the tolerances leave possible; at most: what \
+        "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
          was asked of the line; let go: dearer than {PRICE:.0}, or not to be had with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
-        1e3 * record.tolerance()
+        record.lines.notation.small(record.tolerance())
     )
 }
 

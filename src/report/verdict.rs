@@ -2,11 +2,14 @@
 
 use serde_json::Value;
 
+use super::fair_page::{limit, millimetres};
 use super::page::{fixed, fixed_sign};
 use super::result::JobResult;
-use super::result_page::{list, text};
+use super::result_page::{figures, list, text};
+use crate::fairing::job::Change;
+use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{Conventions, Hydrostatics};
-use crate::units::counted;
+use crate::units::{Notation, counted};
 
 /// Curves whose inflections are counted, as files name them.
 const KINDS: [&str; 4] = ["waterlines", "stations", "buttocks", "diagonals"];
@@ -31,6 +34,97 @@ fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conve
     )
 }
 
+/// What moves of a table are measured by \[m\], and what it is in words; those of tables in eighths of an inch say it in
+/// eighths.
+pub(super) fn accuracy_words(record: &FairRecord) -> (f64, String) {
+    let notation = record.lines.notation;
+    let (limit, words) = limit(record.lines.quantum, record.sigma, notation);
+    match words.split_once(" mm") {
+        Some((_, rest)) if notation == Notation::FeetInchesEighths => {
+            (limit, format!("{}{rest}", notation.small(limit)))
+        }
+        _ => (limit, words),
+    }
+}
+
+/// A small length in the terms of the table, in millimetres to three figures.
+fn small(length: f64, notation: Notation) -> String {
+    match notation {
+        Notation::FeetInchesEighths => notation.small(length),
+        _ => format!("{} mm", millimetres(length)),
+    }
+}
+
+/// How many offsets stayed within the accuracy of the table, and how far they moved.
+fn kept(record: &FairRecord) -> String {
+    let (limit, shown) = accuracy_words(record);
+    let left_out = record.changes.iter().filter(|change| change.suspect).count();
+    let moved = |change: &&Change| !change.suspect && (change.after - change.before).abs() > limit * (1.0 + 1e-9);
+    let more = record.changes.iter().filter(moved).count();
+    let mut line = format!(
+        "{} of {} kept within {shown}",
+        record.changes.len() - left_out - more,
+        counted(record.changes.len(), "offset")
+    );
+    if more > 0 {
+        line.push_str(&format!("; {more} moved more (shaded in the table of faired offsets)"));
+    }
+    line.push_str(&match left_out {
+        0 => "; no suspected typing error is left out".to_owned(),
+        n => format!("; {} left out", counted(n, "suspected typing error")),
+    });
+    let (rms, largest, _) = record.moves();
+    let notation = record.lines.notation;
+    let [rms, largest, noise] = [rms, largest, record.sigma].map(|length| small(length, notation));
+    line.push_str(&format!(". Moves: {rms} RMS, {largest} at most; noise of the table {noise}."));
+    line
+}
+
+/// The tolerances that were used, from the least to the greatest, and how many offsets stop at theirs.
+fn tolerances(record: &FairRecord) -> String {
+    let open = || record.changes.iter().filter(|change| !change.locked && !change.suspect);
+    let all = || open().filter_map(|change| change.tolerance);
+    let [least, most] = all().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], t| [a.min(t), b.max(t)]);
+    if most <= 0.0 {
+        return "no tolerances".to_owned();
+    }
+    let at_limit = |change: &&Change| {
+        change.tolerance.is_some_and(|t| t > 0.0 && (change.after - change.before).abs() >= 0.999 * t)
+    };
+    let stopped = match open().filter(at_limit).count() {
+        0 => "at which no offset stops".to_owned(),
+        1 => "1 offset stops at its own".to_owned(),
+        n => format!("{n} offsets stop at theirs"),
+    };
+    let small = |t: f64| small(t, record.lines.notation);
+    if most - least <= 1e-9 {
+        format!("tolerance of every offset {}, {stopped}", small(most))
+    } else {
+        format!("tolerances from {} to {}, {stopped}", small(least), small(most))
+    }
+}
+
+/// What the run was made with.
+fn settings(result: &JobResult, record: &FairRecord, fairing: &Value) -> String {
+    let locked = record.changes.iter().filter(|change| change.locked).count();
+    let order = fairing["energy"]["order"].as_u64().map_or(String::new(), |order| format!(", energy of order {order}"));
+    let from = result.origin.as_ref().map_or(String::new(), |origin| {
+        let digits: String = origin.sha256.chars().take(8).collect();
+        format!(" Made from {} (sha256 {digits}); nothing is random, so that there is no seed.", origin.file)
+    });
+    format!(
+        "Settings: {}; {} locked; smoothing weight {}, {:.1} degrees of freedom{order}.{from}",
+        tolerances(record),
+        match locked {
+            0 => "no offset is".to_owned(),
+            1 => "1 offset is".to_owned(),
+            n => format!("{n} offsets are"),
+        },
+        figures(&record.lambda.into(), 3),
+        record.edf
+    )
+}
+
 /// The lines that bend more often after fairing than `than` says, with the numbers of their inflections.
 fn more_often(fairing: &Value, than: &str) -> Vec<String> {
     let one = |key: &str, line: &Value| {
@@ -50,8 +144,6 @@ pub(super) fn is_warning(note: &str) -> bool {
 /// What the fairing came to, in sentences.
 pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) -> Vec<(bool, String)> {
     let Some((record, fairing)) = &result.fairing else { return Vec::new() };
-    let (rms, largest, _) = record.moves();
-    let left_out = record.changes.iter().filter(|change| change.suspect).count();
     let mut lines = vec![match fairing["status"].as_str() {
         Some("optimal") => (
             false,
@@ -68,16 +160,8 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
             .filter(|note| is_warning(note))
             .map(|note| (true, note.replace("station_spacing", "spacing of stations"))),
     );
-    lines.push((
-        false,
-        format!(
-            "{} moved {} mm RMS and {} mm at most; the assumed noise is {} mm. {left_out} left out as suspects.",
-            counted(record.changes.len() - left_out, "offset"),
-            fixed(1e3 * rms, 2),
-            fixed(1e3 * largest, 2),
-            fixed(1e3 * record.sigma, 2)
-        ),
-    ));
+    lines.push((false, kept(record)));
+    lines.push((false, settings(result, record, fairing)));
     if let [Some(before), Some(after)] = conditions {
         lines.push((false, displacement(before, after, &result.conventions)));
     }

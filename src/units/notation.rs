@@ -20,7 +20,19 @@ pub enum Notation {
     FeetInchesEighths,
 }
 
+/// An eighth of an inch \[m\].
+const EIGHTH: f64 = 0.0254 / 8.0;
+
 impl Notation {
+    /// A small length \[m\] in words: in millimetres, or in eighths of an inch where tables are written in those.
+    #[must_use]
+    pub fn small(self, length: f64) -> String {
+        match self {
+            Self::FeetInchesEighths => format!("{:.2} eighths of an inch", length / EIGHTH),
+            _ => format!("{:.2} mm", 1e3 * length),
+        }
+    }
+
     /// Every notation.
     pub const ALL: [Self; 6] =
         [Self::Metres, Self::Millimetres, Self::FeetInchesEighths, Self::Centimetres, Self::Feet, Self::Inches];

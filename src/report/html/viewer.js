@@ -16,7 +16,18 @@
   const INKS = { station: "black", waterline: "blue", buttock: "brown", diagonal: "green" };
   const state = { azimuth: -0.6, elevation: 0.35, zoom: 1, pan: [0, 0] };
   const input = (id) => document.getElementById(id);
-  const on = (id) => { const box = input(id); return !!box && box.checked; };
+  const on = (id) => { const box = input(id); return !!box && box.checked && !box.disabled; };
+  const MAPS = ["gaussian", "mean", "zebra"];
+
+  // Maps are painted on the surface, which a body plan has not: what would change nothing cannot be chosen.
+  function enable() {
+    const plan = on("body");
+    for (const id of ["surface", ...MAPS]) {
+      const box = input(id);
+      box.disabled = plan || (id !== "surface" && !input("surface").checked);
+      box.parentNode.classList.toggle("off", box.disabled);
+    }
+  }
 
   // Size of everything.
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -51,9 +62,12 @@
       vec3 q = turn * (vec3(place.x, side * place.y, place.z) - centre);
       return vec4(q.xy * scale + pan, -q.z * depth - lift, 1.0);
     }`;
+  // Borders of stripes are as wide as a pixel, however slowly the reflection turns.
+  const fine = gl.getExtension("OES_standard_derivatives") ? "#extension GL_OES_standard_derivatives : enable\n" : "";
+  const WIDTH = fine ? "max(fwidth(s), 1e-5)" : "0.06";
   const surfaceProgram = program(PLACE + `
     attribute vec3 normal; attribute vec3 tint; varying vec3 facing, colour;
-    void main() { gl_Position = placed(); facing = turn * vec3(normal.x, side * normal.y, normal.z); colour = tint; }`, `
+    void main() { gl_Position = placed(); facing = turn * vec3(normal.x, side * normal.y, normal.z); colour = tint; }`, fine + `
     precision highp float; varying vec3 facing, colour; uniform float zebra;
     void main() {
       vec3 n = normalize(facing); if (n.z < 0.0) n = -n;
@@ -61,8 +75,10 @@
       vec3 shown = colour * light;
       if (zebra > 0.5) {
         vec3 r = reflect(vec3(0.0, 0.0, -1.0), n);
-        float s = sin(18.0 * atan(r.y, r.z + 1.001));
-        shown = mix(vec3(0.08), vec3(0.97), smoothstep(-0.12, 0.12, s));
+        // What faces the observer, as an upright side does from abeam, is in the middle of a bright stripe.
+        float s = cos(18.0 * atan(r.y, r.z + 1.001));
+        float border = ${WIDTH};
+        shown = mix(vec3(0.08), vec3(0.97), smoothstep(-border, border, s));
       }
       gl_FragColor = vec4(shown, 1.0);
     }`);
@@ -97,7 +113,9 @@
         const u = [0, 1, 2].map((k) => p[b + k] - p[a + k]), v = [0, 1, 2].map((k) => p[d + k] - p[c + k]);
         const n = [v[1] * u[2] - v[2] * u[1], v[2] * u[0] - v[0] * u[2], v[0] * u[1] - v[1] * u[0]];
         const size = Math.hypot(n[0], n[1], n[2]) || 1;
-        for (let k = 0; k < 3; k++) normals[at(i, j) + k] = size > 1e-12 ? n[k] / size : (k === 1 ? 1 : 0);
+        // Those of the surface itself; where it has no tangent plane, those of the grid.
+        const own = hull.normals.slice(at(i, j), at(i, j) + 3), exact = Math.hypot(own[0], own[1], own[2]) > 0.5;
+        for (let k = 0; k < 3; k++) normals[at(i, j) + k] = exact ? own[k] : size > 1e-12 ? n[k] / size : (k === 1 ? 1 : 0);
         if (i + 1 < columns && j + 1 < rows) {
           const [s, t] = [i * rows + j, (i + 1) * rows + j];
           cells.push(s, t, s + 1, s + 1, t, t + 1);
@@ -155,8 +173,10 @@
     return { lines, surface: surface(hull), combs: hull.combs };
   });
 
-  // The usual tooth of a kind is a quarter of the half-breadth long, before and after alike; the slider multiplies.
-  const usual = {};
+  // The usual tooth of a kind is a quarter of the half-breadth long, of stations half of that, before and after alike; the
+  // slider multiplies, up to the longest. A body plan leaves room for the longest tooth of a station.
+  const usual = {}, LENGTH = { station: 0.12 * breadth }, LONGEST = { station: 0.3 * breadth };
+  let reaching = 0;
   for (const kind of KINDS) {
     const sizes = [];
     for (const hull of scene.hulls) {
@@ -169,13 +189,13 @@
   }
   let combs = null;
   function combLines() {
-    const longest = 0.6 * breadth, words = [];
+    const words = [];
     const scales = {};
     for (const kind of KINDS) {
-      scales[kind] = 0.25 * breadth / usual[kind] * Math.pow(10, Number(input("comb-scale").value));
+      scales[kind] = (LENGTH[kind] || 0.25 * breadth) / usual[kind] * Math.pow(10, Number(input("comb-scale").value));
       words.push(kind + "s " + (1 / scales[kind]).toPrecision(2));
     }
-    const lines = (list, scale) => {
+    const lines = (list, scale, longest) => {
       const out = [];
       for (const comb of list) {
         let last = null;
@@ -192,12 +212,19 @@
       }
       return { buffer: buffer(new Float32Array(out)), count: out.length / 3 };
     };
+    reaching = 0;
     combs = hulls.map((hull) => {
       const result = {};
-      for (const kind of KINDS) result[kind] = lines(hull.combs[kind] || [], scales[kind]);
+      for (const kind of KINDS) result[kind] = lines(hull.combs[kind] || [], scales[kind], LONGEST[kind] || 0.6 * breadth);
       const stations = hull.combs.station || [];
-      result.aft = lines(stations.filter((comb) => comb.feet[0] <= middle), scales.station);
-      result.fore = lines(stations.filter((comb) => comb.feet[0] >= middle), scales.station);
+      result.aft = lines(stations.filter((comb) => comb.feet[0] <= middle), scales.station, LONGEST.station);
+      result.fore = lines(stations.filter((comb) => comb.feet[0] >= middle), scales.station, LONGEST.station);
+      for (const comb of stations) {
+        for (let k = 0; k < comb.teeth.length; k += 3) {
+          const size = scales.station * Math.hypot(comb.teeth[k], comb.teeth[k + 1], comb.teeth[k + 2]);
+          reaching = Math.max(reaching, Math.min(size, LONGEST.station));
+        }
+      }
       return result;
     });
     input("comb-words").textContent = "1 m of comb in 1/m: " + words.join(", ");
@@ -253,7 +280,8 @@
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     // The box of the hull, turned, fills the view.
-    const t = turn(), half = [0.5 * (high[0] - low[0]), breadth, 0.5 * (high[2] - low[2])];
+    const more = on("body") && on("combs") && on("station") ? reaching : 0;
+    const t = turn(), half = [0.5 * (high[0] - low[0]), breadth + more, 0.5 * (high[2] - low[2]) + more];
     const reach = [0, 1].map((d) => Math.abs(t[d]) * half[0] + Math.abs(t[3 + d]) * half[1] + Math.abs(t[6 + d]) * half[2]);
     const shape = width / Math.max(height, 1);
     const fit = 0.92 * state.zoom / Math.max(reach[0], reach[1] * shape, 1e-9);
@@ -338,6 +366,7 @@
   for (const box of document.querySelectorAll("#controls input")) {
     box.addEventListener("input", () => {
       if (box.id === "comb-scale") combLines();
+      enable();
       if (box.id === "gaussian" && box.checked && input("mean")) input("mean").checked = false;
       if (box.id === "mean" && box.checked) input("gaussian").checked = false;
       if (box.id === "body" && box.checked) look("ahead");
@@ -370,6 +399,7 @@
     redraw();
   }, { passive: false });
   window.addEventListener("resize", redraw);
+  enable();
   combLines();
   draw();
   done("drawn");
