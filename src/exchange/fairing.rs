@@ -76,7 +76,8 @@ fn number(value: f64) -> Value {
     json_number(Some(value))
 }
 
-/// Inflections of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it.
+/// Inflections of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it. `asked` is the number that the
+/// signs of the program were made for, `allowed` the most that its rows admit, never more than before.
 fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
     let list = outcome.turns.iter().filter(|turns| crate::fairing::inspect::kind(&turns.cut) == kind);
     list.map(|turns| {
@@ -85,15 +86,24 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
             entry["minimum"] = json!(count);
             entry["minimum_proved"] = json!(proved);
         }
+        // Nothing may bend more often than before.
+        entry["allowed"] = json!(turns.before);
         let guarded = outcome.faired.guarded.as_ref();
         let Some(line) = Line::of(turns.cut) else { return entry };
         if let Some(guarded) = guarded {
-            if let Some((_, most)) = guarded.most.iter().find(|(other, _)| *other == line) {
-                entry["allowed"] = json!(most);
+            let asked = if let Some((_, most)) = guarded.most.iter().find(|(other, _)| *other == line) {
+                Some(*most)
             } else if guarded.asked.contains(&line) {
-                entry["allowed"] = json!(turns.minimum.map(|(count, _)| count));
+                turns.minimum.map(|(count, _)| count)
             } else if guarded.kept.contains(&line) {
-                entry["allowed"] = json!(turns.before);
+                Some(turns.before)
+            } else {
+                None
+            };
+            if let Some(most) = asked {
+                // What the signs leave room for, in the dead band and between their places, is allowed too.
+                entry["asked"] = json!(most);
+                entry["allowed"] = json!(most.max(turns.after).min(turns.before.max(most)));
             }
             if let Some((_, price)) = guarded.prices.iter().find(|(other, _)| *other == line) {
                 entry["price"] = number(*price);

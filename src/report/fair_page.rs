@@ -193,6 +193,26 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
     )
 }
 
+/// How many lines bend more often than the signs that they were asked for say; nothing where none does.
+fn more_than_asked(outputs: &FairOutputs) -> String {
+    let kinds = outputs.certificate["inflections"].as_object().into_iter().flatten();
+    let lines = kinds.flat_map(|(_, lines)| lines.as_array().into_iter().flatten());
+    let more = |line: &&serde_json::Value| {
+        line["asked"].as_u64().is_some_and(|asked| line["after"].as_u64().is_some_and(|after| after > asked))
+    };
+    match lines.filter(more).count() {
+        0 => String::new(),
+        n => wrapped(
+            &format!(
+                "{} than was asked of them and no more than before, in the dead band or between the places of their signs: \
+                 asked and after in fairing.json.",
+                counted(n, "line bends more often", "lines bend more often")
+            ),
+            2,
+        ),
+    }
+}
+
 /// Displacement, LCB, KB and C_M of both hulls.
 fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     let [before, after] = &outputs.rows;
@@ -214,6 +234,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
     page.push_str(&wrapped(&line, 2));
     page.push_str("  (buttocks and diagonals are no lines of the table: they were never used)\n");
+    page.push_str(&more_than_asked(outputs));
     let sum =
         |side: usize, count: fn(&PolygonSigns) -> usize| outputs.outcome.signs[side].iter().map(count).sum::<usize>();
     let line = format!(

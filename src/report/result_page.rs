@@ -270,7 +270,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
                 Some(false) => format!("{}, not proved", count("minimum")),
                 _ => count("minimum"),
             };
-            let asked = match (line["allowed"].as_u64(), kind) {
+            let asked = match (line["asked"].as_u64(), kind) {
                 (Some(most), _) if line["after"].as_u64().is_some_and(|after| after > most) => {
                     format!("at most {most}, has more")
                 }

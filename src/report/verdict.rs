@@ -179,7 +179,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     let counts: Vec<String> =
         KINDS.iter().map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after"))).collect();
     lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
-    for (than, words) in [("before", "after than before"), ("allowed", "than was asked of them")] {
+    for (than, words) in [("before", "after than before"), ("asked", "than was asked of them")] {
         let lines_there = more_often(fairing, than);
         if !lines_there.is_empty() {
             let more = lines_there.len().saturating_sub(NAMED);
@@ -190,7 +190,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
             lines.push((true, format!("{count} {noun} {verb} more often {words}: {named}{and}.")));
         }
     }
-    if !more_often(fairing, "allowed").is_empty() {
+    if !more_often(fairing, "asked").is_empty() {
         let text = "Such bends lie between the places where the signs of the line were imposed, or within the dead band about no curvature; \
                     the table of inflections has every line.";
         lines.push((false, text.to_owned()));
