@@ -142,14 +142,14 @@ pub const JOB_KEYS: &[Key] = &[
         "side",
         Kind::Phrases(r#""stations 8 to 12, waterlines 3 to 9.75""#),
         &[],
-        "Flats of side: the half-breadth is B/2 there.",
+        "Flats of side, \"stations 8 to 12, waterlines 3 to 9.75\": the half-breadth is B/2 there.",
     ),
     key(
         "flat",
         "bottom",
         Kind::Phrases(r#""stations 8 to 12""#),
         &[],
-        "Flats of bottom: their edge stays where the surface through the table has it.",
+        "Flats of bottom, \"stations 8 to 12\": their edge stays where the surface through the table has it.",
     ),
     key(
         "flat",
@@ -443,8 +443,19 @@ impl JobFile {
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(length);
         let mut problems = Vec::new();
+        let mut named: Vec<(Spot, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
-            match mark.find(table) {
+            let found = mark.find(table);
+            if let Ok(spot) = &found {
+                match named
+                    .iter()
+                    .find(|(other, other_tolerance)| other == spot && (other_tolerance - tolerance).abs() > 0.0)
+                {
+                    Some((_, other)) => problems.push(mark.named_twice(*other, *tolerance)),
+                    None => named.push((*spot, *tolerance)),
+                }
+            }
+            match found {
                 Ok(Spot::Station(station)) => job.tolerance.stations.push((station, *tolerance)),
                 Ok(Spot::Waterline(waterline)) => job.tolerance.waterlines.push((waterline, *tolerance)),
                 Ok(Spot::Cell(station, waterline)) => job.tolerance.cells.push((station, waterline, *tolerance)),

@@ -71,7 +71,7 @@ pub struct Tolerance {
     /// The same for the whole table \[m\], three levels of the most that is taken for noise on the net of a fit; none:
     /// three noise levels, at least two quanta of the writing.
     pub table: Option<f64>,
-    /// For single stations: (index, tolerance \[m\]).
+    /// For single stations: (index, tolerance \[m\]); where a waterline has one too, the lesser.
     pub stations: Vec<(usize, f64)>,
     /// For single waterlines: (index, tolerance \[m\]).
     pub waterlines: Vec<(usize, f64)>,
@@ -706,9 +706,9 @@ impl Job {
             .map(|place| match place.origin {
                 Origin::HalfBreadth { station, waterline } => {
                     let cell = self.tolerance.cells.iter().rev().find(|(s, w, _)| (*s, *w) == (station, waterline));
+                    let lines = [of(&self.tolerance.waterlines, waterline), of(&self.tolerance.stations, station)];
                     cell.map(|(_, _, t)| *t)
-                        .or_else(|| of(&self.tolerance.waterlines, waterline))
-                        .or_else(|| of(&self.tolerance.stations, station))
+                        .or_else(|| lines.into_iter().flatten().reduce(f64::min))
                         .or(self.tolerance.table)
                         .map(sensible)
                 }

@@ -10,7 +10,7 @@
 //! * bilge: parabolic waterlines over a midship section of flat keel, rise of floor of 30 degrees, an arc and a
 //!   vertical side;
 //! * bulk carrier, container ship, frigate: presets of the generator; Series 60 and S-175: surfaces fitted to the
-//!   published tables.
+//!   published tables, which are rough themselves; fair Series 60 and fair S-175: the same made fair, on defaults.
 //!
 //! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the
 //! distance along the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it
@@ -243,10 +243,19 @@ fn surface(hull: Hull, clean: OffsetTable) -> Truth {
 
 /// The surface through a published table of `tests/data`, brought to 120 m where it is a model's.
 pub fn published(folder: &str) -> Truth {
+    of_table(folder, |table| Hull::fit(table, &FitMethod::Graded).unwrap().hull)
+}
+
+/// The same table made fair: a hull with the features of a real ship and without the roughness of its table.
+pub fn faired(folder: &str) -> Truth {
+    of_table(folder, |table| Job::default().run(table).unwrap().after)
+}
+
+fn of_table(folder: &str, hull_of: impl Fn(&OffsetTable) -> Hull) -> Truth {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(folder).join("offsets.csv");
     let bytes = std::fs::read(&path).unwrap();
     let table = read_table("offsets.csv", &bytes).unwrap_or_else(|problems| panic!("{folder}: {problems:?}")).table;
-    let hull = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
+    let hull = hull_of(&table);
     let mut clean = table;
     clean.form = OffsetTable::default().form;
     for station in &mut clean.stations {
@@ -415,6 +424,14 @@ fn s175() -> Truth {
     published("s175")
 }
 
+fn fair_series60() -> Truth {
+    faired("series60_cb060")
+}
+
+fn fair_s175() -> Truth {
+    faired("s175")
+}
+
 /// Every case of the benchmark. The third error is 0.5 % of B/2.
 pub fn cases() -> Vec<Case> {
     type Kind = (&'static str, fn() -> Truth, f64);
@@ -440,6 +457,10 @@ pub fn cases() -> Vec<Case> {
             Errors::Typing,
             LARGE,
         ];
+        list.extend(kinds.map(|errors| Case { name, truth, errors }));
+    }
+    for (name, truth) in [("fair Series 60", fair_series60 as fn() -> Truth), ("fair S-175", fair_s175)] {
+        let kinds = [Errors::Normal(0.002), Errors::Normal(0.01), Errors::Eighths];
         list.extend(kinds.map(|errors| Case { name, truth, errors }));
     }
     list.extend([SMALL, SIX_SIGMA, ROUGH, Errors::Adjacent].map(|errors| Case {

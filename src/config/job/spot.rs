@@ -119,6 +119,12 @@ impl Mark {
         self.at = None;
     }
 
+    /// The message that the same line or cell has another tolerance \[m\] already.
+    pub(super) fn named_twice(&self, before: f64, now: f64) -> Diagnostic {
+        let text = format!("\"{}\" is {now} m, and {before} m under another name of it", self.text);
+        *self.problem("E183", text, "Name it once.".to_owned())
+    }
+
     /// The line or cell of a table.
     ///
     /// # Errors

@@ -268,3 +268,17 @@ fn problems_of_rules_are_told_at_their_places() {
     ];
     assert_eq!(found, expected);
 }
+
+#[test]
+fn one_line_has_one_tolerance() {
+    let text = "[tolerance.stations]\n\"9 1/2\" = \"1 mm\"\n\"95 m\" = \"2 mm\"\n[tolerance.waterlines]\n\"2 m\" = \"1 mm\"\n\"2\" = 0.001\n";
+    let problems = read_job("j.toml", text).unwrap().for_table(&table(), 100.0).unwrap_err();
+    let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].starts_with("E183 j.toml:3:"), "{}", said[0]);
+    assert!(
+        said[0].contains("\"95 m\" is 0.002 m, and 0.001 m under another name of it. Name it once."),
+        "{}",
+        said[0]
+    );
+}
