@@ -115,7 +115,7 @@ mod tests {
     fn table(rows: &[&[i32]]) -> OffsetTable {
         let station = |(k, row): (usize, &&[i32])| StationOffsets {
             half_breadths: row.iter().map(|y| Cell::from(Some(1e-3 * f64::from(*y)))).collect(),
-            ..StationOffsets::new(&k.to_string(), 10.0 * k as f64)
+            ..StationOffsets::new(k.to_string(), 10.0 * k as f64)
         };
         OffsetTable {
             waterlines: (0..rows[0].len()).map(|k| k as f64).collect(),
