@@ -12,6 +12,10 @@ use crate::hull::OffsetTable;
 /// Steps of the writing by which the parabola of a round crest falls within a run that is flat.
 const CREST: f64 = 2.0;
 
+/// Multiples of the step of the writing that a table may be rounded to, the largest first: 5 cm in a table with two
+/// decimals.
+const MULTIPLES: [f64; 5] = [50.0, 20.0, 10.0, 5.0, 2.0];
+
 /// Half-breadths that differ by less are equal, over the greatest.
 const EQUAL: f64 = 1e-9;
 
@@ -43,6 +47,13 @@ impl Grid {
             }
         }
         Self { x, z, values, full, greatest }
+    }
+
+    /// The step that all half-breadths are multiples of, no less than the `written` one \[m\].
+    fn step(&self, written: f64) -> f64 {
+        let rounded =
+            |step: f64| self.values.iter().flatten().flatten().all(|y| (y / step - (y / step).round()).abs() <= 1e-6);
+        MULTIPLES.into_iter().map(|times| times * written).find(|&step| step > 0.0 && rounded(step)).unwrap_or(written)
     }
 
     /// Takes out the runs of a line of the grid that a round crest explains: `cells` along it with their places.
@@ -79,8 +90,8 @@ impl Grid {
 
 /// The rule that keeps the flat of side of a table where it is; none where the table shows none.
 pub(super) fn shown_flat(table: &OffsetTable, left_out: &[(usize, usize)]) -> Option<Rule> {
-    let step = table.form.quantum().unwrap_or(0.0);
     let mut grid = Grid::new(table, left_out);
+    let step = grid.step(table.form.quantum().unwrap_or(0.0));
     let rising = |places: &[f64]| places.windows(2).all(|pair| pair[0] < pair[1]);
     if grid.greatest <= 0.0 || !rising(&grid.x) || !rising(&grid.z) {
         return None;
@@ -147,6 +158,13 @@ mod tests {
         let crest: [&[i32]; 5] =
             [&[0, 9999, 9999], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9999, 9999]];
         assert_eq!(of(&crest, &[]), None);
+        // Ends 50 mm less are a crest where the table is rounded to 50 mm, whatever its decimals.
+        let coarse: [&[i32]; 5] =
+            [&[0, 9950, 9950], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9950, 9950]];
+        assert_eq!(of(&coarse, &[]), None);
+        let finer: [&[i32]; 5] =
+            [&[1, 9950, 9950], &[3, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9950, 9950]];
+        assert_eq!(of(&finer, &[]).unwrap().0, 6);
         // So is a single station, however much the next are less.
         let bow: [&[i32]; 3] = [&[0, 9000, 9000], &[0, 10000, 10000], &[0, 9000, 9000]];
         assert_eq!(of(&bow, &[]), None);

@@ -35,9 +35,9 @@ fn small(length: f64, notation: Notation) -> String {
 pub(super) fn millimetres(length: f64) -> String {
     let value = 1000.0 * length;
     let decimals = match value.abs() {
-        v if v >= 100.0 => 0,
-        v if v >= 10.0 => 1,
-        v if v >= 0.1 => 2,
+        v if v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        v if v >= 0.0995 => 2,
         _ => 3,
     };
     fixed(value, decimals)
