@@ -150,7 +150,7 @@ mod tests {
     fn a_flat_is_told_from_a_round_crest() {
         // Ends 300 mm less: flat from station 1 to 3 on the two upper waterlines.
         let flat: [&[i32]; 5] =
-            [&[0, 9000, 9700], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9000, 9700]];
+            [&[0, 9001, 9703], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9001, 9703]];
         let (offsets, rectangles) = of(&flat, &[]).unwrap();
         assert_eq!((offsets, rectangles.len()), (6, 2));
         assert_eq!(rectangles[0], [[10.0, 20.0], [1.0, 2.0]]);
@@ -166,14 +166,14 @@ mod tests {
             [&[1, 9950, 9950], &[3, 10000, 10000], &[0, 10000, 10000], &[0, 10000, 10000], &[0, 9950, 9950]];
         assert_eq!(of(&finer, &[]).unwrap().0, 6);
         // So is a single station, however much the next are less.
-        let bow: [&[i32]; 3] = [&[0, 9000, 9000], &[0, 10000, 10000], &[0, 9000, 9000]];
+        let bow: [&[i32]; 3] = [&[0, 9001, 9001], &[0, 10000, 10000], &[0, 9001, 9001]];
         assert_eq!(of(&bow, &[]), None);
     }
 
     #[test]
     fn an_offset_that_is_left_out_makes_no_hole() {
         let rows: [&[i32]; 5] =
-            [&[0, 9000, 9700], &[0, 10000, 10000], &[0, 10000, 9010], &[0, 10000, 10000], &[0, 9000, 9700]];
+            [&[0, 9001, 9703], &[0, 10000, 10000], &[0, 10000, 9010], &[0, 10000, 10000], &[0, 9001, 9703]];
         assert_eq!(of(&rows, &[]), None);
         assert_eq!(of(&rows, &[(2, 2)]).unwrap().0, 6);
     }
