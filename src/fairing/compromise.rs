@@ -14,6 +14,7 @@ use super::model::Model;
 use super::program::{Between, Program, Solved, Wishes};
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
+use crate::hull::{Hull, HullError};
 use crate::qp::{Settings, Status};
 
 /// Room above the least widening, for an interior to solve in.
@@ -42,6 +43,13 @@ const NET_BETWEEN: f64 = 3.0;
 
 /// Most times that limits are added that an answer breaks.
 const LIMIT_ROUNDS: usize = 10;
+
+/// Parts of the way from the nearest that targets can be had, where no offset has room left, to the fairest hull within
+/// the tolerances, that are gone back: the first on which no more inflections are counted than before, or the last.
+const GONE_BACK: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// Part of a smooth move that just fits into the tolerances which is asked for.
+const WITHIN: f64 = 0.97;
 
 /// The program without signs.
 pub(super) struct Basic<'a> {
@@ -325,4 +333,56 @@ impl<'a> Basic<'a> {
         wishes.between.extend(bands);
         any
     }
+}
+
+/// What may be asked for in the place of targets that are out of reach, in the order in which it is tried: the part of them
+/// that one smooth move has within the tolerances, where these would have to be `carried` times as wide for all; and what
+/// the hulls have on the way from the first of `ends`, the nearest that they can be had, to the second, the fairest. Nothing
+/// that is further from a target than the surface through the table, `before`.
+///
+/// # Errors
+/// [`HullError`] when a net on the way makes no hull.
+pub(super) fn within_reach(
+    asked: &[Constraint],
+    before: &Hull,
+    ends: &Ends,
+    carried: Option<f64>,
+    surface: &FairSurface,
+) -> Result<Vec<Vec<Constraint>>, HullError> {
+    let start = &surface.hull;
+    let eased = |constraint: &Constraint, value: f64| {
+        let own = constraint.value(before);
+        let nearer = constraint.missed(value, start) <= constraint.missed(own, start);
+        constraint.eased(if nearer { value } else { own }, start)
+    };
+    let mut choices: Vec<Vec<Constraint>> = Vec::new();
+    let mut smooth = None;
+    for part in GONE_BACK {
+        let [near, fair] = ends;
+        let net: Vec<f64> = near.iter().zip(fair).map(|(near, fair)| near + part * (fair - near)).collect();
+        let had = surface.hull_of(&net)?;
+        choices.push(asked.iter().map(|constraint| eased(constraint, constraint.value(&had))).collect());
+    }
+    if let Some(factor) = carried.filter(|factor| *factor > 1.0 && factor.is_finite()) {
+        let part = WITHIN / factor;
+        let value = |constraint: &Constraint| {
+            let own = constraint.value(before);
+            own + part * (constraint.target() - own)
+        };
+        smooth = Some(asked.iter().map(|constraint| eased(constraint, value(constraint))).collect::<Vec<_>>());
+    }
+    let missed = |choice: &[Constraint]| {
+        let nearest = |asked: &Constraint, eased: &Constraint| {
+            let value = eased.target() + eased.band().copysign(eased.target() - asked.target());
+            asked.missed(value, start)
+        };
+        asked.iter().zip(choice).map(|(asked, eased)| nearest(asked, eased)).sum::<f64>()
+    };
+    // What is nearer than a smooth move takes waves.
+    match smooth {
+        Some(smooth) if choices.iter().any(|choice| missed(&smooth) <= missed(choice)) => choices.insert(0, smooth),
+        Some(smooth) => choices.push(smooth),
+        None => {}
+    }
+    Ok(choices)
 }

@@ -4,7 +4,7 @@
 //! model of [`super::surface`] is faired by [`super::fair`]; what moved, what holds and what bends is told.
 
 use super::bends::Line;
-use super::compromise::Instead;
+use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::flats::shown_flat;
@@ -177,13 +177,6 @@ pub enum JobError {
     },
 }
 
-/// Parts of the way from the nearest that targets can be had, where no offset has room left, to the fairest hull within
-/// the tolerances, that are gone back: the first on which no more inflections are counted than before, or the last.
-const GONE_BACK: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// Part of a smooth move that just fits into the tolerances which is asked for.
-const WITHIN: f64 = 0.97;
-
 /// A cell and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
@@ -286,54 +279,6 @@ fn more_often(lines: &[Turns], carried: Option<f64>) -> Option<String> {
             told.join(", ")
         )
     })
-}
-
-/// What may be asked for in the place of targets that are out of reach, in the order in which it is tried: the part of them
-/// that one smooth move has within the tolerances, where these would have to be `carried` times as wide for all; and what
-/// the hulls have on the way from the first of `ends`, the nearest that they can be had, to the second, the fairest. Nothing
-/// that is further from a target than the surface through the table, the first of `starts`; the second has its chart.
-fn within_reach(
-    asked: &[Constraint],
-    [before, start]: [&Hull; 2],
-    ends: &[Vec<f64>; 2],
-    carried: Option<f64>,
-    surface: &FairSurface,
-) -> Result<Vec<Vec<Constraint>>, HullError> {
-    let eased = |constraint: &Constraint, value: f64| {
-        let own = constraint.value(before);
-        let nearer = constraint.missed(value, start) <= constraint.missed(own, start);
-        constraint.eased(if nearer { value } else { own }, start)
-    };
-    let mut choices: Vec<Vec<Constraint>> = Vec::new();
-    let mut smooth = None;
-    for part in GONE_BACK {
-        let [near, fair] = ends;
-        let net: Vec<f64> = near.iter().zip(fair).map(|(near, fair)| near + part * (fair - near)).collect();
-        let had = surface.hull_of(&net)?;
-        choices.push(asked.iter().map(|constraint| eased(constraint, constraint.value(&had))).collect());
-    }
-    if let Some(factor) = carried.filter(|factor| *factor > 1.0 && factor.is_finite()) {
-        let part = WITHIN / factor;
-        let value = |constraint: &Constraint| {
-            let own = constraint.value(before);
-            own + part * (constraint.target() - own)
-        };
-        smooth = Some(asked.iter().map(|constraint| eased(constraint, value(constraint))).collect::<Vec<_>>());
-    }
-    let missed = |choice: &[Constraint]| {
-        let nearest = |asked: &Constraint, eased: &Constraint| {
-            let value = eased.target() + eased.band().copysign(eased.target() - asked.target());
-            asked.missed(value, start)
-        };
-        asked.iter().zip(choice).map(|(asked, eased)| nearest(asked, eased)).sum::<f64>()
-    };
-    // What is nearer than a smooth move takes waves.
-    match smooth {
-        Some(smooth) if choices.iter().any(|choice| missed(&smooth) <= missed(choice)) => choices.insert(0, smooth),
-        Some(smooth) => choices.push(smooth),
-        None => {}
-    }
-    Ok(choices)
 }
 
 impl Job {
@@ -546,7 +491,7 @@ impl Job {
             // Targets that cannot be had give way: the nearest that leave a fair hull.
             Some(Instead::Targets(ends)) => {
                 let mut best: Option<(Attempt, Option<Vec<Held>>, FairSettings)> = None;
-                for constraints in within_reach(&asked, [&before, &surface.hull], &ends, carried, &surface)? {
+                for constraints in within_reach(&asked, &before, &ends, carried, &surface)? {
                     let mut eased = FairSettings { constraints, ..settings.clone() };
                     solver = RepeatedSolver::new(&self.solver);
                     let again = fair_prepared(&mut surface, &eased, &prepared, &mut solver)?;
