@@ -585,7 +585,7 @@ fn the_bending_energy_is_minimised_within_what_is_held() {
     }
 }
 
-/// Lines are chosen together and lobes taken out: of 74 inflections of stations and waterlines 44 are left. What a line
+/// Lines are chosen together and lobes taken out: of 74 inflections of stations and waterlines 46 are left. What a line
 /// is charged for it is no more than a quarter above the limit of 12.
 #[test]
 fn lobes_are_taken_out_for_no_more_than_their_price() {
@@ -594,7 +594,7 @@ fn lobes_are_taken_out_for_no_more_than_their_price() {
     let curves = |kind: &str| result["inflections"][kind].as_array().unwrap().clone();
     let lines: Vec<Value> = ["waterlines", "stations"].into_iter().flat_map(curves).collect();
     let sum = |when: &str| lines.iter().map(|line| line[when].as_u64().unwrap()).sum::<u64>();
-    assert!(sum("after") <= 44 && sum("before") >= 70, "{} {}", sum("before"), sum("after"));
+    assert!(sum("after") <= 46 && sum("before") >= 70, "{} {}", sum("before"), sum("after"));
     let prices: Vec<f64> = lines.iter().filter_map(|line| line["price"].as_f64()).collect();
     assert!(prices.len() > 10 && prices.iter().all(|price| (0.0..=15.0).contains(price)), "{prices:?}");
     assert!(number(&result["inflections"]["dead_band"]) > 1e-4);

@@ -302,7 +302,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "largest": number(rounding.largest), "rms": number(rounding.root_mean_square),
             "volume": json_number(rounding.volume), "volume_share": json_number(rounding.volume_share),
         },
-        "noise": { "sigma": number(faired.sigma) },
+        "noise": { "sigma": number(faired.sigma), "errors": number(faired.errors) },
         // The functional of true curvature at the convex answer and after each refresh of its metric.
         "refreshes": faired.refreshed.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
         // The integral of k1^2 + k2^2 over the surface at the convex answer and after each step, and what the last step

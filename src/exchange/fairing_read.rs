@@ -80,6 +80,8 @@ pub struct FairingFile {
     pub energy: [f64; 2],
     /// Noise of an offset \[m\].
     pub sigma: f64,
+    /// What the search for the smoothing weight took of it for errors \[m\].
+    pub errors: f64,
     /// Rows of `changes.csv`, where it is known.
     pub offsets: Option<usize>,
     /// Effective degrees of freedom.
@@ -188,6 +190,7 @@ struct StationRecord {
 #[derive(Deserialize)]
 struct Noise {
     sigma: f64,
+    errors: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -268,6 +271,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
             crossings,
         },
         sigma: record.noise.sigma,
+        errors: record.noise.errors.unwrap_or(record.noise.sigma),
         offsets: record.moves.offsets,
         edf: smoothing.edf,
         chosen: Trial {

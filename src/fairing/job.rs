@@ -15,6 +15,7 @@ use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::lobes::Lobes;
+use super::noise::left_by_differences;
 use super::proposals::{Accepted, Proposal};
 use super::record::{moves, resolution};
 use super::repeated::{Attempt, Repeated};
@@ -410,6 +411,7 @@ impl Job {
             weight: self.weight,
             // Whoever names a tolerance for the table says how noisy it is.
             table_noise: Some(self.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
+            differences: left_by_differences(table, &excluded),
             most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
             least_noise: quantum / 12f64.sqrt(),
             tolerance_levels: Some(3.0),

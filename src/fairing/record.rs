@@ -120,6 +120,8 @@ pub struct FairRecord {
     pub energy: [f64; 2],
     /// Noise level of an offset \[m\].
     pub sigma: f64,
+    /// What the search for the smoothing weight took of it for errors \[m\].
+    pub errors: f64,
     /// Smoothing weight.
     pub lambda: f64,
     /// Effective degrees of freedom of the smoothed net.
@@ -247,6 +249,7 @@ impl FairRecord {
             ),
             energy: outcome.energy,
             sigma: faired.sigma,
+            errors: faired.errors,
             lambda: faired.lambda,
             edf: faired.edf,
             chosen: faired.chosen,

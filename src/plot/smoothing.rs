@@ -1,8 +1,8 @@
 //! The search for the smoothing weight: the L-curve, deviation from the offsets against energy, one point a weight,
 //! over the criterion that decided, both axes by powers of ten.
 //!
-//! The criterion is generalised cross-validation, or Mallows' C_p = RSS + 2 sigma^2 edf where the noise is that of the
-//! table; it is shown over its least value.
+//! The criterion is generalised cross-validation, or Mallows' C_p = RSS + 2 sigma^2 edf for the errors that the table
+//! has; it is shown over its least value.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
@@ -30,7 +30,7 @@ fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
 /// was taken is the best of neither.
 fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
     let count = record.changes.iter().filter(|change| !change.suspect).count() as f64;
-    let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.sigma * record.sigma * trial.edf;
+    let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.errors * record.errors * trial.edf;
     let shown = |name, of: &dyn Fn(&Trial) -> f64| {
         let least =
             record.trials.iter().filter(|trial| of(trial).is_finite()).min_by(|a, b| of(a).total_cmp(&of(b)))?;
@@ -79,10 +79,10 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     };
     let mut canvas = Canvas::new(SHEET[0], height);
     let words = format!(
-        "weight taken {}, {:.1} degrees of freedom, noise {:.3} mm; figures are weights",
+        "weight taken {}, {:.1} degrees of freedom, for errors of {:.3} mm; figures are weights",
         figures(record.lambda, 2),
         record.edf,
-        1e3 * record.sigma
+        1e3 * record.errors
     );
     caption::head(&mut canvas, SHEET[0], "SEARCH FOR THE SMOOTHING WEIGHT", &record.name, &words);
     let mut placer = LabelPlacer::default();
