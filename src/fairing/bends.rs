@@ -24,11 +24,17 @@ use std::ops::Range;
 /// ends count.
 const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
 
+/// The same where the line runs across the other lines of the net: its second derivative is no straight line.
+const PLACES_ACROSS: [f64; 7] = [0.01, 0.17, 0.33, 0.5, 0.67, 0.83, 0.99];
+
 /// Curvature below this part of the largest of the line is none.
 pub const DEAD: f64 = 0.01;
 
 /// A line that leaves its chord by less is straight \[m\].
 const STRAIGHT: f64 = 1e-5;
+
+/// A line stands still where it runs on by less than this part of its greatest speed.
+const STILL: f64 = 1e-6;
 
 /// Part of the dead band that limits of signs leave open: without it they touch wherever a line is straight, and
 /// nothing lies strictly within them all.
@@ -159,25 +165,36 @@ impl Scaled {
 /// Points inside the spans.
 #[must_use]
 pub fn sites(knots: &KnotVector) -> Vec<f64> {
-    let breaks = knots.breakpoints();
-    breaks.windows(2).flat_map(|w| PLACES.map(|part| w[0] + (w[1] - w[0]) * part)).collect()
+    inside(knots, &PLACES)
 }
 
-/// The bends along a line, from keel to deck or from aft forward.
+/// Points at these parts of each span.
+fn inside(knots: &KnotVector, places: &[f64]) -> Vec<f64> {
+    let breaks = knots.breakpoints();
+    breaks.windows(2).flat_map(|w| places.iter().map(move |part| w[0] + (w[1] - w[0]) * part)).collect()
+}
+
+/// The bends along a line, from keel to deck or from aft forward, without places at which the line stands still: where
+/// sections close on the centreplane the chart runs on in one point, and there is no curvature.
 #[must_use]
 pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     let hull = &surface.hull;
     let net = hull.surface();
-    match line {
+    let mut bends: Vec<Bend> = match line {
         Line::Station(x) => {
             let along = sites(net.v()).into_iter();
             along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
         }
         Line::Waterline(z) => {
-            let along = sites(net.u()).into_iter();
+            let places: &[f64] = if hull.is_level() { &PLACES } else { &PLACES_ACROSS };
+            let along = inside(net.u(), places).into_iter();
             along.filter_map(|u| hull.height_parameter_at(u, z).and_then(|v| bend(net, [u, v], false))).collect()
         }
-    }
+    };
+    let speed = |bend: &Bend| bend.along.hypot(value(&bend.slope, &surface.start));
+    let fastest = bends.iter().map(speed).fold(0.0, f64::max);
+    bends.retain(|bend| speed(bend) > STILL * fastest);
+    bends
 }
 
 /// The curvature below which a line has none \[1/m\]: a part of the ninth decile, so that a tight bilge does not make

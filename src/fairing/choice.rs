@@ -17,7 +17,7 @@ use super::program::{Program, RowName, Solved};
 use crate::qp::{Problem, ProblemError, Settings, SparseRows, Status};
 
 /// Most iterations of a program that is tried: what takes more has next to nothing within its limits.
-const ITERATIONS: usize = 100;
+const ITERATIONS: usize = 70;
 
 /// Accuracy of the choice.
 const ACCURACY: f64 = 1e-7;

@@ -42,20 +42,28 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
     let breaks: Vec<f64> =
         knots.breakpoints().into_iter().filter(|&t| knots.multiplicity(t) >= knots.degree()).collect();
     let mut points: Vec<(f64, f64, f64, bool)> = Vec::new();
+    let mut on_outline: Vec<([usize; 2], f64)> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
-        // Points of a section need not rise: they are no function of the height.
-        if matches!(place.origin, Origin::Point { .. }) {
-            continue;
-        }
-        let site = match line {
-            Line::Station(x) if (place.x - x).abs() < same => place.z,
-            Line::Waterline(z) if (place.z - z).abs() < same => place.x,
+        let site = match (line, place.origin) {
+            (Line::Station(x), _) if (place.x - x).abs() < same => place.z,
+            (Line::Waterline(z), Origin::HalfBreadth { .. } | Origin::Deck { .. }) if (place.z - z).abs() < same => {
+                place.x
+            }
             _ => continue,
         };
+        if let Origin::Point { outline, point, .. } = place.origin {
+            on_outline.push(([outline, point], place.z));
+        }
         if let Some(tolerance) = reading.tolerance {
             let broken = breaks.iter().any(|t| (place.at[across] - t).abs() <= near);
             points.push((site, reading.value, tolerance, broken));
         }
+    }
+    // Points of a section need not rise: they are a function of the height where one outline does all along.
+    on_outline.sort_by_key(|point| point.0);
+    let rises = |pair: &[([usize; 2], f64)]| pair[0].0[0] == pair[1].0[0] && pair[1].1 - pair[0].1 > same;
+    if !on_outline.windows(2).all(rises) {
+        return None;
     }
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points.dedup_by(|a, b| a.0 - b.0 < same);
