@@ -211,7 +211,7 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
     // Every file says that it is a compromise.
     let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
-    let mark = "# compromise: not all that was wished of this table is held; fairing.json says what is not";
+    let mark = "# compromise: not all that was wished is held; fairing.json says what is not";
     let written = read("offsets.csv");
     assert_eq!(written.lines().next(), Some(mark));
     for name in ["hull.json", "summary.json"] {

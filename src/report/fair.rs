@@ -13,8 +13,8 @@ use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, JobFile, RuleMark};
 use crate::exchange::{
-    ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv, conventions_json,
-    fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
+    COMPROMISE_LINE, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv,
+    conventions_json, fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
 };
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
@@ -190,10 +190,6 @@ fn offsets_name(job: &FairJob) -> String {
 /// What the name of a hull ends with that does not hold all wishes: it stands on every drawing and in every file that
 /// has the name.
 const COMPROMISE: &str = " (compromise)";
-
-/// The line above a table of such a hull.
-const COMPROMISE_LINE: &str =
-    "# compromise: not all that was wished of this table is held; fairing.json says what is not";
 
 /// A name without the mark of an earlier fairing, and with it where `compromise`.
 fn marked_name(name: &str, compromise: bool) -> String {
