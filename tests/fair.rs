@@ -383,13 +383,37 @@ fn refusals_name_the_line_of_the_job() {
     let text = "[tolerance]\ntable = \"1 mm\"\n[shape]\nconvex = [\n  \"waterline 6.5024\",\n]\nconcave = [\"waterline 6.5024\"]\n";
     let (code, words) = said(TABLE, text, &[]);
     let expected = "given up was the waterline at z = 6.502 m convex (job.toml:7), the waterline at z = 6.502 m concave (job.toml:9)";
-    assert!(code == Some(4) && words.contains(expected), "{words}");
+    assert!(code == Some(4) && words.contains(expected) && words.contains("no tolerances were found"), "{words}");
     let (code, words) = said(TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "8600 t"]);
     assert_eq!(code, Some(4));
     assert!(
         words.contains(" LCB (job.toml:4) without") && words.contains(" displacement (--displacement) w"),
         "{words}"
     );
+}
+
+/// A section area with a band that is out of reach: the tolerances that would do are told, and they do.
+#[test]
+fn the_least_tolerances_for_a_section_area_are_found() {
+    let folder = folder("widening");
+    let run = |tolerance: f64| {
+        let (job, out) = (folder.join("job.toml"), folder.join("out"));
+        let table = carried(TABLE).display().to_string();
+        let hold = "[hold]\nsection_areas = [[30.48, 70, 5]]";
+        fs::write(&job, format!("[table]\nfile = {table:?}\n[tolerance]\ntable = {tolerance}\n{hold}\n")).unwrap();
+        let (job, to) = (job.display().to_string(), out.display().to_string());
+        let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
+        let certificate = fs::read_to_string(out.join("fairing.json")).unwrap();
+        let certificate: Value = serde_json::from_str(&certificate).unwrap();
+        (output.status.code(), stderr(&output), certificate["infeasible"]["widening"].as_f64())
+    };
+    let (code, said, widening) = run(0.01);
+    assert!(
+        code == Some(4) && said.contains(" times as wide (264 mm where it is widest now 10.0 mm) would do;"),
+        "{said}"
+    );
+    let widening = widening.unwrap();
+    assert_eq!([run(0.01 * widening * 1.002).0, run(0.01 * widening * 0.99).0], [Some(0), Some(4)]);
 }
 
 /// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the

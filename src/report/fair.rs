@@ -429,7 +429,10 @@ impl FairOutputs {
             let [wide, now] = [factor * typical, typical].map(millimetres);
             format!("{factor:.3} times as wide ({wide} mm where it is widest now {now} mm)")
         };
-        let least = found.and_then(|found| found.widening).map(|factor| format!(" {} would do;", wide(factor)));
+        let least = found.map(|found| match found.widening {
+            Some(factor) => format!(" {} would do;", wide(factor)),
+            None => " no tolerances were found that would do;".to_owned(),
+        });
         // What the least is does by waves: as much of every tolerance as there is.
         let fair =
             self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some()).map(|factor| {
