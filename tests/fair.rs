@@ -31,6 +31,7 @@ fn carried(file: &str) -> PathBuf {
 }
 
 const TABLE: &str = "tests/data/series60_cb060/offsets.csv";
+const YACHT: &str = "tests/data/pdstrip_yacht/offsets.csv";
 
 fn faired(input: &Path, options: &[(&str, &str, &str)]) -> (FairJob, FairOutputs) {
     let options: Vec<_> = options.iter().map(|(option, key, value)| (*option, *key, (*value).to_owned())).collect();
@@ -208,10 +209,10 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     let [least, greatest] = ["least", "greatest"].map(|key| alone[key].as_f64().unwrap());
     // Within a millimetre of the table, C_B is that of the table but for a part in a hundred.
     assert!(0.59 < least && least < greatest && greatest < 0.62, "{alone}");
-    assert!(stderr(&output).contains("C_B alone would have to give by"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("C_B (--cb) alone would have to give by"), "{}", stderr(&output));
     // Every file says that it is a compromise.
     let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
-    let mark = "# compromise: not all that was wished of this table is held; fairing.json says what is not";
+    let mark = "# compromise: not all that was wished is held; fairing.json says what is not";
     let written = read("offsets.csv");
     assert_eq!(written.lines().next(), Some(mark));
     for name in ["hull.json", "summary.json"] {
@@ -265,7 +266,12 @@ fn targets_that_are_out_of_reach_together_have_intervals() {
     }
     let [least, fair] = [found.widening, outputs.outcome.faired.carried].map(Option::unwrap);
     assert!(1.0 < least && least < fair, "{least} {fair}");
-    for words in ["no single target would do", "displacement without", "LCB without", "by one smooth move"] {
+    for words in [
+        "no single target would do",
+        "displacement (--displacement) without",
+        "LCB (--lcb) without",
+        "by one smooth move",
+    ] {
         assert!(said.contains(words), "{words}: {said}");
     }
 }
@@ -342,6 +348,72 @@ fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
     assert!(stderr(&output).contains("E176") && stderr(&output).contains("no flat of bottom"), "{}", stderr(&output));
     assert!(!Path::new(&out).exists());
+}
+
+/// Whatever cannot be had is told at the line of the job that asks for it, or at the option.
+#[test]
+fn refusals_name_the_line_of_the_job() {
+    let folder = folder("places");
+    let job = folder.join("job.toml");
+    let said = |table: &str, text: &str, options: &[&str]| {
+        fs::write(&job, format!("[table]\nfile = {:?}\n{text}", carried(table).display().to_string())).unwrap();
+        let (job, out) = (job.display().to_string(), folder.join("out").display().to_string());
+        let arguments = [&["fair", &job, "-o", &out, "--force", "--no-figures"], options].concat();
+        let output = program(&arguments);
+        (output.status.code(), stderr(&output).replace(&format!("{}/", folder.display()), ""))
+    };
+    let refused = [
+        (TABLE, "[lines]\naccept = [\"L9\"]\n", [].as_slice(), "E180 job.toml:4:10 lines.accept: L9 is not proposed"),
+        (TABLE, "", &["--accept-lines", "L9"], "E180 --accept-lines lines.accept: L9 is not proposed"),
+        (
+            YACHT,
+            "[lines]\ntangent = [\n\"waterline 0.1\"]\n",
+            &[],
+            "E180 job.toml:5:1 lines.tangent: the waterline at 0.1 m cannot",
+        ),
+        (TABLE, "[dimensions]\nT = 50\n", &[], "E175 job.toml:4:5 dimensions.T: the design draught of 50.000 m"),
+        (TABLE, "[dimensions]\nD = 1\n", &[], "E175 job.toml:4:5 dimensions.D: the design draught of"),
+        (TABLE, "[dimensions]\nB = 1\n", &[], "E175 job.toml:4:5 dimensions.B: half-breadths of the net"),
+        (TABLE, "", &["--draught", "50"], "E175 --draught dimensions.T: the design draught of 50.000 m"),
+    ];
+    for (table, text, options, expected) in refused {
+        let (code, said) = said(table, text, options);
+        assert!(code == Some(3) && said.contains(expected), "{expected}: {said}");
+    }
+    let text = "[tolerance]\ntable = \"1 mm\"\n[shape]\nconvex = [\n  \"waterline 6.5024\",\n]\nconcave = [\"waterline 6.5024\"]\n";
+    let (code, words) = said(TABLE, text, &[]);
+    let expected = "given up was the waterline at z = 6.502 m convex (job.toml:7), the waterline at z = 6.502 m concave (job.toml:9)";
+    assert!(code == Some(4) && words.contains(expected) && words.contains("no tolerances were found"), "{words}");
+    let (code, words) = said(TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "8600 t"]);
+    assert_eq!(code, Some(4));
+    assert!(
+        words.contains(" LCB (job.toml:4) without") && words.contains(" displacement (--displacement) w"),
+        "{words}"
+    );
+}
+
+/// A section area with a band that is out of reach: the tolerances that would do are told, and they do.
+#[test]
+fn the_least_tolerances_for_a_section_area_are_found() {
+    let folder = folder("widening");
+    let run = |tolerance: f64| {
+        let (job, out) = (folder.join("job.toml"), folder.join("out"));
+        let table = carried(TABLE).display().to_string();
+        let hold = "[hold]\nsection_areas = [[30.48, 70, 5]]";
+        fs::write(&job, format!("[table]\nfile = {table:?}\n[tolerance]\ntable = {tolerance}\n{hold}\n")).unwrap();
+        let (job, to) = (job.display().to_string(), out.display().to_string());
+        let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
+        let certificate = fs::read_to_string(out.join("fairing.json")).unwrap();
+        let certificate: Value = serde_json::from_str(&certificate).unwrap();
+        (output.status.code(), stderr(&output), certificate["infeasible"]["widening"].as_f64())
+    };
+    let (code, said, widening) = run(0.01);
+    assert!(
+        code == Some(4) && said.contains(" times as wide (264 mm where it is widest now 10.0 mm) would do;"),
+        "{said}"
+    );
+    let widening = widening.unwrap();
+    assert_eq!([run(0.01 * widening * 1.002).0, run(0.01 * widening * 0.99).0], [Some(0), Some(4)]);
 }
 
 /// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the

@@ -313,6 +313,17 @@ fn the_command_refuses_with_numbers() {
     let json: serde_json::Value = serde_json::from_str(&folder.read("out/fairing.json")).unwrap();
     assert_eq!(json["status"], "infeasible");
     let widening = json["widening"].as_f64().unwrap();
+    // Every file says that it is a compromise; the curve reads back, and what is had of it loses the mark.
+    let written = folder.read("out/curve.csv");
+    assert!(written.starts_with("# compromise: not all that was wished is held;"), "{written}");
+    let rows = || written.lines().skip(1);
+    assert!(rows().next().unwrap().ends_with(",status") && rows().skip(1).all(|row| row.ends_with(",infeasible")));
+    assert!(folder.read("out/fair-curve.svg").contains("A COMPROMISE"));
+    assert_eq!(folder.run(&["out/curve.csv", "-o", "again"]).0, 0);
+    let again = folder.read("again/curve.csv");
+    assert_eq!(again.lines().count(), rows().count());
+    assert!(again.lines().skip(1).all(|row| row.ends_with(",optimal")), "{again}");
+    assert!(!folder.read("again/fair-curve.svg").contains("A COMPROMISE"));
     // With that tolerance, and not with one a hundredth smaller, it can be had.
     let with = |factor: f64| {
         let tolerance = format!("{} mm", 10.0 * widening * factor);

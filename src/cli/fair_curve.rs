@@ -86,7 +86,7 @@ Ends that are 0 stay 0 where no ordinate is below. curve.csv is in metres.
 fairing.json holds the proof: the least number of inflections within the tolerances with three points for each change that no curve \
 can pass without it, and the duality gap of the convex program.
 Exit code 4 when what is wished cannot be had within the tolerances; the message names the smallest tolerance that would do, \
-and the best curve with it is written.";
+and the best curve with it is written, marked.";
 
 fn inflections(text: &str) -> Result<InflectionWish, String> {
     match text {

@@ -14,17 +14,20 @@
 //! ```
 
 mod hold;
+mod place;
 mod shape;
 mod spot;
 
 pub use hold::{Quantity, Wish};
+pub use place::Place;
 pub use shape::RuleMark;
 pub use spot::{Mark, Spot};
 
-use super::diagnostic::{Diagnostic, Severity, position};
+use super::diagnostic::Diagnostic;
 use super::document::{Document, Raw};
 use super::keys::{Key, Kind, key};
 use super::value::Scalar;
+use crate::fairing::constraint::Constraint;
 use crate::fairing::job::{Holding, Job};
 use crate::fairing::proposals::Accepted;
 use crate::hull::{OffsetTable, StatedParticulars};
@@ -255,8 +258,6 @@ pub struct JobFile {
     pub hold: Vec<(Quantity, Wish)>,
     /// Height of the centre of gravity \[m\].
     pub gravity: Option<f64>,
-    /// File and place of GM, which needs it.
-    metacentric: Option<(String, Option<(usize, usize)>)>,
     /// Rules for lines and regions.
     pub rules: Vec<RuleMark>,
     /// Knuckles and tangent lines.
@@ -264,7 +265,7 @@ pub struct JobFile {
     /// Which proposed lines are taken.
     pub accepted: Option<Accepted>,
     /// Section areas: x \[m\], area and band \[m^2\].
-    pub section_areas: Vec<[f64; 3]>,
+    pub section_areas: Vec<([f64; 3], Place)>,
     /// Whether suspects are left out.
     pub exclude_suspects: Option<bool>,
     /// Whether the flat of side that the table shows is kept.
@@ -275,6 +276,8 @@ pub struct JobFile {
     pub true_curvature: Option<bool>,
     /// `energy.bending`.
     pub bending: Option<bool>,
+    /// Where the values of the keys stand; of a key that is said twice the last counts.
+    places: Vec<Place>,
 }
 
 /// Reads a job file. `file` is its name for messages.
@@ -315,9 +318,9 @@ pub fn read_option(option: &str, key: &str, value: &str) -> Result<JobFile, Vec<
     };
     read_job(option, &text)
         .map(|mut job| {
-            job.locks.iter_mut().for_each(Mark::without_place);
-            job.rules.iter_mut().chain(&mut job.lines).for_each(RuleMark::without_place);
-            job.metacentric.iter_mut().for_each(|(_, at)| *at = None);
+            let rules = job.rules.iter_mut().chain(&mut job.lines).map(|rule| &mut rule.place);
+            let locks = job.locks.iter_mut().map(|lock| &mut lock.place);
+            rules.chain(locks).chain(&mut job.places).for_each(Place::of_option);
             job
         })
         .map_err(|problems| {
@@ -345,6 +348,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         signs: document.switch("signs.impose"),
         true_curvature: document.switch("energy.true_curvature"),
         bending: document.switch("energy.bending"),
+        places: document.entries.iter().map(|e| Place::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };
     spot::read(document, &mut job);
@@ -405,12 +409,12 @@ impl JobFile {
         self.section_areas.extend(other.section_areas);
         self.rules.extend(other.rules);
         self.lines.extend(other.lines);
+        self.places.extend(other.places);
         Self {
             table: other.table.or(self.table),
             accepted: other.accepted.or(self.accepted),
             density: other.density.or(self.density),
             gravity: other.gravity.or(self.gravity),
-            metacentric: other.metacentric.or(self.metacentric),
             order: other.order.or(self.order),
             anisotropy: other.anisotropy.or(self.anisotropy),
             weight: other.weight.or(self.weight),
@@ -482,14 +486,30 @@ impl JobFile {
         }
         let metacentric =
             |(quantity, wish): &(Quantity, Wish)| *quantity == Quantity::MetacentricHeight && *wish != Wish::Free;
-        if let (None, Some((file, at)), true) = (self.gravity, &self.metacentric, self.hold.iter().any(metacentric)) {
-            let text = "hold.GM: the height of the centre of gravity is not said".to_owned();
-            let help = "Give hold.KG (--kg), or hold KM instead.".to_owned();
-            problems.push(message("E179", (file, "hold.GM"), *at, text, help));
+        if let (None, Some(place), true) = (self.gravity, self.place("hold.GM"), self.hold.iter().any(metacentric)) {
+            let text = "the height of the centre of gravity is not said";
+            problems.push(place.problem("E179", text, "Give hold.KG (--kg), or hold KM instead."));
         }
         job.locked.sort_unstable();
         job.locked.dedup();
         if problems.is_empty() { Ok(job) } else { Err(problems) }
+    }
+
+    /// Where a key stands, by its path.
+    #[must_use]
+    pub fn place(&self, key: &str) -> Option<&Place> {
+        self.places.iter().rev().find(|place| place.key == key)
+    }
+
+    /// Where it says what is held; none of what is held because nothing is said.
+    #[must_use]
+    pub fn place_of(&self, constraint: &Constraint) -> Option<&Place> {
+        if let Constraint::SectionArea { x, .. } = constraint {
+            let same = |(area, _): &&([f64; 3], Place)| area[0].total_cmp(x).is_eq();
+            return self.section_areas.iter().find(same).map(|(_, place)| place);
+        }
+        let held = self.hold.iter().find(|(quantity, wish)| *wish != Wish::Free && quantity.is_of(constraint));
+        held.and_then(|(quantity, _)| self.place(&format!("hold.{}", quantity.key())))
     }
 
     fn holding(&self, length: f64) -> Holding {
@@ -499,31 +519,6 @@ impl JobFile {
         let density = self.density.unwrap_or(crate::hydrostatics::Conventions::default().density);
         hold::holding(&self.hold, &self.section_areas, [length, density, self.gravity.unwrap_or(0.0)])
     }
-}
-
-/// A message about the job at a place of its file.
-fn message(
-    code: &'static str,
-    (file, key): (&str, &str),
-    at: Option<(usize, usize)>,
-    message: String,
-    help: String,
-) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        code,
-        file: file.to_owned(),
-        line: at.map(|at| at.0),
-        column: at.map(|at| at.1),
-        key: key.to_owned(),
-        message,
-        help,
-    }
-}
-
-/// Line and column of a byte of the document.
-fn place(document: &Document<'_>, byte: usize) -> Option<(usize, usize)> {
-    Some(position(document.text, byte))
 }
 
 /// A text, or a number as it is written.

@@ -8,8 +8,9 @@
 
 use serde_json::{Value, json};
 
+use super::fairing::COMPROMISE_LINE;
 use super::number::{cell, json_number, line};
-use crate::fairing::curve::{CurvePoint, FairCurve};
+use crate::fairing::curve::{CurvePoint, FairCurve, FairStatus};
 use crate::fairing::inflections::Witness;
 use crate::units::{CellEntry, CellRules, CellWriting, Notation, parse_cell};
 
@@ -245,10 +246,16 @@ fn point(
     Ok((made, step))
 }
 
-/// `curve.csv`: the fair curve at the points that were given, in metres; it reads back as a curve.
+/// `curve.csv`: the fair curve at the points that were given, in metres, marked where it does not hold all wishes; it
+/// reads back as a curve.
 #[must_use]
 pub fn curve_csv(points: &[CurvePoint], fair: &FairCurve) -> String {
-    let mut text = String::from("x,y,tolerance,flag,before,move,slope,curvature\n");
+    let mut text = String::new();
+    if fair.status == FairStatus::Infeasible {
+        text.push_str(COMPROMISE_LINE);
+        text.push('\n');
+    }
+    text.push_str("x,y,tolerance,flag,before,move,slope,curvature,status\n");
     for (given, point) in points.iter().zip(&fair.points) {
         let mut flag = String::new();
         for (set, mark) in [(given.knuckle, 'K'), (given.tangent, 'T'), (given.locked, '!')] {
@@ -265,6 +272,7 @@ pub fn curve_csv(points: &[CurvePoint], fair: &FairCurve) -> String {
             cell(point.moved()),
             cell(Some(point.slope)),
             cell(Some(point.curvature)),
+            fair.status.as_str().to_owned(),
         ]));
     }
     text

@@ -39,6 +39,9 @@ pub fn status_word(status: Status) -> &'static str {
     }
 }
 
+/// The line above a table or the points of a curve that do not hold all wishes.
+pub const COMPROMISE_LINE: &str = "# compromise: not all that was wished is held; fairing.json says what is not";
+
 /// Moves below this \[m\] are none: without the wish the objective falls, but the moves need not.
 pub const NO_MOVE: f64 = 5e-7;
 

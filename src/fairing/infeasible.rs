@@ -15,6 +15,9 @@ use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, Status};
 /// What a target may miss, relative, and still count as had.
 const HAD: f64 = 1e-9;
 
+/// What the bound of a least factor may be off, relative, where the solver stalled before its tolerance was met.
+const PROVED: f64 = 1e-5;
+
 /// What one constraint could be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
@@ -49,7 +52,7 @@ pub type Ends = [Vec<f64>; 2];
 /// Why a program has no solution, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// The least factor on the tolerances that makes the program feasible; none when no factor does.
+    /// The least factor on the tolerances that makes the program feasible; none when no factor does, or none was found.
     pub widening: Option<f64>,
     /// Each constraint alone.
     pub reaches: Vec<Reach>,
@@ -119,10 +122,15 @@ fn least_factor(
             None => factor.push(row, low, high),
         }
     }
-    let solution = factor.into_problem().solve(settings)?;
-    let (mut x, optimal) = (solution.x, solution.status == Status::Optimal);
-    let factor = x.split_off(n)[0];
-    Ok(optimal.then_some((factor, x)))
+    let problem = factor.into_problem();
+    let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
+    let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
+    // Where many limits meet, the multipliers stall at what is proof enough of a factor.
+    let gap = (certificate.primal - certificate.dual).abs();
+    let proved = certificate.max_violation <= HAD && gap <= PROVED * certificate.primal.abs();
+    let found = solution.status == Status::Optimal || proved;
+    let factor = solution.x.split_off(n)[0];
+    Ok(found.then_some((factor, solution.x)))
 }
 
 /// Most times that limits are added which an end of an interval breaks: an interval that still breaks some is too wide.

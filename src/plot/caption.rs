@@ -4,6 +4,11 @@ use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, TextStyle};
 use crate::hydrostatics::CoefficientLength;
 
+/// What a drawing says that does not hold all wishes.
+pub(super) fn compromise(canvas: &mut Canvas, at: [f64; 2], style: &TextStyle) {
+    canvas.text(at, "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
+}
+
 /// `text` without the sign that lowers what follows.
 pub(super) fn plain(text: &str) -> String {
     text.replace('_', " ")

@@ -8,7 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step, sheet_scale};
 use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
-use crate::fairing::curve::FairCurve;
+use crate::fairing::curve::{FairCurve, FairStatus};
 use crate::spline::BsplineCurve;
 use crate::units::counted;
 
@@ -117,6 +117,9 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
     }
     canvas.text([SIDES[1], MOVES[1] + 8.0], "x [m]", &TextStyle::new(2.6, Anchor::End));
     moves(&mut canvas, fair, |x| SIDES[0] + (x - from) * scale_x);
+    if fair.status == FairStatus::Infeasible {
+        caption::compromise(&mut canvas, [SIDES[0], SHEET[1] - 4.0], &TextStyle::new(3.0, Anchor::Start));
+    }
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(Svg::new(canvas.finish("fair-curve")))
 }

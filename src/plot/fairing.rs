@@ -804,7 +804,7 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
         x += 112.0;
     }
     if plan.record.status != Status::Optimal {
-        canvas.text([x, y], "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
+        caption::compromise(canvas, [x, y], &style);
     }
     canvas.text([plan.room[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
 }

@@ -11,17 +11,18 @@ use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
-use crate::config::{self, JobFile, RuleMark};
+use crate::config::{self, JobFile, Place};
 use crate::exchange::{
-    ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv, conventions_json,
-    fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
+    COMPROMISE_LINE, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv,
+    conventions_json, fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
 };
+use crate::fairing::ProposedLine;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
 use crate::fairing::infeasible::{Diagnosis, Reach};
 use crate::fairing::job::{Job, JobError, Outcome};
 use crate::fairing::record::FairRecord;
-use crate::hull::{Functional, Hull, OffsetTable, StatedParticulars, TableLayout};
+use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
 
@@ -39,10 +40,8 @@ pub struct FairJob {
     table_file: PathBuf,
     /// Name and text of the conventions beside the table.
     beside: Option<(String, String)>,
-    /// Main dimensions that the job says.
-    stated: StatedParticulars,
-    /// Rules of the job with their places.
-    rules: Vec<RuleMark>,
+    /// What file and options say, with its places.
+    said: JobFile,
     /// The files that were read; the first is the one that the command named.
     inputs: Vec<ManifestEntry>,
     files: Vec<PathBuf>,
@@ -62,6 +61,7 @@ pub struct FairOutputs {
     /// The files, in the order of their names; the manifest is the last.
     pub files: Vec<OutputFile>,
     table_file: PathBuf,
+    said: JobFile,
 }
 
 /// The table file of a job file.
@@ -124,30 +124,21 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     }
     let length = match table.stated.length_between_perpendiculars {
         Some(length) => length,
-        None => fitted(&table, &table_file)?.particulars().length_between_perpendiculars,
+        None => {
+            let hull = fitted(&table).map_err(|error| refusal(&said, &[], &table_file, &error.into()))?;
+            hull.particulars().length_between_perpendiculars
+        }
     };
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
-    Ok(FairJob {
-        table,
-        job,
-        reading,
-        conventions,
-        table_file,
-        beside,
-        stated: said.stated,
-        rules: said.rules,
-        inputs,
-        files,
-    })
+    Ok(FairJob { table, job, reading, conventions, table_file, beside, said, inputs, files })
 }
 
 /// The surface through a table.
-fn fitted(table: &OffsetTable, file: &Path) -> Result<Hull, Failure> {
-    let fitted = Hull::fit(table, &crate::hull::FitMethod::Graded);
-    fitted.map(|fitted| fitted.hull).map_err(|error| Failure::Input(vec![problem("E175", file, error.to_string(), "")]))
+fn fitted(table: &OffsetTable) -> Result<Hull, FitError> {
+    Hull::fit(table, &crate::hull::FitMethod::Graded).map(|fitted| fitted.hull)
 }
 
 /// Files that every fairing writes, besides the table.
@@ -191,10 +182,6 @@ fn offsets_name(job: &FairJob) -> String {
 /// has the name.
 const COMPROMISE: &str = " (compromise)";
 
-/// The line above a table of such a hull.
-const COMPROMISE_LINE: &str =
-    "# compromise: not all that was wished of this table is held; fairing.json says what is not";
-
 /// A name without the mark of an earlier fairing, and with it where `compromise`.
 fn marked_name(name: &str, compromise: bool) -> String {
     let plain = name.trim_end_matches(COMPROMISE);
@@ -228,7 +215,7 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
 
 /// The dimensions that the job says.
 fn said(job: &FairJob) -> Said {
-    Said::dimensions(&job.stated, job.files.first().unwrap_or(&job.table_file))
+    Said::dimensions(&job.said.stated, job.files.first().unwrap_or(&job.table_file))
 }
 
 /// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the
@@ -255,7 +242,7 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
     let volume = |table: &OffsetTable| {
         let mut table = table.clone();
         table.stated = job.table.stated;
-        let hull = fitted(&table, &job.table_file).ok()?;
+        let hull = fitted(&table).ok()?;
         Some(Functional::Volume.value(&hull, hull.particulars().draught))
     };
     let exact = volume(&outcome.table);
@@ -265,32 +252,70 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
     (RoundingEffect { volume: change, volume_share: share, ..RoundingEffect::default() }, back)
 }
 
+/// The keys of the dimensions with which the table makes no hull.
+fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
+    match error {
+        JobError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+        JobError::Fit(FitError::Hull(hull)) | JobError::Hull(hull) | JobError::Fair(FairError::Hull(hull)) => {
+            match hull {
+                HullError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+                HullError::Breadths { .. } => &["dimensions.B"],
+                _ => &[],
+            }
+        }
+        _ => &[],
+    }
+}
+
+/// Why nothing was faired, at the place of the job that asks for what cannot be had; `lines` are the lines of the job
+/// as the table has them.
+fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &JobError) -> Failure {
+    let first = |keys: &[&str]| keys.iter().find_map(|key| said.place(key));
+    let (code, place, help) = match error {
+        JobError::Fair(FairError::Rules(list)) => {
+            let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";
+            let at = |(rule, why): &(usize, String)| Some(said.rules.get(*rule)?.place.problem("E176", why, help));
+            return Failure::Input(list.iter().filter_map(at).collect());
+        }
+        JobError::NoCourse { course, kind, at } => {
+            let same =
+                |line: &ProposedLine| (line.course, line.kind) == (*course, *kind) && line.at.total_cmp(at).is_eq();
+            let line = lines.iter().position(same).and_then(|line| said.lines.get(line));
+            let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
+            ("E180", line.map(|line| &line.place), help)
+        }
+        JobError::NoLine { .. } => {
+            let help = "Run without it: the page and fairing.json list what is proposed";
+            ("E180", first(&["lines.accept"]), help)
+        }
+        _ => {
+            let place = first(dimensions_at_fault(error));
+            let help = "Look at the table with `loftsman check` and `loftsman fit`";
+            ("E175", place, if place.is_some() { "" } else { help })
+        }
+    };
+    Failure::Input(vec![match place {
+        Some(place) => place.problem(code, &error.to_string(), help),
+        None => problem(code, table_file, error.to_string(), help),
+    }])
+}
+
+/// What is wished in words, with the place where a job wishes it.
+fn placed(words: String, place: Option<&Place>) -> String {
+    match place {
+        Some(place) => format!("{words} ({place})"),
+        None => words,
+    }
+}
+
 /// Fairs the table and makes every file about it.
 ///
 /// # Errors
 /// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made.
 /// Wishes that cannot be had are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
-    let refusal = |error: JobError| {
-        if let JobError::Fair(FairError::Rules(list)) = &error {
-            let at = |(rule, why): &(usize, String)| {
-                let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";
-                job.rules.get(*rule).map(|mark| mark.problem("E176", why, help))
-            };
-            return Failure::Input(list.iter().filter_map(at).collect());
-        }
-        if let JobError::NoCourse { .. } = &error {
-            let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
-            return Failure::Input(vec![problem("E180", &job.table_file, error.to_string(), help)]);
-        }
-        if let JobError::NoLine { .. } = &error {
-            let help = "Run without it: the page and fairing.json list what is proposed";
-            return Failure::Input(vec![problem("E180", &job.table_file, error.to_string(), help)]);
-        }
-        let help = "Look at the table with `loftsman check` and `loftsman fit`";
-        Failure::Input(vec![problem("E175", &job.table_file, error.to_string(), help)])
-    };
-    let mut outcome = job.job.run(&job.table).map_err(refusal)?;
+    let mut outcome =
+        job.job.run(&job.table).map_err(|error| refusal(&job.said, &job.job.lines, &job.table_file, &error))?;
     // What reading the table had to guess decides the hull as much.
     let guessed = job.reading.iter().filter(|problem| problem.severity == Severity::Warning);
     outcome.notes.splice(0..0, guessed.map(remark));
@@ -335,7 +360,15 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
     let manifest = manifest_file(input, &files)?;
     files.push(manifest);
-    Ok(FairOutputs { outcome, rounding, rows, certificate, files, table_file: job.table_file.clone() })
+    Ok(FairOutputs {
+        outcome,
+        rounding,
+        rows,
+        certificate,
+        files,
+        table_file: job.table_file.clone(),
+        said: job.said.clone(),
+    })
 }
 
 /// Contents of `summary.json`.
@@ -396,7 +429,10 @@ impl FairOutputs {
             let [wide, now] = [factor * typical, typical].map(millimetres);
             format!("{factor:.3} times as wide ({wide} mm where it is widest now {now} mm)")
         };
-        let least = found.and_then(|found| found.widening).map(|factor| format!(" {} would do;", wide(factor)));
+        let least = found.map(|found| match found.widening {
+            Some(factor) => format!(" {} would do;", wide(factor)),
+            None => " no tolerances were found that would do;".to_owned(),
+        });
         // What the least is does by waves: as much of every tolerance as there is.
         let fair =
             self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some()).map(|factor| {
@@ -408,9 +444,10 @@ impl FairOutputs {
             let (target, unit) = (held.constraint.target(), unit(&held.constraint));
             Some(format!("it could be {low:.6} to {high:.6}{unit} where {target:.6}{unit} is asked for"))
         };
+        let held_words = |constraint: &Constraint| placed(constraint.words(), self.said.place_of(constraint));
         let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
             let constraint = self.outcome.held.get(reach.constraint)?.constraint;
-            let (words, of, missing) = (constraint.words(), constraint.relative_to(), 100.0 * reach.missing?);
+            let (words, of, missing) = (held_words(&constraint), constraint.relative_to(), 100.0 * reach.missing?);
             Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", reached(reach)?))
         });
         // Displacement and LCB, and what is out of reach where no single one would do: as far as the tolerances reach.
@@ -421,21 +458,24 @@ impl FairOutputs {
             let told = cheapest.is_some() && found.and_then(Diagnosis::cheapest) == Some(reach);
             ((off && cheapest.is_none() || always) && !told).then_some(())?;
             let given = if reach.missing.is_some() { "with" } else { "without" };
-            Some(format!(" {} {given} the other targets: {};", held.constraint.words(), reached(reach)?))
+            Some(format!(" {} {given} the other targets: {};", held_words(&held.constraint), reached(reach)?))
         });
         let each: String = each.collect();
         let none = found.is_some_and(|found| found.reaches.iter().any(|reach| reach.values.is_some()));
         let none = none && cheapest.is_none();
         let none = if none { " no single target would do;" } else { "" };
+        let rule_words = |rule: usize| {
+            let words = self.outcome.rules.get(rule)?.rule.words();
+            Some(placed(words, self.said.rules.get(rule).map(|rule| &rule.place)))
+        };
         // Rules whose giving alone would do, the nearest first.
         let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
         let rule = rule.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(rule, give)| {
-            let rule = &self.outcome.rules.get(rule)?.rule;
-            let words = rule.words();
-            Some(format!(" {words} would have to give by {give:.1e}{};", rule.unit()))
+            let unit = self.outcome.rules.get(rule)?.rule.unit();
+            Some(format!(" {} would have to give by {give:.1e}{unit};", rule_words(rule)?))
         });
-        let given_up = self.outcome.rules.iter().filter(|rule| rule.given_up).map(|rule| rule.rule.words());
-        let given_up = given_up.collect::<Vec<_>>().join(", ");
+        let given_up = (0..self.outcome.rules.len()).filter(|&rule| self.outcome.rules[rule].given_up);
+        let given_up = given_up.filter_map(rule_words).collect::<Vec<_>>().join(", ");
         let given_up = if given_up.is_empty() { String::new() } else { format!(" given up was {given_up};") };
         let (code, message, help) = match self.outcome.status {
             Status::Optimal => return Ok(()),

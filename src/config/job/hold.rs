@@ -4,7 +4,7 @@ use super::super::document::{Document, Raw};
 use super::super::keys::Kind;
 use super::super::value::{Scalar, expected};
 use super::super::wishes::position_along;
-use super::{HOLD, JobFile};
+use super::{HOLD, JobFile, Place};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::Holding;
 use crate::units::Dimension;
@@ -115,6 +115,11 @@ impl Quantity {
             Self::WettedSurface => Constraint::WettedSurface(target),
         }
     }
+
+    /// Whether a constraint holds it.
+    pub(super) fn is_of(self, constraint: &Constraint) -> bool {
+        std::mem::discriminant(&self.constraint(0.0, 0.0)) == std::mem::discriminant(constraint)
+    }
 }
 
 /// What is held of the table when nothing is said.
@@ -141,9 +146,6 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
         }
     }
     job.gravity = super::positive(document, "hold.KG", "length");
-    if let Some(entry) = document.entry("hold.GM") {
-        job.metacentric = Some((document.file.to_owned(), super::place(document, entry.span.start)));
-    }
     section_areas(document, job);
 }
 
@@ -202,9 +204,10 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
             }
             _ => None,
         };
+        let place = Place::new(document, path, at.start);
         match numbers.as_deref() {
-            Some(&[x, area]) if area > 0.0 => job.section_areas.push([x, area, 0.0]),
-            Some(&[x, area, band]) if area > 0.0 && band >= 0.0 => job.section_areas.push([x, area, band]),
+            Some(&[x, area]) if area > 0.0 => job.section_areas.push(([x, area, 0.0], place)),
+            Some(&[x, area, band]) if area > 0.0 && band >= 0.0 => job.section_areas.push(([x, area, band], place)),
             _ => {
                 let message = format!("{path}: an item is {}", item.describe());
                 document.problem("E122", path, at, message, format!("Expected {}.", expected(kind)));
@@ -214,7 +217,11 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 /// The constraints; what is said stands over the default.
-pub(super) fn holding(hold: &[(Quantity, Wish)], areas: &[[f64; 3]], [length, density, gravity]: [f64; 3]) -> Holding {
+pub(super) fn holding(
+    hold: &[(Quantity, Wish)],
+    areas: &[([f64; 3], Place)],
+    [length, density, gravity]: [f64; 3],
+) -> Holding {
     let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
     let silent = |quantity: &Quantity| !said(*quantity) && !quantity.twin().is_some_and(said);
     let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
@@ -228,6 +235,6 @@ pub(super) fn holding(hold: &[(Quantity, Wish)], areas: &[[f64; 3]], [length, de
             Wish::Value(value) => given.push(quantity.constraint(value, gravity)),
         }
     }
-    given.extend(areas.iter().map(|&[x, area, band]| Constraint::SectionArea { x, area, band }));
+    given.extend(areas.iter().map(|&([x, area, band], _)| Constraint::SectionArea { x, area, band }));
     Holding::Both { own, given }
 }

@@ -6,7 +6,7 @@ use super::super::diagnostic::Diagnostic;
 use super::super::document::{Document, Raw, nearest};
 use super::super::value::expected;
 use super::spot::Mark;
-use super::{JobFile, message, place};
+use super::{JobFile, Place};
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
 use crate::fairing::proposals::Accepted;
@@ -51,9 +51,8 @@ enum Said {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleMark {
     said: Said,
-    file: String,
-    key: String,
-    at: Option<(usize, usize)>,
+    /// Where it stands.
+    pub place: Place,
 }
 
 /// The words that name a station or a waterline, and whether it is a station.
@@ -175,7 +174,7 @@ fn accepted(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 fn mark(document: &Document<'_>, path: &str, said: Said, at: &Range<usize>) -> RuleMark {
-    RuleMark { said, file: document.file.to_owned(), key: path.to_owned(), at: place(document, at.start) }
+    RuleMark { said, place: Place::new(document, path, at.start) }
 }
 
 /// A list of texts, or one; `meaning` is none for what is no such text.
@@ -266,20 +265,9 @@ fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn
 }
 
 impl RuleMark {
-    /// A rule of an option: there is no line and no column.
-    pub(super) fn without_place(&mut self) {
-        self.at = None;
-    }
-
-    /// A message about the rule at its place.
-    #[must_use]
-    pub fn problem(&self, code: &'static str, text: &str, help: &str) -> Diagnostic {
-        message(code, (&self.file, &self.key), self.at, format!("{}: {text}", self.key), help.to_owned())
-    }
-
     /// Place of a station, by its name or its position, which may lie between those of the table \[m\].
     fn x(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
-        match Mark::new(&self.file, &self.key, self.at).station(table, text) {
+        match Mark::new(&self.place).station(table, text) {
             Ok(index) => Ok(table.stations[index].station.x),
             Err(problem) => parse_length(text).map_err(|_| problem),
         }
@@ -287,7 +275,7 @@ impl RuleMark {
 
     /// Height of a waterline, by its header or its height, which may lie between those of the table \[m\].
     fn z(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
-        match Mark::new(&self.file, &self.key, self.at).waterline(table, text) {
+        match Mark::new(&self.place).waterline(table, text) {
             Ok(index) => Ok(table.waterlines[index]),
             Err(problem) => parse_length(text).map_err(|_| problem),
         }
@@ -298,7 +286,7 @@ impl RuleMark {
         if from < to {
             Ok([from, to])
         } else {
-            Err(Box::new(self.problem("E177", &text(), "Write the lesser of both first.")))
+            Err(Box::new(self.place.problem("E177", &text(), "Write the lesser of both first.")))
         }
     }
 
@@ -383,7 +371,7 @@ impl RuleMark {
                     (None, 0) => "The table declares no knuckles and no tangent lines.".to_owned(),
                     _ => format!("The table has {}.", names().collect::<Vec<_>>().join(", ")),
                 };
-                Err(Box::new(self.problem("E178", &format!("no line \"{word}\""), &help)))
+                Err(Box::new(self.place.problem("E178", &format!("no line \"{word}\""), &help)))
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::super::diagnostic::Diagnostic;
 use super::super::document::{Document, Raw};
-use super::{JobFile, message, name, place};
+use super::{JobFile, Place, name};
 use crate::hull::OffsetTable;
 use crate::units::parse_length;
 
@@ -47,9 +47,7 @@ enum Sort {
 pub struct Mark {
     text: String,
     sort: Sort,
-    file: String,
-    key: String,
-    at: Option<(usize, usize)>,
+    pub(super) place: Place,
 }
 
 const LISTS: [(&str, Sort); 3] = [("stations", Sort::Station), ("waterlines", Sort::Waterline), ("cells", Sort::Cell)];
@@ -104,25 +102,19 @@ fn mark(document: &mut Document<'_>, text: &str, sort: Sort, key: &str, byte: us
         document.problem("E123", key, &(byte..byte), format!("{key}: \"{text}\" is no cell"), help);
         return None;
     }
-    let at = place(document, byte);
-    Some(Mark { text: text.trim().to_owned(), sort, file: document.file.to_owned(), key: key.to_owned(), at })
+    Some(Mark { text: text.trim().to_owned(), sort, place: Place::new(document, key, byte) })
 }
 
 impl Mark {
     /// A name to be looked up for another key, whose messages it has.
-    pub(super) fn new(file: &str, key: &str, at: Option<(usize, usize)>) -> Self {
-        Self { text: String::new(), sort: Sort::Cell, file: file.to_owned(), key: key.to_owned(), at }
-    }
-
-    /// A mark of an option: there is no line and no column.
-    pub(super) fn without_place(&mut self) {
-        self.at = None;
+    pub(super) fn new(place: &Place) -> Self {
+        Self { text: String::new(), sort: Sort::Cell, place: place.clone() }
     }
 
     /// The message that the same line or cell has another tolerance \[m\] already.
     pub(super) fn named_twice(&self, before: f64, now: f64) -> Diagnostic {
         let text = format!("\"{}\" is {now} m, and {before} m under another name of it", self.text);
-        *self.problem("E183", text, "Name it once.".to_owned())
+        self.place.problem("E183", &text, "Name it once.")
     }
 
     /// The line or cell of a table.
@@ -145,7 +137,7 @@ impl Mark {
     }
 
     fn problem(&self, code: &'static str, text: String, help: String) -> Box<Diagnostic> {
-        Box::new(message(code, (&self.file, &self.key), self.at, format!("{}: {text}", self.key), help))
+        Box::new(self.place.problem(code, &text, help))
     }
 
     /// The station of that name; then the one whose name is that number; then the one at that position.
