@@ -45,6 +45,9 @@ const LOCKED: f64 = 1e-9;
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
+/// Part of the smoothing weight that is tried where lines bend more often with all of it.
+const LESS: f64 = 1e-2;
+
 /// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that
 /// has an answer.
 const MOST_WIDENING: f64 = 3.0;
@@ -346,6 +349,20 @@ impl Job {
                     );
                     return Ok(other);
                 }
+            }
+        }
+        // On a chart whose rows cannot hold what the smoothing bends, less of it does.
+        let asked = self.weight.is_some() || outcome.faired.carried.is_some();
+        if !asked && !outcome.own && outcome.status == Status::Optimal && more(&outcome) > 0 {
+            let mut other = Self { weight: Some(LESS * outcome.faired.lambda), ..self.clone() }.run(table)?;
+            if other.status == Status::Optimal && more(&other) < more(&outcome) {
+                other.notes.insert(
+                    0,
+                    "the smoothing weight is a hundredth of that for the errors of the table, with which lines bent more often \
+                     than before"
+                        .to_owned(),
+                );
+                return Ok(other);
             }
         }
         Ok(outcome)
