@@ -69,7 +69,7 @@ pub(super) struct Arguments {
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
     #[arg(long, value_name = "NUMBER")]
     anisotropy: Option<String>,
-    /// Smoothing weight, or "auto": by the noise of the table (Mallows), by cross-validation where the net is one of its own [default: auto]
+    /// Smoothing weight, or "auto": by the errors of the table (Mallows), by cross-validation where the net is one of its own [default: auto]
     #[arg(long, value_name = "NUMBER")]
     weight: Option<String>,
     /// Take suspected typing errors as they are

@@ -78,7 +78,7 @@ pub const JOB_KEYS: &[Key] = &[
         "weight",
         Kind::NumberOrWord(&AUTO),
         &[],
-        "Smoothing weight; \"auto\" takes that for the noise of the table (Mallows), on a net of its own that of least generalised cross-validation. Default: \"auto\".",
+        "Smoothing weight; \"auto\" takes that for the errors of the table (Mallows), on a net of its own that of least generalised cross-validation. Default: \"auto\".",
     ),
     key(
         "tolerance",

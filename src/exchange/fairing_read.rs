@@ -80,7 +80,7 @@ pub struct FairingFile {
     pub energy: [f64; 2],
     /// Noise of an offset \[m\].
     pub sigma: f64,
-    /// What the search for the smoothing weight took of it for errors \[m\].
+    /// What a search for the smoothing weight takes of it for errors \[m\].
     pub errors: f64,
     /// Rows of `changes.csv`, where it is known.
     pub offsets: Option<usize>,

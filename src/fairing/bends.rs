@@ -180,7 +180,7 @@ fn inside(knots: &KnotVector, places: &[f64]) -> Vec<f64> {
 pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     let hull = &surface.hull;
     let net = hull.surface();
-    let mut bends: Vec<Bend> = match line {
+    let bends: Vec<Bend> = match line {
         Line::Station(x) => {
             let along = sites(net.v()).into_iter();
             along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
@@ -191,7 +191,12 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
             along.filter_map(|u| hull.height_parameter_at(u, z).and_then(|v| bend(net, [u, v], false))).collect()
         }
     };
-    let speed = |bend: &Bend| bend.along.hypot(value(&bend.slope, &surface.start));
+    moving(bends, &surface.start)
+}
+
+/// Those bends at which the line of a net does not stand still.
+pub(super) fn moving(mut bends: Vec<Bend>, net: &[f64]) -> Vec<Bend> {
+    let speed = |bend: &Bend| bend.along.hypot(value(&bend.slope, net));
     let fastest = bends.iter().map(speed).fold(0.0, f64::max);
     bends.retain(|bend| speed(bend) > STILL * fastest);
     bends

@@ -15,6 +15,9 @@ use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, Status};
 /// What a target may miss, relative, and still count as had.
 const HAD: f64 = 1e-9;
 
+/// Most that a proved factor may break a limit by, in the units of the row.
+const VIOLATED: f64 = 1e-9;
+
 /// What the bound of a least factor may be off, relative, where the solver stalled before its tolerance was met.
 const PROVED: f64 = 1e-5;
 
@@ -57,7 +60,7 @@ pub struct Diagnosis {
     /// Each constraint alone.
     pub reaches: Vec<Reach>,
     /// Each rule alone: its index, and by how much all its rows would have to give, in their unit; none when no giving
-    /// of it helps.
+    /// of it helps, or none was found.
     pub rules: Vec<(usize, Option<f64>)>,
 }
 
@@ -127,7 +130,7 @@ fn least_factor(
     let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
     // Where many limits meet, the multipliers stall at what is proof enough of a factor.
     let gap = (certificate.primal - certificate.dual).abs();
-    let proved = certificate.max_violation <= HAD && gap <= PROVED * certificate.primal.abs();
+    let proved = certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs();
     let found = solution.status == Status::Optimal || proved;
     let factor = solution.x.split_off(n)[0];
     Ok(found.then_some((factor, solution.x)))

@@ -45,6 +45,10 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
     let mut on_outline: Vec<([usize; 2], f64)> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
         let site = match (line, place.origin) {
+            // A point reads the surface at the height of the chart, which may be beside its own.
+            (Line::Station(x), Origin::Point { .. }) if (place.x - x).abs() < same => {
+                net.eval(place.at[0], place.at[1])[2]
+            }
             (Line::Station(x), _) if (place.x - x).abs() < same => place.z,
             (Line::Waterline(z), Origin::HalfBreadth { .. } | Origin::Deck { .. }) if (place.z - z).abs() < same => {
                 place.x
@@ -52,7 +56,7 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
             _ => continue,
         };
         if let Origin::Point { outline, point, .. } = place.origin {
-            on_outline.push(([outline, point], place.z));
+            on_outline.push(([outline, point], site));
         }
         if let Some(tolerance) = reading.tolerance {
             let broken = breaks.iter().any(|t| (place.at[across] - t).abs() <= near);

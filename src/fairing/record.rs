@@ -120,7 +120,7 @@ pub struct FairRecord {
     pub energy: [f64; 2],
     /// Noise level of an offset \[m\].
     pub sigma: f64,
-    /// What the search for the smoothing weight took of it for errors \[m\].
+    /// What a search for the smoothing weight takes of it for errors \[m\].
     pub errors: f64,
     /// Smoothing weight.
     pub lambda: f64,

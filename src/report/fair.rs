@@ -493,7 +493,9 @@ impl FairOutputs {
                     }
                     which => {
                         let which = which.trim_end_matches(';');
-                        format!("Widen the tolerance, unlock cells, drop a rule or free one of the targets:{which}")
+                        let widen = found.is_none_or(|found| found.widening.is_some());
+                        let first = if widen { "Widen the tolerance, unlock" } else { "Unlock" };
+                        format!("{first} cells, drop a rule or free one of the targets:{which}")
                     }
                 },
             ),

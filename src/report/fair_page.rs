@@ -134,8 +134,8 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
 
 /// The noise of the table, and what was taken of it.
 fn noise(outcome: &Outcome) -> String {
-    let [taken, found] = [outcome.faired.sigma, outcome.table_noise].map(millimetres);
-    if outcome.faired.sigma < 0.995 * outcome.table_noise {
+    let [taken, found] = [outcome.faired.errors, outcome.table_noise].map(millimetres);
+    if outcome.faired.errors < 0.995 * outcome.table_noise {
         format!(
             "noise of the table {found} mm, of which {taken} mm are taken for errors and the rest for the hull's own"
         )

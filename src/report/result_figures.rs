@@ -226,7 +226,7 @@ fn fairing_jobs<'a>(
                 "lcurve",
                 "Search for the smoothing weight",
                 "A point for each smoothing weight that was tried. The one taken has the least expected error to the hull (cross-validation, or \
-                 Mallows' criterion at the noise of the table), which need not be a bend of the line: further right the offsets move more, for \
+                 Mallows' criterion at the errors of the table), which need not be a bend of the line: further right the offsets move more, for \
                  less energy.",
             ],
             one(|_| smoothing_figure(record)),

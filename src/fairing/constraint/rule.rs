@@ -1,6 +1,6 @@
 //! Rules for single lines and regions of a hull: each is a handful of rows over the net, exact where its file says so.
 
-use super::super::bends::{Bend, Line, bend};
+use super::super::bends::{Bend, Line, bend, moving};
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
 use super::{curvature, fixed, flat, monotone, tangent};
@@ -274,7 +274,7 @@ pub(super) fn along(surface: &FairSurface, line: Line, over: [f64; 2]) -> Result
     }
     let bends = places.into_iter().filter_map(|at| bend(net, at, station));
     let inside = |bend: &Bend| bend.at >= over[0] - 1e-9 && bend.at <= over[1] + 1e-9;
-    let mut found: Vec<Bend> = bends.filter(inside).collect();
+    let mut found = moving(bends.filter(inside).collect(), &surface.start);
     found.sort_by(|a, b| a.at.total_cmp(&b.at));
     if found.is_empty() { Err(format!("the surface has no {}", ranged(&line, over))) } else { Ok(found) }
 }
