@@ -182,7 +182,8 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     let net = hull.surface();
     let bends: Vec<Bend> = match line {
         Line::Station(x) => {
-            let along = sites(net.v()).into_iter();
+            let places: &[f64] = if hull.is_level() || hull.is_upright() { &PLACES } else { &PLACES_ACROSS };
+            let along = inside(net.v(), places).into_iter();
             along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
         }
         Line::Waterline(z) => {

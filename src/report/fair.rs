@@ -270,7 +270,8 @@ fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
 /// Why nothing was faired, at the place of the job that asks for what cannot be had; `lines` are the lines of the job
 /// as the table has them.
 fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &JobError) -> Failure {
-    let first = |keys: &[&str]| keys.iter().find_map(|key| said.place(key));
+    // An option comes after the job and is what was changed last.
+    let first = |keys: &[&str]| keys.iter().filter_map(|key| said.place(key)).min_by_key(|place| !place.is_option());
     let (code, place, help) = match error {
         JobError::Fair(FairError::Rules(list)) => {
             let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";

@@ -25,6 +25,12 @@ impl Place {
         self.at = None;
     }
 
+    /// Whether it is an option.
+    #[must_use]
+    pub fn is_option(&self) -> bool {
+        self.at.is_none()
+    }
+
     /// A message about what stands there.
     #[must_use]
     pub fn problem(&self, code: &'static str, text: &str, help: impl Into<String>) -> Diagnostic {
