@@ -169,7 +169,7 @@ pub fn sites(knots: &KnotVector) -> Vec<f64> {
 }
 
 /// Points at these parts of each span.
-fn inside(knots: &KnotVector, places: &[f64]) -> Vec<f64> {
+pub(super) fn inside(knots: &KnotVector, places: &[f64]) -> Vec<f64> {
     let breaks = knots.breakpoints();
     breaks.windows(2).flat_map(|w| places.iter().map(move |part| w[0] + (w[1] - w[0]) * part)).collect()
 }

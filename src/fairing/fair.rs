@@ -18,6 +18,7 @@ use super::infeasible::Diagnosis;
 use super::least::TableLine;
 use super::least_bending::{LeastBending, least_bending};
 use super::model::Limit;
+use super::noise::{Differences, errors, taken};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::refresh::{RefreshError, refresh};
@@ -35,34 +36,8 @@ pub const PRICE: f64 = 12.0;
 /// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
 pub const MISFIT: f64 = 1.75;
 
-/// Noise of a table, over the greatest that is assumed for roughness, from which it is taken as it is: the tolerance
-/// itself.
-const ROUGH: f64 = 3.0;
-
-/// Part of what the differences of a table leave that is taken for errors where the weight is chosen; the rest is the
-/// form of a hull with features: tables of a Series 60 and an S-175 that were made fair leave 4 and 7 mm without
-/// errors, 4.4 and 7.5 mm with 2 mm, 11 and 14 mm with 10 mm.
-const ERROR_SHARE: f64 = 0.7;
-
-/// Least part of the noise that is taken for errors: that of all tables whose noise is within a designer's tolerance and
-/// for the most part form. Without it the coaster keeps 89 of 124 inflections, with it 77 of 99; with all of the noise
-/// moves of the shared tables are 1.1 to 1.8 times as large, and inflections 4 more to 8 fewer.
-const LEAST_ERROR_SHARE: f64 = 0.6;
-
-/// What differences leave over the noise from which all of it is errors: of errors alone they leave 0.83 in the median.
-const ALL_ERRORS: f64 = 0.8;
-
 /// Most programs of the price guard.
 const ROUNDS: usize = 8;
-
-/// What differences leave of a table, and its noise, whatever tolerances are named.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Differences {
-    /// What is left \[m\].
-    pub left: f64,
-    /// The noise of the table \[m\].
-    pub noise: f64,
-}
 
 /// How a surface is faired.
 #[derive(Debug, Clone)]
@@ -77,7 +52,8 @@ pub struct FairSettings {
     pub weight: Option<f64>,
     /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
     pub table_noise: Option<f64>,
-    /// What differences leave of the table in which the hull's form is least, where it is known.
+    /// What differences leave of the table in which the hull's form is least, where it is known and the net is that of a
+    /// fit.
     pub differences: Option<Differences>,
     /// Greatest noise level that is taken for roughness of a drawing on the net of a fit \[m\]: a third of a designer's
     /// tolerance.
@@ -111,6 +87,18 @@ pub struct FairSettings {
     pub bending: bool,
     /// The solver.
     pub solver: Settings,
+}
+
+impl FairSettings {
+    /// The least and the greatest noise level that is assumed \[m\].
+    fn noises(&self) -> [f64; 2] {
+        [self.least_noise, self.most_noise]
+    }
+
+    /// What is taken for errors of a noise of `sigma` \[m\].
+    fn errors(&self, sigma: f64) -> f64 {
+        errors(self.differences, self.noises(), sigma)
+    }
 }
 
 /// Why nothing was faired.
@@ -207,23 +195,6 @@ pub struct Prepared {
     pub lines: Vec<TableLine>,
 }
 
-/// The noise of a table that is taken on the net of a fit \[m\].
-fn most_noise(settings: &FairSettings, noise: f64) -> f64 {
-    let (noise, most) = (noise.max(settings.least_noise), settings.most_noise.max(settings.least_noise));
-    if noise > ROUGH * most { noise } else { noise.min(most) }.max(1e-12)
-}
-
-/// What is taken for errors of a noise of `sigma` on the net of a fit \[m\]: all of it where a designer's tolerance
-/// has no room for so much, or differences leave next to as much.
-fn errors(settings: &FairSettings, sigma: f64) -> f64 {
-    match settings.differences {
-        Some(Differences { left, noise }) if noise <= ROUGH * settings.most_noise && left < ALL_ERRORS * noise => {
-            (ERROR_SHARE * left).max(settings.least_noise).clamp(LEAST_ERROR_SHARE * sigma, sigma)
-        }
-        _ => sigma,
-    }
-}
-
 impl Prepared {
     /// Finds weight and noise, and gives the readings of the surface their tolerances.
     ///
@@ -235,7 +206,7 @@ impl Prepared {
             // The noise is that of the table, whatever the weight is.
             (Some(weight), noise) => {
                 let sigma = match noise.filter(|_| !surface.own) {
-                    Some(noise) => most_noise(settings, noise),
+                    Some(noise) => taken(noise, settings.noises()),
                     None => {
                         let (best, _) = smoother.cross_validated()?;
                         smoother.at(best)?.sigma(smoother.count()).max(settings.least_noise).max(1e-12)
@@ -247,8 +218,8 @@ impl Prepared {
                 // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of
                 // the table. What is within the tolerance of a designer counts as the roughness of a drawing and gets
                 // no more room than he gives; the weight is that for errors, which the hull's own form is not.
-                let sigma = most_noise(settings, noise);
-                (Some(sigma), smoother.for_noise(errors(settings, sigma))?)
+                let sigma = taken(noise, settings.noises());
+                (Some(sigma), smoother.for_noise(settings.errors(sigma))?)
             }
             _ => (None, smoother.cross_validated()?),
         };
@@ -286,8 +257,7 @@ impl Prepared {
         }
         let guarded = settings.signs && !surface.own;
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
-        let errors = if surface.own { sigma } else { errors(settings, sigma) };
-        Ok(Self { smoother, lambda, smoothed, sigma, errors, trials, lines })
+        Ok(Self { smoother, lambda, smoothed, sigma, errors: settings.errors(sigma), trials, lines })
     }
 }
 
@@ -580,55 +550,4 @@ fn release(
         pattern.imposed[k] = 0;
     }
     true
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn settings(left: f64, noise: f64) -> FairSettings {
-        FairSettings {
-            constraints: Vec::new(),
-            others: Vec::new(),
-            rules: Vec::new(),
-            weight: None,
-            table_noise: Some(noise),
-            differences: Some(Differences { left, noise }),
-            most_noise: 0.005,
-            least_noise: 0.0003,
-            tolerance_levels: Some(3.0),
-            least_tolerance: 1e-6,
-            tolerances: Vec::new(),
-            signs: true,
-            lines: Vec::new(),
-            kept: Vec::new(),
-            strict: Vec::new(),
-            oblique: Vec::new(),
-            released: Vec::new(),
-            seen: 0.0,
-            true_curvature: false,
-            bending: false,
-            solver: Settings::default(),
-        }
-    }
-
-    #[test]
-    fn errors_are_what_differences_leave_between_six_tenths_of_the_noise_and_all_of_it() {
-        let of = |left: f64, noise: f64, sigma: f64| errors(&settings(left, noise), sigma);
-        // Mostly form; next to no form; more than a designer's tolerance; capped, in between.
-        for (given, expected) in [
-            ([0.002, 0.004, 0.004], 0.0024),
-            ([0.0033, 0.004, 0.004], 0.004),
-            ([0.004, 0.016, 0.016], 0.016),
-            ([0.0055, 0.008, 0.005], 0.00385),
-            ([0.009, 0.012, 0.005], 0.005),
-        ] {
-            let found = of(given[0], given[1], given[2]);
-            assert!((found - expected).abs() < 1e-12, "{given:?}: {found} for {expected}");
-        }
-        // A narrower tolerance never smooths more.
-        let named: Vec<f64> = (1..=40).map(|k| of(0.002, 0.004, 1e-4 * f64::from(k))).collect();
-        assert!(named.windows(2).all(|pair| pair[1] >= pair[0]), "{named:?}");
-        assert!((errors(&FairSettings { differences: None, ..settings(0.0, 0.004) }, 0.004) - 0.004).abs() < 1e-15);
-    }
 }

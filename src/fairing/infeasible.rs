@@ -127,11 +127,13 @@ fn least_factor(
     }
     let problem = factor.into_problem();
     let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
-    let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
     // Where many limits meet, the multipliers stall at what is proof enough of a factor.
-    let gap = (certificate.primal - certificate.dual).abs();
-    let proved = certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs();
-    let found = solution.status == Status::Optimal || proved;
+    let proved = || {
+        let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
+        let gap = (certificate.primal - certificate.dual).abs();
+        certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs()
+    };
+    let found = solution.status == Status::Optimal || proved();
     let factor = solution.x.split_off(n)[0];
     Ok(found.then_some((factor, solution.x)))
 }

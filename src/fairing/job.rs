@@ -6,7 +6,7 @@
 use super::bends::Line;
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule};
-use super::fair::{Differences, FairError, FairSettings, Faired, Prepared, fair_prepared};
+use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
 use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::Diagnosis;
@@ -15,7 +15,7 @@ use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::lobes::Lobes;
-use super::noise::left_by_differences;
+use super::noise::{Differences, left_by_differences};
 use super::proposals::{Accepted, Proposal};
 use super::record::{moves, resolution};
 use super::repeated::{Attempt, Repeated};
@@ -434,6 +434,9 @@ impl Job {
             let off = (constraint.value(&before) - constraint.target()).abs();
             off > constraint.band() + ANOTHER * constraint.scale(&before)
         };
+        // A net of its own is searched without them.
+        let left = (!surface.own).then(|| left_by_differences(table, &excluded)).flatten();
+        let differences = left.map(|left| Differences { left, noise: found.noise });
         let mut settings = FairSettings {
             others: constraints.iter().map(another).collect(),
             constraints,
@@ -441,7 +444,7 @@ impl Job {
             weight: self.weight,
             // Whoever names a tolerance for the table says how noisy it is.
             table_noise: Some(self.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
-            differences: left_by_differences(table, &excluded).map(|left| Differences { left, noise: found.noise }),
+            differences,
             most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
             least_noise: quantum / 12f64.sqrt(),
             tolerance_levels: Some(3.0),

@@ -26,7 +26,7 @@ mod lines;
 mod lobes;
 pub mod metric;
 pub mod model;
-mod noise;
+pub mod noise;
 pub mod oblique;
 pub mod pattern;
 pub mod program;

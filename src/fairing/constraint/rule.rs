@@ -1,11 +1,10 @@
 //! Rules for single lines and regions of a hull: each is a handful of rows over the net, exact where its file says so.
 
-use super::super::bends::{Bend, Line, bend, moving};
+use super::super::bends::{Bend, Line, bend, inside, moving};
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
 use super::{curvature, fixed, flat, monotone, tangent};
 use crate::hull::Hull;
-use crate::spline::KnotVector;
 
 /// A line that stays where the surface through the table has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -251,18 +250,14 @@ const PLACES: [f64; 5] = [0.001, 0.25, 0.5, 0.75, 0.999];
 pub(super) fn along(surface: &FairSurface, line: Line, over: [f64; 2]) -> Result<Vec<Bend>, String> {
     let hull = &surface.hull;
     let net = hull.surface();
-    let sites = |knots: &KnotVector| -> Vec<f64> {
-        let breaks = knots.breakpoints();
-        breaks.windows(2).flat_map(|w| PLACES.map(|part| w[0] + (w[1] - w[0]) * part)).collect()
-    };
     let station = matches!(line, Line::Station(_));
     let mut places: Vec<[f64; 2]> = match line {
         Line::Station(x) => {
-            let sites = sites(net.v()).into_iter();
+            let sites = inside(net.v(), &PLACES).into_iter();
             sites.filter_map(|v| Some([hull.length_parameter(x, v)?, v])).collect()
         }
         Line::Waterline(z) => {
-            let sites = sites(net.u()).into_iter();
+            let sites = inside(net.u(), &PLACES).into_iter();
             sites.filter_map(|u| Some([u, hull.height_parameter_at(u, z)?])).collect()
         }
     };
@@ -273,8 +268,8 @@ pub(super) fn along(surface: &FairSurface, line: Line, over: [f64; 2]) -> Result
         });
     }
     let bends = places.into_iter().filter_map(|at| bend(net, at, station));
-    let inside = |bend: &Bend| bend.at >= over[0] - 1e-9 && bend.at <= over[1] + 1e-9;
-    let mut found = moving(bends.filter(inside).collect(), &surface.start);
+    let within = |bend: &Bend| bend.at >= over[0] - 1e-9 && bend.at <= over[1] + 1e-9;
+    let mut found = moving(bends.filter(within).collect(), &surface.start);
     found.sort_by(|a, b| a.at.total_cmp(&b.at));
     if found.is_empty() { Err(format!("the surface has no {}", ranged(&line, over))) } else { Ok(found) }
 }
