@@ -4,9 +4,9 @@
 //! A divided difference of order p along the waterlines and q along the stations takes out every form of lower degree:
 //! of readings with errors of standard deviation sigma, its weights scaled to a sum of squares of 1, it leaves sigma and
 //! what the hull's form has beyond that degree. The |difference| of normal errors alone has its quantile of
-//! [`QUANTILE`] at [`NORMAL`] sigma; a low quantile, because form stands in few places (Rice 1984, for pseudo-residuals
-//! of first differences; Hall, Kay & Titterington 1990 for those of higher order). Of all orders to [`ORDER`] the mean of
-//! the [`ORDERS_AVERAGED`] least is taken.
+//! `QUANTILE` at `NORMAL` sigma; a low quantile, because form stands in few places (Rice 1984, for pseudo-residuals
+//! of first differences; Hall, Kay & Titterington 1990 for those of higher order). Of all orders to `ORDER` the mean of
+//! the `ORDERS_AVERAGED` least is taken.
 
 use crate::hull::OffsetTable;
 
