@@ -211,6 +211,11 @@ fn one_table_in_many_writings() {
         ),
         ("falling", "x [m],1.5,1,0.5\n20,0.5,0.25,\n10,2.5,2,1\n0,1,0.5,\n"),
         ("names and positions", "station,x,WL 0.5,WL 1,WL 1.5\nA,0,,0.5,1\nB,10,1,2,2.5\nC,20,,0.25,0.5\n"),
+        (
+            "names and positions, numbers alone",
+            "station,x_from_AP_m,0.5,1,1.5\nA,0,,0.5,1\nB,10,1,2,2.5\nC,20,,0.25,0.5\n",
+        ),
+        ("names of any kind", "No.,x [m],0.5,1,1.5\nA,0,,0.5,1\nB,10,1,2,2.5\nC,20,,0.25,0.5\n"),
         ("two rows of headers", "station,WL 1,WL 2,WL 3\nz [m],0.5,1,1.5\n0 m,,0.5,1\n10 m,1,2,2.5\n20 m,,0.25,0.5\n"),
         ("no words", ",0.5,1,1.5\n0,,0.5,1\n10,1,2,2.5\n20,,0.25,0.5\n"),
         ("millimetres", "x\\z [mm],500,1000,1500\n0,,500,1000\n10000,1000,2000,2500\n20000,,250,500\n"),

@@ -11,7 +11,7 @@ use truth_hulls::{Case, Errors, LARGE, ROUGH, SIX_SIGMA, SMALL, Summary, cases};
 const SEEDS: u64 = 3;
 
 fn case(name: &str, errors: Errors) -> Case {
-    let found = cases().into_iter().find(|case| case.name == name && case.errors == errors);
+    let found = cases().into_iter().find(|case| case.name == name && case.errors == errors && case.told.is_none());
     found.unwrap_or_else(|| panic!("no case {name}, {}", errors.words()))
 }
 

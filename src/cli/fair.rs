@@ -78,6 +78,9 @@ pub(super) struct Arguments {
     /// Take knuckles and tangent lines that are proposed: "L1,L2", or "all"
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
+    /// What forbidding a change of curvature may cost at most: sum of squares of moves over the noise squared [default: 12]
+    #[arg(long, value_name = "NUMBER", conflicts_with = "no_signs")]
+    sign_price: Option<String>,
     /// Do not forbid changes of curvature that are noise
     #[arg(long)]
     no_signs: bool,
@@ -127,6 +130,7 @@ impl Arguments {
             ("--order", "energy.order", &self.order),
             ("--anisotropy", "energy.anisotropy", &self.anisotropy),
             ("--weight", "energy.weight", &self.weight),
+            ("--sign-price", "signs.price", &self.sign_price),
             ("--accept-lines", "lines.accept", &self.accept_lines),
         ];
         let said = |(option, key, value): (&'static str, &'static str, &Option<String>)| {

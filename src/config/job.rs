@@ -231,6 +231,13 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "Whether changes of curvature that are noise are forbidden. Default: true.",
     ),
+    key(
+        "signs",
+        "price",
+        Kind::Number,
+        &[],
+        "What forbidding a change of curvature may cost at most: sum of squares of moves over the noise squared. Default: 12; 2 keeps what noise of the size of tolerance.table / 3 does not explain.",
+    ),
 ];
 
 /// What a job file says; what it does not say is none.
@@ -272,6 +279,8 @@ pub struct JobFile {
     pub keep_flat: Option<bool>,
     /// Whether signs are imposed.
     pub signs: Option<bool>,
+    /// What each of them may cost at most, in squares of the noise.
+    pub price: Option<f64>,
     /// Whether the energy is that of true curvature.
     pub true_curvature: Option<bool>,
     /// `energy.bending`.
@@ -346,6 +355,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         exclude_suspects: document.switch("suspects.exclude"),
         keep_flat: document.switch("flat.keep"),
         signs: document.switch("signs.impose"),
+        price: positive(document, "signs.price", "number"),
         true_curvature: document.switch("energy.true_curvature"),
         bending: document.switch("energy.bending"),
         places: document.entries.iter().map(|e| Place::new(document, &e.key.path(), e.span.start)).collect(),
@@ -422,6 +432,7 @@ impl JobFile {
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
             keep_flat: other.keep_flat.or(self.keep_flat),
             signs: other.signs.or(self.signs),
+            price: other.price.or(self.price),
             true_curvature: other.true_curvature.or(self.true_curvature),
             bending: other.bending.or(self.bending),
             ..self
@@ -441,6 +452,7 @@ impl JobFile {
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.keep_flat = self.keep_flat.unwrap_or(true);
         job.signs = self.signs.unwrap_or(true);
+        job.price = self.price.unwrap_or(job.price);
         job.true_curvature = self.true_curvature.unwrap_or(false);
         job.bending = self.bending.unwrap_or(false);
         job.accepted = self.accepted.clone().unwrap_or_default();

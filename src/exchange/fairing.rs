@@ -289,6 +289,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "inflections": {
             // What departs less from its chord is no inflection [m].
             "dead_band": number(outcome.resolution),
+            // What forbidding one may cost [squares of the noise].
+            "dearest": number(faired.dearest),
             "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },

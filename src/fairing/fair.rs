@@ -5,7 +5,7 @@
 //!    asks for, and sigma from it; on the net of a fit by Mallows' criterion for the errors of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
 //! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) /
-//!    sigma^2. Above [`PRICE`] the lobe with the greatest sum of multiplier times raw violation gets its own sign back,
+//!    sigma^2. Above [`FairSettings::price`] the lobe with the greatest sum of multiplier times raw violation gets its own sign back,
 //!    and the program is solved again. On the net of a fit, whose features are no noise: the lines of the table by
 //!    [`super::guard`].
 
@@ -30,7 +30,7 @@ use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, RepeatedSolver, Settings, Status};
 
-/// Dearest pattern, in units of sigma^2.
+/// Dearest pattern where nobody says another price, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
 
 /// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
@@ -68,6 +68,8 @@ pub struct FairSettings {
     pub tolerances: Vec<Option<f64>>,
     /// Whether signs of curvature are imposed.
     pub signs: bool,
+    /// Dearest of them, in units of sigma^2.
+    pub price: f64,
     /// Lines that must not bend more often than the start does.
     pub lines: Vec<Line>,
     /// Lines that keep the signs of the start in any case.
@@ -154,6 +156,8 @@ pub struct Faired {
     pub guarded: Option<Guarded>,
     /// Price of the signs in sigma^2.
     pub price: f64,
+    /// What each was allowed to cost, in sigma^2.
+    pub dearest: f64,
     /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
     pub refreshed: Option<Vec<f64>>,
     /// The steps to the least bending energy, where it was asked for and the chart does not fold.
@@ -341,7 +345,7 @@ pub fn fair_prepared(
             iterations += answer.solution.iterations;
             let feasible = answer.solution.status != Status::Infeasible;
             price = (answer.objective - free) / (sigma * sigma);
-            let done = feasible && price <= PRICE;
+            let done = feasible && price <= settings.price;
             if !done && round + 1 < ROUNDS && release(&mut found, &forms, &candidate, &answer, &raw) {
                 continue;
             }
@@ -373,6 +377,7 @@ pub fn fair_prepared(
             oblique: &settings.oblique,
             released: &settings.released,
             seen: settings.seen,
+            price: settings.price,
             solver: &settings.solver,
         };
         let mut found = question.run(&solved)?;
@@ -438,6 +443,7 @@ pub fn fair_prepared(
         net: solved.net.clone(),
         sigma,
         errors: prepared.errors,
+        dearest: settings.price,
         lambda: final_lambda,
         trials: prepared.trials.clone(),
         chosen: prepared.smoothed.trial(smoother.count()),

@@ -6,7 +6,7 @@
 use super::bends::Line;
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule};
-use super::fair::{FairError, FairSettings, Faired, Prepared, fair_prepared};
+use super::fair::{FairError, FairSettings, Faired, PRICE, Prepared, fair_prepared};
 use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::Diagnosis;
@@ -114,6 +114,8 @@ pub struct Job {
     pub bending: bool,
     /// Whether extraneous changes of curvature are forbidden.
     pub signs: bool,
+    /// Dearest change of curvature that is forbidden, in squares of the noise.
+    pub price: f64,
     /// The solver.
     pub solver: Settings,
 }
@@ -132,6 +134,7 @@ impl Default for Job {
             locked: Vec::new(),
             exclude_suspects: true,
             signs: true,
+            price: PRICE,
             true_curvature: false,
             bending: false,
             solver: Settings { tolerance: 1e-11, ..Settings::default() },
@@ -451,6 +454,7 @@ impl Job {
             least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
             tolerances: self.tolerances(&surface),
             signs: self.signs,
+            price: self.price,
             true_curvature: self.true_curvature,
             bending: self.bending,
             lines: stations.chain(waterlines).collect(),

@@ -6,7 +6,7 @@
 //! program of the answer with more rows. Signs of the line are imposed all along it, but for one place at each
 //! inflection that stays, so that it moves there freely and cannot turn thrice.
 //!
-//! Lines are taken together: [`super::choice`] finds those that are worth [`PRICE`] each, and one program asks them for
+//! Lines are taken together: [`super::choice`] finds those that are worth [`FairSettings::price`] each, and one program asks them for
 //! their signs. A group after which a curve bends more often than before, buttocks and diagonals among them, or all of
 //! them together not less often, counted on the hull itself, is halved.
 //!
@@ -16,7 +16,7 @@
 
 use super::bends::{Bend, Line, asked, lobes};
 use super::choice::{charges, trial, worth_it};
-use super::fair::{FairError, FairSettings, Faired, PRICE};
+use super::fair::{FairError, FairSettings, Faired};
 use super::job::Turns;
 use super::least::TableLine;
 use super::model::Limit;
@@ -28,8 +28,8 @@ use super::told::Counted;
 const ROUNDS: usize = 6;
 const PROGRAMS: usize = 12;
 
-/// Dearest lobe, in units of sigma^2: the choice is no sharper than its accuracy.
-const DEAREST: f64 = 1.25 * PRICE;
+/// Dearest lobe, over the price: the choice is no sharper than its accuracy.
+const DEAREST: f64 = 1.25;
 
 /// Inflections of a line by the signs of the net, and the lobe that it is asked to give up.
 #[derive(Debug, Clone)]
@@ -101,7 +101,7 @@ impl Lobes<'_> {
     fn cheap(&self, best: &Attempt, lobes: Vec<Lobe>) -> Result<(Vec<Lobe>, Vec<Lobe>), FairError> {
         let Faired { program, smoother, sigma, net, .. } = &best.faired;
         let limits: Vec<&[Limit]> = lobes.iter().map(|lobe| lobe.limits.as_slice()).collect();
-        let price = PRICE * sigma * sigma;
+        let price = self.settings.price * sigma * sigma;
         let chosen = worth_it((program, &smoother.reduced), net, &limits, price, &self.settings.solver)?;
         let mut chosen = chosen.into_iter().flatten();
         Ok(lobes.into_iter().partition(|_| chosen.next() == Some(true)))
@@ -140,7 +140,7 @@ impl Lobes<'_> {
         let limits: Vec<&[Limit]> = group.iter().map(|lobe| lobe.limits.as_slice()).collect();
         let charges = charges((&program, &solved), &limits, first, net).into_iter().map(|charge| charge / unit);
         let charges: Vec<f64> = charges.collect();
-        if !solved.is_optimal() || charges.iter().any(|charge| *charge > DEAREST) {
+        if !solved.is_optimal() || charges.iter().any(|charge| *charge > DEAREST * self.settings.price) {
             return Ok(false);
         }
         let after = self.surface.hull_of(&solved.net)?;

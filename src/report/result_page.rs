@@ -9,7 +9,6 @@ use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
 use crate::exchange::{NO_MOVE, scene_json};
-use crate::fairing::fair::PRICE;
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
@@ -251,9 +250,15 @@ fn residual(value: &Value, scale: f64) -> String {
     value.as_f64().filter(within).map_or_else(|| figures(value, 2), |_| "0 to rounding".to_owned())
 }
 
+/// What forbidding a change of curvature was allowed to cost.
+fn dearest(fairing: &Value) -> f64 {
+    fairing["inflections"]["dearest"].as_f64().unwrap_or(crate::fairing::fair::PRICE)
+}
+
 /// How often every line bends, before, after, at least, and what was asked of it.
 pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
     let mut table = Table::new(&["line", "at [m]", "before", "after", "least", "asked", "price"], 1);
+    let limit = dearest(fairing);
     let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
@@ -282,8 +287,8 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
             };
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
                 (Some(price), _) => format!("{price:.2}"),
-                (None, Some(Some(dear))) if dear > PRICE => format!("{dear:.1}"),
-                (None, Some(Some(_))) => format!("over {PRICE:.0}"),
+                (None, Some(Some(dear))) if dear > limit => format!("{dear:.1}"),
+                (None, Some(Some(_))) => format!("over {limit}"),
                 (None, Some(None)) => "not to be had".to_owned(),
                 (None, None) => String::new(),
             };
@@ -295,12 +300,13 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 }
 
 /// What the columns of [`inflections`] are.
-pub(super) fn inflections_words(record: &FairRecord) -> String {
+pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
-         was asked of the line; let go: dearer than {PRICE:.0}, or not to be had with the others; not used: buttocks and diagonals are the \
+         was asked of the line; let go: dearer than {}, or not to be had with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
-        record.lines.notation.small(record.tolerance())
+        record.lines.notation.small(record.tolerance()),
+        dearest(fairing)
     )
 }
 
@@ -455,7 +461,7 @@ pub(super) fn report_page(
                 constraints(fairing).html()
             ),
         ));
-        let told = inflections_words(record);
+        let told = inflections_words(record, fairing);
         let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing).html())));
     }

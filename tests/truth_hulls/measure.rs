@@ -64,7 +64,7 @@ impl Truth {
         let table = self.table(case.errors, seed);
         let raw = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
         let started = cpu_seconds();
-        let outcome = self.job().run(&table).unwrap_or_else(|error| panic!("{} {seed}: {error}", case.title()));
+        let outcome = case.job(self).run(&table).unwrap_or_else(|error| panic!("{} {seed}: {error}", case.title()));
         let seconds = cpu_seconds() - started;
         let (before, after) = (self.changes(&raw), self.changes(&outcome.after));
         let volume = Constraint::Displacement(0.0).value(&outcome.after);

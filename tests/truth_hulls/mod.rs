@@ -28,6 +28,7 @@ use std::path::Path;
 
 use loftsman::exchange::read_table;
 use loftsman::fairing::constraint::Constraint;
+use loftsman::fairing::fair::PRICE;
 use loftsman::fairing::job::{Holding, Job};
 use loftsman::hull::{
     Cell, Entry, FitMethod, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
@@ -77,6 +78,9 @@ pub enum Errors {
 pub const LARGE: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.1, 0.15, 0.3] };
 /// Three errors of ten to fifteen noise levels.
 pub const SMALL: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.02, 0.02, 0.03] };
+/// Price of a change of curvature at which a table keeps what its noise does not explain: that of a degree of freedom
+/// in Mallows' criterion.
+pub const FAITHFUL: f64 = 2.0;
 /// One of six noise levels.
 pub const SIX_SIGMA: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.012] };
 /// Gross errors among noise of 25 mm.
@@ -407,12 +411,29 @@ pub struct Case {
     pub truth: fn() -> Truth,
     /// Which errors.
     pub errors: Errors,
+    /// Where the user says how noisy the table is, by a tolerance of three standard deviations: what forbidding a change
+    /// of curvature may cost.
+    pub told: Option<f64>,
 }
 
 impl Case {
+    /// The job for a hull.
+    pub fn job(&self, truth: &Truth) -> Job {
+        let mut job = truth.job();
+        if let (Some(price), Errors::Normal(sigma)) = (self.told, self.errors) {
+            (job.tolerance.table, job.price) = (Some(3.0 * sigma), price);
+        }
+        job
+    }
+
     /// Truth and errors.
     pub fn title(&self) -> String {
-        format!("{}, {}", self.name, self.errors.words())
+        let told = match self.told {
+            None => String::new(),
+            Some(PRICE) => ", tolerance named".to_owned(),
+            Some(price) => format!(", tolerance named, price {price}"),
+        };
+        format!("{}, {}{told}", self.name, self.errors.words())
     }
 }
 
@@ -457,16 +478,28 @@ pub fn cases() -> Vec<Case> {
             Errors::Typing,
             LARGE,
         ];
-        list.extend(kinds.map(|errors| Case { name, truth, errors }));
+        list.extend(kinds.map(|errors| Case { name, truth, errors, told: None }));
     }
     for (name, truth) in [("fair Series 60", fair_series60 as fn() -> Truth), ("fair S-175", fair_s175)] {
         let kinds = [Errors::Normal(0.002), Errors::Normal(0.01), Errors::Eighths];
-        list.extend(kinds.map(|errors| Case { name, truth, errors }));
+        list.extend(kinds.map(|errors| Case { name, truth, errors, told: None }));
+    }
+    for (name, truth, prices) in [
+        ("Series 60", series60 as fn() -> Truth, [PRICE, FAITHFUL].as_slice()),
+        ("S-175", s175, &[PRICE, FAITHFUL]),
+        ("fair Series 60", fair_series60, &[PRICE]),
+        ("fair S-175", fair_s175, &[PRICE]),
+    ] {
+        for sigma in [0.002, 0.01] {
+            let errors = Errors::Normal(sigma);
+            list.extend(prices.iter().map(|&price| Case { name, truth, errors, told: Some(price) }));
+        }
     }
     list.extend([SMALL, SIX_SIGMA, ROUGH, Errors::Adjacent].map(|errors| Case {
         name: "Wigley",
         truth: wigley,
         errors,
+        told: None,
     }));
     list
 }

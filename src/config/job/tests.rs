@@ -32,7 +32,7 @@ fn everything_is_read() {
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
-                [suspects]\nexclude = false\n[flat]\nkeep = false\n[signs]\nimpose = false";
+                [suspects]\nexclude = false\n[flat]\nkeep = false\n[signs]\nimpose = false\nprice = 2.5";
     let file = read_job("j.toml", text).unwrap();
     assert_eq!((file.table.as_deref(), file.stated.draught), (Some("a.csv"), Some(4.0)));
     let job = file.for_table(&table(), 100.0).unwrap();
@@ -42,7 +42,9 @@ fn everything_is_read() {
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(!job.exclude_suspects && !job.keep_flat && !job.signs && job.true_curvature && job.bending);
+    assert!(
+        !job.exclude_suspects && !job.keep_flat && !job.signs && job.price == 2.5 && job.true_curvature && job.bending
+    );
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
@@ -60,7 +62,10 @@ fn nothing_said_is_the_default() {
     let job = read_job("j.toml", "").unwrap().for_table(&table(), 100.0).unwrap();
     let default = Job::default();
     assert_eq!((job.holding, job.tolerance, job.locked), (default.holding, default.tolerance, default.locked));
-    assert_eq!((job.energy, job.weight, job.signs), (default.energy, default.weight, default.signs));
+    assert_eq!(
+        (job.energy, job.weight, job.signs, job.price),
+        (default.energy, default.weight, default.signs, default.price)
+    );
 }
 
 #[test]

@@ -138,13 +138,23 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
             return (rows_of(rows), "by the first header");
         }
     }
-    let second = fields.get(1).and_then(|row| axis_of(row[0].trimmed()));
-    if let (Some(first), Some(second)) = (corner.rows, second)
-        && first.is_station() == second.is_station()
-        && side_of(fields[1][0].trimmed()).is_none()
-        && !fields[1][0].text.bytes().any(|b| b.is_ascii_digit())
-    {
-        return (other(first), "by the two headers");
+    // A second word for what the first one says: names and positions stand side by side, or one below the other.
+    let second_is = |field: Option<&Field>, first: Axis| {
+        field.is_some_and(|field| {
+            axis_of(field.trimmed()).is_some_and(|second| first.is_station() == second.is_station())
+                && side_of(field.trimmed()).is_none()
+                && !field.text.bytes().any(|b| b.is_ascii_digit())
+        })
+    };
+    if let Some(first) = corner.rows {
+        if second_is(fields.get(1).and_then(|row| row.first()), first) {
+            return (other(first), "by the two headers");
+        }
+        if second_is(fields[0].get(1), first) {
+            return (rows_of(first), "by the two headers");
+        }
+    } else if second_is(fields[0].get(1), Axis::X) {
+        return (Rows::Stations, "by the second header");
     }
     let most = |cells: &mut dyn Iterator<Item = &Field>| {
         let (mut stations, mut lines) = (0, 0);
