@@ -136,3 +136,19 @@ fn the_noise_is_that_of_the_table_at_any_weight() {
         assert_eq!(inflections(&outcome)[0], inflections(&free)[0]);
     }
 }
+
+/// The surface through the Series 60 swings past B/2 between the offsets of her upper waterlines: so does every other
+/// through them, and the rest is faired all the same.
+#[test]
+fn a_locked_waterline_that_swings_past_the_breadth_stays_and_the_rest_is_faired() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
+    let table = loftsman::exchange::read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table;
+    let top = table.waterlines.len() - 1;
+    let given = |i: &usize| table.stations[*i].half_breadths[top].value().is_some();
+    let locked: Vec<(usize, usize)> = (0..table.stations.len()).filter(given).map(|i| (i, top)).collect();
+    let outcome = run(&Job { locked, ..Job::default() }, &table);
+    assert_eq!(outcome.status, Status::Optimal);
+    assert!(largest(&outcome, true) < 1e-9 && largest(&outcome, false) > 1e-3);
+    let [before, after] = outcome.inflections("station");
+    assert!(after < before, "{before} > {after}");
+}

@@ -12,7 +12,7 @@
 use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
-use super::constraint::{Constraint, Rule, breadths};
+use super::constraint::{Constraint, Rule, admit, breadths};
 use super::guard::{Guarded, Question};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
@@ -299,6 +299,10 @@ pub fn fair_prepared(
         widening: 1.0,
         ..Wishes::default()
     };
+    // The surface through the table swings past B/2 between offsets that stay: so does any other through them.
+    if !surface.own && surface.places.iter().any(|place| place.locked) {
+        admit(&mut wishes.breadths, &surface.start);
+    }
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
     let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));

@@ -42,15 +42,20 @@ pub fn breadths(hull: &Hull, net: &[f64], greatest: f64, margin: f64) -> Vec<Lim
     limits
 }
 
+/// Moves limits to where `start` breaks them: what does not move cannot do better.
+pub fn admit(limits: &mut [Limit], start: &[f64]) {
+    for limit in limits {
+        let own = value(&limit.row, start);
+        (limit.lower, limit.upper) = (limit.lower.min(own), limit.upper.max(own));
+    }
+}
+
 /// Limits that `net` breaks by more than `slack` \[m\]: of the surface, where `start` does not break them as well, and
 /// of the control values, which on any hull lie between `-greatest` and `2 greatest`.
 #[must_use]
 pub fn broken(hull: &Hull, net: &[f64], start: &[f64], greatest: f64, slack: f64) -> Vec<Limit> {
     let mut limits = breadths(hull, net, greatest, -slack);
-    for limit in &mut limits {
-        let own = value(&limit.row, start);
-        (limit.lower, limit.upper) = (limit.lower.min(own), limit.upper.max(own));
-    }
+    admit(&mut limits, start);
     limits.retain(|limit| {
         let y = value(&limit.row, net);
         y < limit.lower - slack || y > limit.upper + slack

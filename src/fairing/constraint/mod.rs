@@ -244,7 +244,7 @@ impl Constraint {
     }
 }
 
-pub use breadth::{between, breadths, broken, control_values};
+pub use breadth::{admit, between, breadths, broken, control_values};
 pub use flat::edged;
 pub use rule::{FixedLine, Rule, TangentPlace};
 
