@@ -6,9 +6,9 @@
 //! program of the answer with more rows. Signs of the line are imposed all along it, but for one place at each
 //! inflection that stays, so that it moves there freely and cannot turn thrice.
 //!
-//! Lines are taken together: [`super::choice`] finds those that are worth [`FairSettings::price`] each, and one program asks them for
-//! their signs. A group after which a curve bends more often than before, buttocks and diagonals among them, or all of
-//! them together not less often, counted on the hull itself, is halved.
+//! Lines are taken together: [`super::choice`] finds those that are worth [`FairSettings::price`] each, and one program
+//! asks them for their signs. A group after which a curve bends more often than before, buttocks and diagonals among
+//! them, or all of them together not less often, counted on the hull itself, is halved.
 //!
 //! Against no lobes taken out, inflections of all curves of the shared tables: DTMB 5415 389 > 374, DTC 276 > 254,
 //! oe1012 89 > 76, Series 60 90 > 87, S-175 92 > 91. Tried instead of the choice: letting go what the proof of a

@@ -9,6 +9,7 @@ use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
 use crate::exchange::{NO_MOVE, scene_json};
+use crate::fairing::fair::PRICE;
 use crate::fairing::inspect::{Planes, Resolution};
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
@@ -252,7 +253,7 @@ fn residual(value: &Value, scale: f64) -> String {
 
 /// What forbidding a change of curvature was allowed to cost.
 fn dearest(fairing: &Value) -> f64 {
-    fairing["inflections"]["dearest"].as_f64().unwrap_or(crate::fairing::fair::PRICE)
+    fairing["inflections"]["dearest"].as_f64().unwrap_or(PRICE)
 }
 
 /// How often every line bends, before, after, at least, and what was asked of it.

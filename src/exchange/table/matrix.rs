@@ -140,10 +140,8 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
     }
     // A second word for what the first one says: names and positions stand side by side, or one below the other.
     let second_is = |field: Option<&Field>, first: Axis| {
-        field.is_some_and(|field| {
+        field.filter(|field| is_word(field) && side_of(field.trimmed()).is_none()).is_some_and(|field| {
             axis_of(field.trimmed()).is_some_and(|second| first.is_station() == second.is_station())
-                && side_of(field.trimmed()).is_none()
-                && !field.text.bytes().any(|b| b.is_ascii_digit())
         })
     };
     if let Some(first) = corner.rows {
@@ -228,6 +226,11 @@ fn transposed(fields: Vec<Vec<Field>>) -> Vec<Vec<Field>> {
     columns
 }
 
+/// Whether a header is words alone, without a number.
+fn is_word(field: &Field) -> bool {
+    !field.text.bytes().any(|b| b.is_ascii_digit()) && !field.is_blank()
+}
+
 /// Whether a header is a bare word for the positions of lines: `x`, `z [m]`, `height`.
 fn is_positions(field: &Field, stations: bool) -> bool {
     let text = field.trimmed();
@@ -249,12 +252,11 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
     let (rows, reason) = orientation(&fields, settings, problems);
     let fields = if rows == Rows::Waterlines { transposed(fields) } else { fields };
     // Names and positions of waterlines may stand in two lines, and those of stations too.
-    let word = |field: &Field| !field.text.bytes().any(|b| b.is_ascii_digit()) && !field.is_blank();
-    let top = usize::from(fields.len() > 2 && word(&fields[1][0]) && is_positions(&fields[1][0], false));
+    let top = usize::from(fields.len() > 2 && is_word(&fields[1][0]) && is_positions(&fields[1][0], false));
     let names = fields[0].len() > 2 && {
         let (first, second) = (&fields[0][0], &fields[0][1]);
         let named = first.is_blank() || axis_of(first.trimmed()).is_none_or(|axis| axis == Axis::Station);
-        word(second) && is_positions(second, true) && named
+        is_word(second) && is_positions(second, true) && named
     };
     let left = usize::from(names);
     // With two lines of waterlines the names of the stations stand in the corner's row.
