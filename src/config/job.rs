@@ -355,7 +355,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         exclude_suspects: document.switch("suspects.exclude"),
         keep_flat: document.switch("flat.keep"),
         signs: document.switch("signs.impose"),
-        price: positive(document, "signs.price", "number"),
+        price: price(document),
         true_curvature: document.switch("energy.true_curvature"),
         bending: document.switch("energy.bending"),
         places: document.entries.iter().map(|e| Place::new(document, &e.key.path(), e.span.start)).collect(),
@@ -387,6 +387,21 @@ fn density(document: &mut Document<'_>) -> Option<f64> {
     let span = document.entry("water.density").map_or(0..0, |e| e.span.clone());
     let help = format!("Expected {} to {} t/m3.", DENSITIES.start(), DENSITIES.end());
     document.problem("E124", "water.density", &span, format!("water.density is {value} t/m3"), help);
+    None
+}
+
+/// Greatest price of a sign: no sign that the tolerances have is as dear.
+const MOST_PRICE: f64 = 1e6;
+
+/// What a sign may cost.
+fn price(document: &mut Document<'_>) -> Option<f64> {
+    let value = positive(document, "signs.price", "number")?;
+    if value <= MOST_PRICE {
+        return Some(value);
+    }
+    let span = document.entry("signs.price").map_or(0..0, |e| e.span.clone());
+    let help = format!("Expected a positive number, {MOST_PRICE:.0e} at most.");
+    document.problem("E124", "signs.price", &span, format!("signs.price is {value:?}"), help);
     None
 }
 

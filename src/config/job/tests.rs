@@ -63,6 +63,15 @@ fn everything_is_read() {
 }
 
 #[test]
+fn a_price_that_no_program_can_carry_is_refused() {
+    for text in ["0", "-1", "1e7", "1e308"] {
+        let problems = read_job("j.toml", &format!("[signs]\nprice = {text}")).unwrap_err();
+        assert_eq!(problems.iter().map(|problem| problem.code).collect::<Vec<_>>(), ["E124"], "{text}");
+    }
+    assert_eq!(read_job("j.toml", "[signs]\nprice = 1e6").unwrap().price, Some(1e6));
+}
+
+#[test]
 fn nothing_said_is_the_default() {
     let job = read_job("j.toml", "").unwrap().for_table(&table(), 100.0).unwrap();
     let default = Job::default();
