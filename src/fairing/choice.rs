@@ -26,13 +26,13 @@ const ACCURACY: f64 = 1e-7;
 /// A line that keeps more than this part is not worth its price.
 const KEEPS: f64 = 0.02;
 
-/// Whether each of the `lines`, with these limits beside the rows of a program, is worth its price \[m^2\]; none when that
+/// Whether each of the `lines`, with these limits beside the rows of a program, is worth its one of `prices` \[m^2\]; none when that
 /// was not found. `net` meets the rows of the program.
 pub(super) fn worth_it(
     (program, reduced): (&Program, &Reduced),
     net: &[f64],
     lines: &[&[Limit]],
-    price: f64,
+    prices: &[f64],
     settings: &Settings,
 ) -> Result<Option<Vec<bool>>, ProblemError> {
     let old = &program.problem;
@@ -46,7 +46,7 @@ pub(super) fn worth_it(
     };
     let mut problem = Problem {
         quadratic: widened(&old.quadratic),
-        linear: old.linear.iter().copied().chain((0..count).map(|_| price)).collect(),
+        linear: old.linear.iter().copied().chain(prices.iter().copied()).collect(),
         rows: widened(&old.rows),
         lower: old.lower.clone(),
         upper: old.upper.clone(),

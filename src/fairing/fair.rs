@@ -78,7 +78,7 @@ pub struct FairSettings {
     pub strict: Vec<Line>,
     /// Limits that keep the signs of buttocks and diagonals.
     pub oblique: Vec<Limit>,
-    /// Lines that are not asked for their least inflections, with the price at which they were let go.
+    /// Lines that are not asked for their least inflections, with what they might have cost at most, in sigma^2.
     pub released: Vec<(Line, f64)>,
     /// The least departure of a lobe from its chord that counts \[m\].
     pub seen: f64,
@@ -156,7 +156,7 @@ pub struct Faired {
     pub guarded: Option<Guarded>,
     /// Price of the signs in sigma^2.
     pub price: f64,
-    /// What each was allowed to cost, in sigma^2.
+    /// What one less was allowed to cost, in sigma^2.
     pub dearest: f64,
     /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
     pub refreshed: Option<Vec<f64>>,

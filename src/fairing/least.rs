@@ -10,8 +10,7 @@
 //! ```
 //!
 //! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by
-//! no more than the sum over all lines. A line dearer than [`super::fair::PRICE`] is let go, and so is the dearest one
-//! by the proof when nothing satisfies all.
+//! no more than the sum over all lines. What a line may cost is said in `guard.rs`.
 
 use super::bends::{Bend, Line, bends, changes, dead, signs};
 use super::inflections::{Bands, Inflections, minimum_inflections};

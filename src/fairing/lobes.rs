@@ -101,8 +101,8 @@ impl Lobes<'_> {
     fn cheap(&self, best: &Attempt, lobes: Vec<Lobe>) -> Result<(Vec<Lobe>, Vec<Lobe>), FairError> {
         let Faired { program, smoother, sigma, net, .. } = &best.faired;
         let limits: Vec<&[Limit]> = lobes.iter().map(|lobe| lobe.limits.as_slice()).collect();
-        let price = self.settings.price * sigma * sigma;
-        let chosen = worth_it((program, &smoother.reduced), net, &limits, price, &self.settings.solver)?;
+        let prices = vec![self.settings.price * sigma * sigma; lobes.len()];
+        let chosen = worth_it((program, &smoother.reduced), net, &limits, &prices, &self.settings.solver)?;
         let mut chosen = chosen.into_iter().flatten();
         Ok(lobes.into_iter().partition(|_| chosen.next() == Some(true)))
     }

@@ -169,7 +169,7 @@ fn judge(forms: &SignForms, smoother: &Smoother, smoothed: &Smoothed) -> Judged 
 }
 
 /// 99.9 % point of chi-square with k degrees of freedom (Wilson & Hilferty 1931).
-fn chi_square_limit(k: usize) -> f64 {
+pub(super) fn chi_square_limit(k: usize) -> f64 {
     let k = k as f64;
     let c = 2.0 / (9.0 * k);
     k * (1.0 - c + DEVIATE * c.sqrt()).powi(3)

@@ -259,7 +259,6 @@ fn dearest(fairing: &Value) -> f64 {
 /// How often every line bends, before, after, at least, and what was asked of it.
 pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
     let mut table = Table::new(&["line", "at [m]", "before", "after", "least", "asked", "price"], 1);
-    let limit = dearest(fairing);
     let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
@@ -288,8 +287,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
             };
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
                 (Some(price), _) => format!("{price:.2}"),
-                (None, Some(Some(dear))) if dear > limit => format!("{dear:.1}"),
-                (None, Some(Some(_))) => format!("over {limit}"),
+                (None, Some(Some(dear))) => format!("over {dear:.1}"),
                 (None, Some(None)) => "not to be had".to_owned(),
                 (None, None) => String::new(),
             };
@@ -304,7 +302,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
-         was asked of the line; let go: dearer than {}, or not to be had with the others; not used: buttocks and diagonals are the \
+         was asked of the line; let go: dearer than {} for an inflection (by chi-square for several), or not to be had with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
         record.lines.notation.small(record.tolerance()),
         dearest(fairing)
