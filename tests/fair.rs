@@ -252,6 +252,18 @@ fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
     assert!((0.3..1.0).contains(&widening), "{widening}");
 }
 
+/// A wish that is as small as an error of the table is a smooth move too where lines would bend more often for it: with the
+/// errors alone as the way there, one station and five buttocks of this one do.
+#[test]
+fn a_small_wish_bends_no_line_more_often() {
+    for displacement in ["8385 t", "8380 t"] {
+        let (_, outputs) = faired(&carried(TABLE), &[("--displacement", "hold.displacement", displacement)]);
+        outputs.verdict().unwrap();
+        let worse: Vec<_> = outputs.outcome.turns.iter().filter(|turns| turns.after > turns.before).collect();
+        assert!(worse.is_empty(), "{displacement}: {worse:?}");
+    }
+}
+
 /// Two targets that are both out of reach: no single one would do, and each has its interval.
 #[test]
 fn targets_that_are_out_of_reach_together_have_intervals() {

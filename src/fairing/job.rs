@@ -18,7 +18,8 @@ use super::lobes::Lobes;
 use super::noise::{Differences, left_by_differences};
 use super::proposals::{Accepted, Proposal};
 use super::record::{moves, resolution};
-use super::repeated::{Attempt, Repeated};
+use super::relinearise::ON_TARGET;
+use super::repeated::{Attempt, Repeated, excess};
 use super::rules::guarded_lines;
 use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
@@ -36,7 +37,8 @@ pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 
 /// The surface through the table is off a target by more than this, over its scale, where it is another than its own:
-/// less is what a target of the drawing office differs from a table by errors of the table.
+/// less is what a target of the drawing office differs from a table by errors of the table, as long as no line bends
+/// more often for it.
 const ANOTHER: f64 = 2e-3;
 
 /// A locked offset that moves by more did not stay \[m\].
@@ -301,17 +303,29 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let outcome = self.run_with_flat(table)?;
-        let asked = self.weight.is_some() || !self.signs || outcome.faired.carried.is_some();
-        if asked || outcome.own || outcome.status != Status::Optimal || more(&outcome) == 0 {
+        let mut outcome = self.run_with_flat(table, ANOTHER)?;
+        let all = |outcome: &Outcome| outcome.turns.iter().map(|turns| turns.after).sum::<usize>();
+        let is_fair = |other: &Outcome| !other.own && other.status == Status::Optimal;
+        if !self.signs || !is_fair(&outcome) {
+            return Ok(outcome);
+        }
+        // What is near enough to be an error of the table may be a wish all the same.
+        let near = outcome.targets_off(ON_TARGET) > outcome.targets_off(ANOTHER);
+        if near && excess(&outcome.turns) > 0 {
+            let other = self.run_with_flat(table, ON_TARGET)?;
+            let before = other.turns.iter().map(|turns| turns.before).sum();
+            if is_fair(&other) && excess(&other.turns) < excess(&outcome.turns) && all(&other) <= before {
+                outcome = other;
+            }
+        }
+        if self.weight.is_some() || outcome.faired.carried.is_some() || more(&outcome) == 0 {
             return Ok(outcome);
         }
         // What the smoothing bends more often and no signs could hold, less of it bends less.
         let weight = REDUCED_WEIGHT * outcome.faired.chosen.lambda;
-        let mut other = Self { weight: Some(weight), ..self.clone() }.run_with_flat(table)?;
-        let all = |outcome: &Outcome| outcome.turns.iter().map(|turns| turns.after).sum::<usize>();
+        let mut other = Self { weight: Some(weight), ..self.clone() }.run_with_flat(table, ANOTHER)?;
         let fewer = more(&other) < more(&outcome) && all(&other) < all(&outcome);
-        if other.own || other.status != Status::Optimal || !fewer {
+        if !is_fair(&other) || !fewer {
             return Ok(outcome);
         }
         other.faired.trials = outcome.faired.trials;
@@ -324,12 +338,13 @@ impl Job {
         Ok(other)
     }
 
-    /// Fairs a table, with the flat that it shows where that hinders nothing.
-    fn run_with_flat(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let mut outcome = self.run_on(table, true)?;
+    /// Fairs a table, with the flat that it shows where that hinders nothing. A target that is off by more than
+    /// `another`, over its scale, is one smooth move.
+    fn run_with_flat(&self, table: &OffsetTable, another: f64) -> Result<Outcome, JobError> {
+        let mut outcome = self.run_on(table, true, another)?;
         // What a net of its own cannot have, that of the fit may, which meets every offset.
         if outcome.own && outcome.status != Status::Optimal {
-            let mut other = self.run_on(table, false)?;
+            let mut other = self.run_on(table, false, another)?;
             let moved = |outcome: &Outcome| {
                 let locked = outcome.changes.iter().filter(|change| change.locked);
                 locked.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max)
@@ -347,7 +362,7 @@ impl Job {
         // A net of its own that bends more often than the surface through the table, and more, does not follow it after
         // all.
         if outcome.own && more(&outcome) > 0 && outcome.energy[1] > outcome.energy[0] {
-            let other = self.run_on(table, false)?;
+            let other = self.run_on(table, false, another)?;
             if more(&other) < more(&outcome) && other.status == outcome.status {
                 return Ok(other);
             }
@@ -360,7 +375,7 @@ impl Job {
             };
             let hinders = outcome.rules[flat].given_up || outcome.faired.diagnosis.as_ref().is_some_and(gives);
             if hinders || more(&outcome) > 0 {
-                let mut other = Self { keep_flat: false, ..self.clone() }.run_with_flat(table)?;
+                let mut other = Self { keep_flat: false, ..self.clone() }.run_with_flat(table, another)?;
                 let missed = |outcome: &Outcome| {
                     let each = outcome.held.iter().map(|held| held.constraint.missed(held.after, &outcome.before));
                     each.sum::<f64>()
@@ -396,7 +411,7 @@ impl Job {
     }
 
     /// Fairs a table, on a net of its own where that is allowed and follows it.
-    fn run_on(&self, table: &OffsetTable, own: bool) -> Result<Outcome, JobError> {
+    fn run_on(&self, table: &OffsetTable, own: bool, another: f64) -> Result<Outcome, JobError> {
         let Started {
             found,
             before,
@@ -433,15 +448,11 @@ impl Job {
         let wished = self.rules(table, &surface, &excluded);
         let ruled: Vec<Line> = wished.iter().filter_map(Rule::counted_line).collect();
         let guarded = |line: &Line| !ruled.contains(line);
-        let another = |constraint: &Constraint| {
-            let off = (constraint.value(&before) - constraint.target()).abs();
-            off > constraint.band() + ANOTHER * constraint.scale(&before)
-        };
         // A net of its own is searched without them.
         let left = (!surface.own).then(|| left_by_differences(table, &excluded)).flatten();
         let differences = left.map(|left| Differences { left, noise: found.noise });
         let mut settings = FairSettings {
-            others: constraints.iter().map(another).collect(),
+            others: constraints.iter().map(|c| c.missed(c.value(&before), &before) > another).collect(),
             constraints,
             rules: wished.clone(),
             weight: self.weight,
@@ -727,5 +738,10 @@ impl Outcome {
     pub fn inflections(&self, of: &str) -> [usize; 2] {
         let list = self.turns.iter().filter(|turns| kind(&turns.cut) == of);
         list.fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
+    }
+
+    /// How many targets the surface through the table is off by more than a part of their scale.
+    fn targets_off(&self, part: f64) -> usize {
+        self.held.iter().filter(|held| held.constraint.missed(held.before, &self.before) > part).count()
     }
 }
