@@ -374,6 +374,7 @@ pub fn fair_prepared(
             smoother,
             lambda,
             sigma,
+            errors: prepared.errors,
             wishes: &wishes,
             lines: &guarded_lines(&prepared.lines, &settings.rules),
             kept: &settings.kept,

@@ -12,10 +12,11 @@
 //! A job that is done again for lines that bend more often (`job.rs`) does not ask those again that it let go before.
 //!
 //! What a line may cost: the price of one inflection, which is about the 99.9 % point of chi-square with one degree of
-//! freedom, times that point with a degree of freedom for each inflection that would go, over that with one. Tried
-//! instead: the price of one for every line, however many go (container ship with 64 mm of noise 41.1 for 38.1 mm to the
-//! truth and 23 for 17 changes of sign on sections, frigate with 48 mm 43.7 for 43.0 mm and 74 for 66, oe1012 76 for 66
-//! inflections; the coaster 77 for 82, of which one waterline is without any at the price of lobes of three stations).
+//! freedom, times that point with a degree of freedom for each inflection that would go, over that with one; where a part of
+//! the noise is the hull's own form, which is no chance, the price of one. Tried instead: the price of one everywhere
+//! (bulk carrier with 81 mm of noise 54.1 for 50.9 mm to the truth and 22 for 14 changes of sign on waterlines, frigate
+//! with 48 mm 45.0 for 44.5 mm, oe1012 76 for 66 inflections); by chi-square everywhere (the S-175 made fair first and
+//! rounded to eighths 3.4 for 2.1 mm, by interpolation 2.4; the coaster 82 for 77 inflections, Cb 0.75 59 for 62).
 //!
 //! Each round is one convex program; what is accepted last is optimal for the signs it has.
 
@@ -123,6 +124,8 @@ pub(super) struct Question<'a> {
     pub(super) smoother: &'a Smoother,
     pub(super) lambda: f64,
     pub(super) sigma: f64,
+    /// What of the noise is taken for errors \[m\].
+    pub(super) errors: f64,
     pub(super) wishes: &'a Wishes,
     pub(super) lines: &'a [TableLine],
     pub(super) kept: &'a [Line],
@@ -281,9 +284,13 @@ impl Question<'_> {
 
     /// What asking a line for its least inflections may cost \[m^2\].
     fn dearest(&self, line: &TableLine, free: &[f64]) -> f64 {
+        let one = self.price * self.sigma * self.sigma;
+        if self.errors < self.sigma {
+            return one;
+        }
         let least = line.least.as_ref().map_or(0, |least| least.count);
         let gone = line.count(free).saturating_sub(least).max(1);
-        self.price * self.sigma * self.sigma * chi_square_limit(gone) / chi_square_limit(1)
+        one * chi_square_limit(gone) / chi_square_limit(1)
     }
 
     /// Limits that keep a line at the signs of the start.

@@ -8,6 +8,10 @@ use super::model::Limit;
 use super::program::{Program, Solved};
 use super::surface::FairSurface;
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Half-breadths that differ by less than this part of the breadth are the same.
+const SAME: f64 = 1e-9;
 
 /// Most rounds of lines that bend too often.
 const ROUNDS: usize = 4;
@@ -24,7 +28,31 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
             Err(why) => problems.push((k, format!("{}: {why}", rule.words()))),
         }
     }
+    let shown = rules.iter().position(|rule| matches!(rule, Rule::FlatShown { .. }));
+    if let Some(shown) = shown {
+        leave_to_fixed(&mut limits, shown, surface);
+    }
     if problems.is_empty() { Ok(limits) } else { Err(problems) }
+}
+
+/// Takes the control values out of a flat that the table shows which act on what does not move, where they are others at
+/// the start: between its offsets a line that stays does not run flat.
+fn leave_to_fixed(limits: &mut RuleLimits, shown: usize, surface: &FairSurface) {
+    let slack = SAME * surface.hull.particulars().breadth;
+    let is_flat = |(rule, limit): &&(usize, Limit)| *rule == shown && limit.row.len() == 1;
+    let flat: BTreeMap<usize, f64> =
+        limits.iter().filter(is_flat).map(|(_, limit)| (limit.row[0].0, limit.lower)).collect();
+    let stays = limits.iter().filter(|(rule, limit)| *rule != shown && limit.lower >= limit.upper);
+    let mut left: BTreeSet<usize> = BTreeSet::new();
+    for (_, limit) in stays {
+        let acting = || limit.row.iter().filter(|(_, basis)| *basis != 0.0);
+        let on_flat: Option<f64> = acting().map(|(i, basis)| Some(basis * flat.get(i)?)).sum();
+        if on_flat.is_none_or(|y| (y - limit.lower).abs() > slack) {
+            let other = |i: &usize| flat.get(i).is_some_and(|y| (surface.start[*i] - y).abs() > slack);
+            left.extend(acting().map(|(i, _)| *i).filter(other));
+        }
+    }
+    limits.retain(|(rule, limit)| *rule != shown || limit.row.iter().all(|(i, _)| !left.contains(i)));
 }
 
 /// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only

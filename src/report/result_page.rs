@@ -302,7 +302,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
-         was asked of the line; let go: dearer than {} for an inflection (by chi-square for several), or not to be had with the others; not used: buttocks and diagonals are the \
+         was asked of the line; let go: dearer than {} (of several inflections by chi-square where the noise is errors), or not to be had with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
         record.lines.notation.small(record.tolerance()),
         dearest(fairing)
