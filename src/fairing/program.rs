@@ -185,8 +185,9 @@ impl Program {
         };
         let mut known = Determined::new(n);
         let mut follows = vec![false; wanted.len()];
-        // Only rules make equalities that follow from each other: lines that cross, flats.
-        if wanted.iter().any(|row| matches!(row.name, RowName::Rule(_))) {
+        // Rules make equalities that follow from each other (lines that cross, flats), and offsets that are locked leave limits
+        // at them no room.
+        if wanted.iter().any(|row| matches!(row.name, RowName::Rule(_)) || equal(row)) {
             for single in [true, false] {
                 for (row, follows) in wanted.iter().zip(&mut follows) {
                     if equal(row) && (row.row.len() == 1) == single {

@@ -4,11 +4,11 @@ use super::bends::{Bend, Line, bends};
 use super::constraint::{Rule, inflections};
 use super::fair::FairError;
 use super::least::TableLine;
-use super::model::Limit;
+use super::model::{Limit, Row};
 use super::program::{Program, Solved};
 use super::surface::FairSurface;
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Half-breadths that differ by less than this part of the breadth are the same.
 const SAME: f64 = 1e-9;
@@ -35,24 +35,37 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
     if problems.is_empty() { Ok(limits) } else { Err(problems) }
 }
 
-/// Takes the control values out of a flat that the table shows which act on what does not move, where they are others at
-/// the start: between its offsets a line that stays does not run flat.
+/// Takes control values out of a flat that the table shows which are others at the start, and with which a line or an
+/// offset that stays could not: those that act on it beside others that are free. A row of offsets that stay gives as
+/// many values as the line through them has, and where a part of these is given besides, each of the others follows from
+/// its neighbours, with an error that grows from one to the next.
 fn leave_to_fixed(limits: &mut RuleLimits, shown: usize, surface: &FairSurface) {
     let slack = SAME * surface.hull.particulars().breadth;
-    let is_flat = |(rule, limit): &&(usize, Limit)| *rule == shown && limit.row.len() == 1;
-    let flat: BTreeMap<usize, f64> =
-        limits.iter().filter(is_flat).map(|(_, limit)| (limit.row[0].0, limit.lower)).collect();
-    let stays = limits.iter().filter(|(rule, limit)| *rule != shown && limit.lower >= limit.upper);
-    let mut left: BTreeSet<usize> = BTreeSet::new();
-    for (_, limit) in stays {
-        let acting = || limit.row.iter().filter(|(_, basis)| *basis != 0.0);
-        let on_flat: Option<f64> = acting().map(|(i, basis)| Some(basis * flat.get(i)?)).sum();
-        if on_flat.is_none_or(|y| (y - limit.lower).abs() > slack) {
-            let other = |i: &usize| flat.get(i).is_some_and(|y| (surface.start[*i] - y).abs() > slack);
-            left.extend(acting().map(|(i, _)| *i).filter(other));
+    let of_flat = |(rule, limit): &&(usize, Limit)| *rule == shown && limit.row.len() == 1;
+    let mut flat: BTreeMap<usize, f64> =
+        limits.iter().filter(of_flat).map(|(_, limit)| (limit.row[0].0, limit.lower)).collect();
+    let fixed = limits.iter().filter(|(rule, limit)| *rule != shown && limit.lower >= limit.upper);
+    let fixed = fixed.map(|(_, limit)| (&limit.row, limit.lower));
+    let places = surface.places.iter().zip(&surface.model.readings);
+    let locked = places.filter(|(place, _)| place.locked).map(|(_, reading)| (&reading.row, reading.value));
+    let mut stays: Vec<(&Row, f64)> = fixed.chain(locked).collect();
+    loop {
+        let before = flat.len();
+        stays.retain(|(row, y)| {
+            // Those without weight there too: beside a line that stays outside of the flat the surface has to get back.
+            let on_flat: Option<f64> = row.iter().map(|(i, basis)| Some(basis * flat.get(i)?)).sum();
+            let is_flat = on_flat.is_some_and(|flat| (flat - y).abs() <= slack);
+            if !is_flat {
+                let other = |i: &usize, flat: f64| (surface.start[*i] - flat).abs() > slack;
+                flat.retain(|i, flat| !(row.iter().any(|(k, _)| k == i) && other(i, *flat)));
+            }
+            is_flat
+        });
+        if flat.len() == before {
+            break;
         }
     }
-    limits.retain(|(rule, limit)| *rule != shown || limit.row.iter().all(|(i, _)| !left.contains(i)));
+    limits.retain(|(rule, limit)| *rule != shown || limit.row.iter().all(|(i, _)| flat.contains_key(i)));
 }
 
 /// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only

@@ -58,13 +58,19 @@ pub(super) struct Tried {
     pub(super) coefficients: Vec<f64>,
 }
 
+/// Points that are held are met to this part of the size of the values, which the solver can.
+const HELD: f64 = 1e-9;
+
 /// Solves for one pattern.
 pub(super) fn least_factor(bands: &Bands, space: &Space, pattern: &Pattern) -> Tried {
-    let (d, delta) = (bands.values(), bands.tolerances());
+    let d = bands.values();
     let n = space.values.column_count();
     let size = bands.size();
-    let widest = delta.iter().fold(0.0_f64, |most, &value| most.max(value));
-    let unit = if widest > 0.0 { widest } else { size };
+    let widest = bands.tolerances().iter().fold(0.0_f64, |most, &value| most.max(value));
+    // Where every point is held, how far it is missed says how far off a pattern is.
+    let unit = if widest > 0.0 { widest } else { HELD * size };
+    let delta: Vec<f64> =
+        bands.tolerances().iter().map(|&tolerance| if widest > 0.0 { tolerance } else { unit }).collect();
     // Values from their mean, so that rounding is relative to their range.
     let mean = d.iter().sum::<f64>() / d.len() as f64;
     let mut rows = LeastFactor::new(n);
@@ -95,8 +101,8 @@ pub(super) fn least_factor(bands: &Bands, space: &Space, pattern: &Pattern) -> T
     Tried { factor, at_least, coefficients }
 }
 
-/// The factor that coefficients need; infinite when a held point is missed or a bend has the wrong sign beyond the dead
-/// band.
+/// The factor that coefficients need, on [`HELD`] for points that are held; infinite when a bend has the wrong sign beyond
+/// the dead band.
 fn factor_of(bands: &Bands, space: &Space, wanted: &[Bend], coefficients: &[f64]) -> f64 {
     let bends = space.bends.apply(coefficients);
     let flat = dead_band(bands, &bends);
@@ -106,13 +112,11 @@ fn factor_of(bands: &Bands, space: &Space, wanted: &[Bend], coefficients: &[f64]
     let mut factor = 0.0_f64;
     for (k, value) in space.values.apply(coefficients).iter().enumerate() {
         let off = (value - bands.values()[k]).abs();
-        // Points that are held are met to the precision of the solver.
-        let slack = 1e-9 * bands.size();
-        if bands.tolerances()[k] > 0.0 {
-            factor = factor.max((off - slack).max(0.0) / bands.tolerances()[k]);
-        } else if off > slack {
-            return f64::INFINITY;
-        }
+        let slack = HELD * bands.size();
+        factor = factor.max(match bands.tolerances()[k] {
+            tolerance if tolerance > 0.0 => (off - slack).max(0.0) / tolerance,
+            _ => off / slack,
+        });
     }
     factor
 }
