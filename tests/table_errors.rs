@@ -232,6 +232,7 @@ fn w311_stations_on_both_sides_of_the_origin() {
 fn warnings_and_notes() {
     among(&notes(GOOD, ""), &["W306", "no profiles of stem and stern"]);
     among(&notes(GOOD, "[table]\nT = 1\n"), &["W307", "only 2 waterlines up to T 1 m"]);
+    among(&notes("station,0,1,2\n0,1,2,3\n1,1,,3\n2,1,2,3\n", ""), &["W314", "station 1, waterline 1 m"]);
     among(&notes("station,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "taken as 1 m apart", "station_spacing"]);
     among(&notes("x_from_midship_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "x is 0 at midship"]);
     among(&notes("x_from_midship_m,0.5,1\n-2,1,2\n-1,1,2\n2,2,3\n", ""), &["W320", "AP and FP, 4 m apart"]);

@@ -284,6 +284,38 @@ fn marks_lines_and_conventions() {
     assert_eq!(again.endings, t.endings);
 }
 
+/// Blank cells in the side of a hull are offsets that are missing; outside of it, or with a dash, there is no hull.
+#[test]
+fn blank_cells_among_offsets_are_missing() {
+    let text = "station,0,1,2,3,4\n0,,,1,2,3\n1,1,,2,3,4\n2,2,3,-,4,5\n3,,,,,\n4,1,,0,,4\n5,,1,2,3,4\n6,0,1,,2,3\n7,0,1,2,3,\n";
+    let found = read("t.csv", text);
+    let entry = |station: usize| {
+        let entry = |cell: &Cell| match cell.entry {
+            Entry::Absent => '-',
+            Entry::Unknown => '?',
+            Entry::Given(_) => '1',
+        };
+        found.table.stations[station].half_breadths.iter().map(entry).collect::<String>()
+    };
+    // Below the keel; connected with that; a dash; a station of which nothing is given; beside a zero; in the
+    // side; above the deck.
+    let entries: Vec<String> = (0..8).map(entry).collect();
+    assert_eq!(entries, ["--111", "1-111", "11-11", "?????", "1-1-1", "-1111", "11?11", "1111-"]);
+    let told = found.notes.iter().find(|note| note.code == "W314").unwrap().to_string();
+    for part in ["6 blank cells", "station 3, waterline 0 m", "station 6, waterline 2 m", "'-' where there is no hull"]
+    {
+        assert!(told.contains(part), "{told}");
+    }
+    assert_eq!(write_table(&found.table, TableWriting::default()).text, text);
+    // In another layout the same is said.
+    let tidy = TableWriting { layout: Some(TableLayout::Tidy), ..TableWriting::default() };
+    let again = read("t.csv", &write_table(&found.table, tidy).text);
+    let of = |read: &ReadTable| -> Vec<Entry> {
+        read.table.stations.iter().flat_map(|s| &s.half_breadths).map(|cell| cell.entry).collect()
+    };
+    assert_eq!(of(&again), of(&found));
+}
+
 #[test]
 fn only_changed_cells_are_written_anew() {
     let text = "station;0,500;1,000\n0;0,50;1,000\n1;1,25;2,000\n";

@@ -6,6 +6,9 @@ use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable};
 use crate::units::counted;
 
+/// Most missing offsets that are named.
+const MOST_PLACES: usize = 6;
+
 /// Half-breadths are all positive, or all negative (starboard): then their sign is turned.
 pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
     let values = || table.stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value);
@@ -53,6 +56,90 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
             table.endings[at][end] = Some(x);
         }
     }
+}
+
+/// Cells without hull among half-breadths, which no hull has: those that no chain of their like connects with an edge of
+/// the table, where the hull ends, and that touch no zero, which is where a bulb ends; and those of a station between others
+/// of which nothing is given. `absent` says of a cell whether it says that there is no hull, and nothing more.
+pub(super) fn holes(table: &OffsetTable, absent: impl Fn(&Cell) -> bool) -> Vec<(usize, usize)> {
+    let (rows, columns) = (table.stations.len(), table.waterlines.len());
+    let none = Cell::default();
+    let cell = |i: usize, j: usize| table.stations[i].half_breadths.get(j).unwrap_or(&none);
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    let blank = |i: usize| {
+        let station = &table.stations[i];
+        let no_points = station.outlines.is_empty() && station.heights.is_empty();
+        no_points && (0..columns).all(|j| absent(cell(i, j)))
+    };
+    let given: Vec<usize> = (0..rows).filter(|&i| !blank(i)).collect();
+    if let [first, .., last] = given[..] {
+        let between = (first..last).filter(|i| given.binary_search(i).is_err());
+        found.extend(between.flat_map(|i| (0..columns).map(move |j| (i, j))));
+    }
+    let mut seen = vec![false; rows * columns];
+    for from in 0..rows * columns {
+        if seen[from] || !absent(cell(from / columns, from % columns)) {
+            continue;
+        }
+        seen[from] = true;
+        let (mut region, mut next, mut enclosed) = (vec![from], 0, true);
+        while let Some(&at) = region.get(next) {
+            next += 1;
+            let (i, j) = (at / columns, at % columns);
+            enclosed &= i > 0 && j > 0 && i + 1 < rows && j + 1 < columns;
+            for (i, j) in [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)] {
+                if i >= rows || j >= columns || seen[i * columns + j] {
+                    continue;
+                }
+                if absent(cell(i, j)) {
+                    seen[i * columns + j] = true;
+                    region.push(i * columns + j);
+                } else {
+                    enclosed &= match cell(i, j).entry {
+                        Entry::Given(y) => y > 0.0,
+                        Entry::Unknown => true,
+                        Entry::Absent => false,
+                    };
+                }
+            }
+        }
+        if enclosed {
+            found.extend(region.into_iter().map(|at| (at / columns, at % columns)));
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Blank cells among half-breadths are offsets that are missing, and no holes in the side; `-` and `*` are.
+pub(super) fn missing(table: &mut OffsetTable, problems: &mut Problems) {
+    let blank = |cell: &Cell| {
+        let text = cell.written.as_ref().map_or("", |written| written.text.as_str());
+        cell.entry == Entry::Absent && text.is_empty()
+    };
+    let found = holes(table, blank);
+    if found.is_empty() {
+        return;
+    }
+    for &(i, j) in &found {
+        if let Some(cell) = table.stations[i].half_breadths.get_mut(j) {
+            cell.entry = Entry::Unknown;
+        }
+    }
+    let name = |&(i, j): &(usize, usize)| {
+        format!("station {}, waterline {} m", table.stations[i].station.name, table.waterlines[j])
+    };
+    let mut places: Vec<String> = found.iter().take(MOST_PLACES).map(name).collect();
+    if found.len() > MOST_PLACES {
+        places.push(format!("{} more", found.len() - MOST_PLACES));
+    }
+    let message = format!(
+        "{} among half-breadths: read as not known, and not as no hull ({})",
+        counted(found.len(), "blank cell"),
+        places.join("; ")
+    );
+    problems.warning("W314", Place::FILE, message, "Write '?' there, the offset, or '-' where there is no hull");
 }
 
 /// What is wrong with a table, or should be known about it, once its numbers are read.

@@ -40,6 +40,7 @@ pub(super) fn read(
     let read = recognised(name, &text, beside)?;
     Some(read.map(|mut read| {
         let mut problems = Problems::new(name);
+        super::checks::missing(&mut read.table, &mut problems);
         super::checks::particulars(&read.table, &mut problems);
         read.notes.extend(problems.finish().unwrap_or_default());
         read.notes.sort_by_key(|note| (note.row.unwrap_or(0), note.column.unwrap_or(0)));

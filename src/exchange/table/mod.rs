@@ -111,12 +111,13 @@ pub fn read_table_with<'a>(
     for (name, text) in beside {
         beside::read(name, text, &mut settings, &mut problems);
     }
-    let table = match problems.any_errors() {
+    let mut table = match problems.any_errors() {
         // Without its conventions the table would give misleading problems.
         true => None,
         false => fields(bytes, &mut settings, &mut problems),
     };
-    if let Some(table) = table.as_ref().filter(|_| !problems.any_errors()) {
+    if let Some(table) = table.as_mut().filter(|_| !problems.any_errors()) {
+        checks::missing(table, &mut problems);
         checks::whole(table, settings.full, &mut problems);
     } else if !problems.any_errors() {
         let message = "no table of offsets is recognised".to_owned();

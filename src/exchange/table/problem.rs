@@ -23,6 +23,7 @@
 //! | W308 | a draught above the top of the table |
 //! | W309 | a breadth that is not that of the table |
 //! | W310 | a length between perpendiculars that is not that of the table |
+//! | W314 | blank cells among half-breadths |
 //! | W320 | something was assumed that changes numbers |
 //! | W351 | a body that is not closed |
 //! | W352 | surfaces that are not read |

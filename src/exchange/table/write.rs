@@ -8,9 +8,10 @@ use super::header::side_name;
 use super::tidy;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
-    TableLayout,
+    TableLayout, Written,
 };
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
+use std::borrow::Cow;
 
 /// In which notation and layout a table is to be written; its own where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -172,6 +173,7 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
             }
         }
     }
+    let table = &with_holes(table);
     // The texts of the cells hold where unit, factor and sign are those of the file.
     let own = !renotated && (form.full_breadths, form.negative) == (table.form.full_breadths, table.form.negative);
     let mut writer = Writer { form, own, rounding: Rounding::default(), squares: 0.0 };
@@ -180,6 +182,25 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
     let mut rounding = writer.rounding;
     rounding.root_mean_square = (writer.squares / (rounding.cells.max(1)) as f64).sqrt();
     WrittenTable { text, rounding }
+}
+
+/// What says that there is no hull, where a blank cell would be read as an offset that is missing.
+const NO_HULL: &str = "-";
+
+/// The table with cells without hull among half-breadths that say so.
+fn with_holes(table: &OffsetTable) -> Cow<'_, OffsetTable> {
+    let holes = super::checks::holes(table, |cell| cell.entry == Entry::Absent);
+    if holes.is_empty() {
+        return Cow::Borrowed(table);
+    }
+    let mut table = table.clone();
+    for (i, j) in holes {
+        if let Some(cell) = table.stations[i].half_breadths.get_mut(j) {
+            let said = cell.written.take().filter(|written| !written.text.is_empty());
+            cell.written = said.or_else(|| Some(Written { text: NO_HULL.to_owned(), row: 0, column: 0 }));
+        }
+    }
+    Cow::Owned(table)
 }
 
 /// Writes the parts of a table and keeps account of the rounding.
@@ -231,7 +252,8 @@ impl Writer {
             let same = match (value, cell.entry) {
                 (Some(a), Entry::Given(b)) => (a - b).abs() <= 1e-12 * b.abs().max(1.0),
                 (None, Entry::Absent) => reading.entry == CellEntry::Absent,
-                (None, Entry::Unknown) => reading.entry == CellEntry::Unknown,
+                // Blank among half-breadths is read as unknown.
+                (None, Entry::Unknown) => reading.entry == CellEntry::Unknown || written.text.is_empty(),
                 _ => false,
             };
             if same && marks == cell.marks {
@@ -241,7 +263,10 @@ impl Writer {
             }
         }
         let text = match cell.entry {
-            Entry::Absent => return String::new(),
+            Entry::Absent => {
+                let said = cell.written.as_ref().is_some_and(|written| !written.text.is_empty());
+                return if said { NO_HULL.to_owned() } else { String::new() };
+            }
             Entry::Unknown => "?".to_owned(),
             Entry::Given(value) if !value.is_finite() => return String::new(),
             Entry::Given(value) => {
