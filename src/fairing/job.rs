@@ -374,7 +374,7 @@ impl Job {
                 found.cheapest().is_none() || found.rules.iter().any(|(rule, give)| *rule == flat && give.is_some())
             };
             let hinders = outcome.rules[flat].given_up || outcome.faired.diagnosis.as_ref().is_some_and(gives);
-            if hinders || more(&outcome) > 0 {
+            if hinders || excess(&outcome.turns) > 0 {
                 let mut other = Self { keep_flat: false, ..self.clone() }.run_with_flat(table, another)?;
                 let missed = |outcome: &Outcome| {
                     let each = outcome.held.iter().map(|held| held.constraint.missed(held.after, &outcome.before));
@@ -384,8 +384,9 @@ impl Job {
                 let told =
                     |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
                 let nearer = (missed(&other) < missed(&outcome) || told(&other) && !told(&outcome))
-                    && more(&other) <= more(&outcome);
-                if better || other.status == outcome.status && (more(&other) < more(&outcome) || nearer) {
+                    && excess(&other.turns) <= excess(&outcome.turns);
+                if better || other.status == outcome.status && (excess(&other.turns) < excess(&outcome.turns) || nearer)
+                {
                     other.notes.insert(
                         0,
                         "the flat of side that the table shows was not kept: with it the offsets cannot be had within their tolerances, \
