@@ -297,6 +297,11 @@ fn more(outcome: &Outcome) -> usize {
     ["station", "waterline"].map(|kind| more(outcome.inflections(kind))).iter().sum()
 }
 
+/// Inflections of all curves.
+fn all(outcome: &Outcome) -> usize {
+    outcome.turns.iter().map(|turns| turns.after).sum()
+}
+
 impl Job {
     /// Fairs a table.
     ///
@@ -304,7 +309,6 @@ impl Job {
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
         let mut outcome = self.run_with_flat(table, ANOTHER)?;
-        let all = |outcome: &Outcome| outcome.turns.iter().map(|turns| turns.after).sum::<usize>();
         let is_fair = |other: &Outcome| !other.own && other.status == Status::Optimal;
         if !self.signs || !is_fair(&outcome) {
             return Ok(outcome);
@@ -385,8 +389,8 @@ impl Job {
                     |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
                 let nearer = (missed(&other) < missed(&outcome) || told(&other) && !told(&outcome))
                     && excess(&other.turns) <= excess(&outcome.turns);
-                if better || other.status == outcome.status && (excess(&other.turns) < excess(&outcome.turns) || nearer)
-                {
+                let fairer = excess(&other.turns) < excess(&outcome.turns) && all(&other) <= all(&outcome);
+                if better || other.status == outcome.status && (fairer || nearer) {
                     other.notes.insert(
                         0,
                         "the flat of side that the table shows was not kept: with it the offsets cannot be had within their tolerances, \
