@@ -163,6 +163,7 @@ fn a_program_that_stops_early_is_no_proof() {
 fn a_curve_that_is_no_text() {
     let path = file("curve.csv", b"x,y\n0,1\n\xff\xfe,2\n");
     let job = CurveJob {
+        keep_suspects: false,
         path,
         unit: Notation::Metres,
         locks: Vec::new(),

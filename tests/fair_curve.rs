@@ -1,6 +1,8 @@
 //! Fairing of single curves: known truth under noise, what is held exactly, what is refused with numbers, the command.
 
-use loftsman::fairing::curve::{CurvePoint, CurveSettings, FairStatus, InflectionWish, LineKind, fair_curve};
+use loftsman::fairing::curve::{
+    CurvePoint, CurveSettings, CurveSuspect, FairStatus, InflectionWish, LineKind, contradictions, fair_curve,
+};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -345,4 +347,64 @@ fn the_command_refuses_with_numbers() {
     folder.write("few.csv", "x,y\n0,1\n1,2\n2,3\n");
     let (code, _, error) = folder.run(&["few.csv"]);
     assert!(code == 3 && error.contains("E342"), "{error}");
+}
+
+/// 21 points of a full waterline with noise, of which one is off by `off` standard deviations.
+fn with_error(seed: u64, off: f64) -> (Vec<CurvePoint>, usize) {
+    let truth = |x: f64| 8.0 * (1.0 - (x / 50.0 - 1.0).powi(4));
+    let mut list = points(truth, 0.0, 100.0, 21, 0.01, seed);
+    let k = 2 + (seed as usize) % 17;
+    list[k].y = list[k].y.map(|y| y + off * 0.01);
+    (list, k)
+}
+
+#[test]
+fn a_point_that_contradicts_all_others_is_suspected() {
+    let settings = CurveSettings::default();
+    let (mut false_alarms, mut found) = (0, 0);
+    for seed in 0..40 {
+        let (clean, _) = with_error(seed, 0.0);
+        false_alarms += usize::from(!contradictions(&clean, &settings).unwrap().suspects.is_empty());
+        let (wrong, k) = with_error(seed, 15.0);
+        let told = contradictions(&wrong, &settings).unwrap();
+        let right = |s: &CurveSuspect| s.index == k && (s.value - s.expected - 0.15).abs() < 0.06;
+        found += usize::from(told.suspects.len() == 1 && told.suspects.iter().all(right) && told.corners.is_empty());
+        // Whoever vouches for a point is believed.
+        let mut locked = wrong;
+        locked[k].locked = true;
+        assert!(contradictions(&locked, &settings).unwrap().suspects.iter().all(|s| s.index != k), "{seed}");
+    }
+    assert!(false_alarms <= 2 && found >= 38, "{false_alarms} {found}");
+}
+
+#[test]
+fn corners_that_nobody_declared_are_told() {
+    for sigma in [0.0, 0.002, 0.01] {
+        let side = |x: f64| (x / 8.0).min(4.0).min((100.0 - x) / 8.0);
+        let list = points(side, 0.0, 100.0, 26, sigma, 7);
+        let told = contradictions(&list, &CurveSettings::default()).unwrap();
+        let places: Vec<f64> = told.corners.iter().map(|corner| list[corner.index].x).collect();
+        assert_eq!((places, told.suspects.len()), (vec![32.0, 68.0], 0), "{sigma}");
+        assert!(told.corners.iter().all(|corner| corner.noise[1] < 0.5 * corner.noise[0]), "{told:?}");
+    }
+}
+
+#[test]
+fn suspects_are_left_out_and_listed_unless_they_are_kept() {
+    let files = Folder::new("suspects");
+    let (list, k) = with_error(3, 27.0);
+    files.write("curve.csv", &csv(&list));
+    let (code, page, _) = files.run(&["curve.csv", "-o", "out", "--area", "keep"]);
+    assert_eq!(code, 0);
+    let place = format!("x = {:.3} m: given", list[k].x);
+    assert!(page.contains(&place) && page.contains("left out; --keep-suspects takes it"), "{page}");
+    let json: serde_json::Value = serde_json::from_str(&files.read("out/fairing.json")).unwrap();
+    assert_eq!(json["suspects"][0]["left_out"], true);
+    assert!(json["noise"]["sigma"].as_f64().unwrap() < 0.02, "{}", json["noise"]);
+    // The area as given is that without it.
+    assert!(json["constraints"][0]["residual"].as_f64().unwrap().abs() < 1e-9);
+    let row = files.read("out/curve.csv").lines().find(|line| line.ends_with("suspect")).unwrap().to_owned();
+    assert!((row.split(',').nth(5).unwrap().parse::<f64>().unwrap() + 0.27).abs() < 0.05, "{row}");
+    let (_, page, _) = files.run(&["curve.csv", "--keep-suspects"]);
+    assert!(page.contains("taken as it is"), "{page}");
 }

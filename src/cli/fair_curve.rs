@@ -41,6 +41,9 @@ pub(super) struct Arguments {
     /// Abscissa of the centroid of that area: a number [m] or keep
     #[arg(long, value_parser = kept, value_name = "X|keep", allow_hyphen_values = true)]
     centroid: Option<Kept>,
+    /// Take suspected points as they are
+    #[arg(long)]
+    keep_suspects: bool,
     /// Slope dy/dx at the first point
     #[arg(long, value_parser = number, value_name = "SLOPE", allow_hyphen_values = true)]
     first_slope: Option<f64>,
@@ -83,6 +86,8 @@ const AFTER: &str = "\
 Cells are those of tables of offsets: 6.41, 3-4-5+ (feet-inches-eighths), (6.41) doubtful, ? to be predicted, and the marks K (knuckle), T \
 (tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm]. \
 Ends that are 0 stay 0 where no ordinate is below. curve.csv is in metres.
+Points that contradict all others are left out and listed; those that are locked, doubtful or have a tolerance or a mark are not. Corners that \
+the points show and do not declare are told.
 fairing.json holds the proof: the least number of inflections within the tolerances with three points for each change that no curve \
 can pass without it, and the duality gap of the convex program.
 Exit code 4 when what is wished cannot be had within the tolerances; the message names the smallest tolerance that would do, \
@@ -126,6 +131,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         knuckles: list(&arguments.knuckle),
         area: arguments.area,
         centroid: arguments.centroid,
+        keep_suspects: arguments.keep_suspects,
         settings: CurveSettings {
             order: usize::from(arguments.order),
             tolerance: arguments.tolerance,

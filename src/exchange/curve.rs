@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::fairing::COMPROMISE_LINE;
 use super::number::{cell, json_number, line};
-use crate::fairing::curve::{CurvePoint, FairCurve, FairStatus};
+use crate::fairing::curve::{Contradictions, CurvePoint, FairCurve, FairStatus};
 use crate::fairing::inflections::Witness;
 use crate::units::{CellEntry, CellRules, CellWriting, Notation, parse_cell};
 
@@ -272,7 +272,7 @@ pub fn curve_csv(points: &[CurvePoint], fair: &FairCurve) -> String {
             cell(point.moved()),
             cell(Some(point.slope)),
             cell(Some(point.curvature)),
-            fair.status.as_str().to_owned(),
+            if point.suspect { "suspect".to_owned() } else { fair.status.as_str().to_owned() },
         ]));
     }
     text
@@ -286,7 +286,7 @@ fn witness(points: &[CurvePoint], witness: &Witness) -> Value {
 
 /// `fairing.json` of a curve. The list of inflections has one entry, the curve, with places, proof and refused numbers.
 #[must_use]
-pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, seconds: f64) -> Value {
+pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradictions, seconds: f64) -> Value {
     let certificate = &fair.certificate;
     let least = &fair.least;
     let lines: Vec<Value> = fair
@@ -328,6 +328,20 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, seconds: f64) -> Valu
     let refused: Vec<Value> =
         fair.refused.iter().map(|r| json!({ "inflections": r.0, "price": json_number(Some(r.1)) })).collect();
     let (rms, max, at) = fair.moves();
+    let place = |index: usize| fair.points.get(index).map(|point| point.x);
+    let suspects = found.suspects.iter().map(|suspect| {
+        json!({
+            "x": json_number(place(suspect.index)), "value": json_number(Some(suspect.value)),
+            "expected": json_number(Some(suspect.expected)), "score": json_number(Some(suspect.score)),
+            "left_out": fair.points.get(suspect.index).is_some_and(|point| point.suspect),
+        })
+    });
+    let suspects: Vec<Value> = suspects.collect();
+    let corners = found.corners.iter().map(|corner| {
+        let [before, after] = corner.noise.map(|noise| json_number(Some(noise)));
+        json!({ "x": json_number(place(corner.index)), "noise_without": before, "noise_with_all": after })
+    });
+    let corners: Vec<Value> = corners.collect();
     let active: Vec<f64> = fair.points.iter().filter(|point| point.active).map(|point| point.x).collect();
     json!({
         "status": fair.status.as_str(),
@@ -349,7 +363,8 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, seconds: f64) -> Valu
         "smoothing": { "weight": json_number(Some(fair.lambda)), "degrees_of_freedom": json_number(Some(fair.freedom)) },
         "widening": json_number(Some(fair.widening)),
         "infeasible": infeasible(fair),
-        "suspects": [],
+        "suspects": suspects,
+        "corners": corners,
         "work": { "qps": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
     })
 }

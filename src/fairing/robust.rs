@@ -45,18 +45,27 @@ fn typical(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The t that a normal value exceeds with probability `p`, for `freedom` degrees of freedom (Abramowitz & Stegun 1964,
 /// 26.2.23 and 26.7.5, the first term): within 1 % for p from 1e-6 to 1e-2 and 30 degrees of freedom or more.
-fn point_of_t(p: f64, freedom: f64) -> f64 {
+pub(super) fn point_of_t(p: f64, freedom: f64) -> f64 {
     let t = (-2.0 * p.ln()).sqrt();
     let z =
         t - (2.515_517 + t * (0.802_853 + t * 0.010_328)) / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)));
     z * (1.0 + (z * z + 1.0) / (4.0 * freedom.max(1.0)))
 }
 
-/// The net with readings left out, its noise and the test value of every reading.
-fn tested(smoother: &Smoother, lambda: f64, out: &[bool]) -> Result<(Smoothed, Vec<f64>, f64), SingularMatrix> {
-    let weights: Vec<f64> =
-        smoother.weights().iter().zip(out).map(|(weight, out)| if *out { NONE * weight } else { *weight }).collect();
-    let smoothed = smoother.reweighted(&weights).at(lambda)?;
+/// The problem with readings that have a leverage, and no say.
+pub(super) fn without(smoother: &Smoother, out: &[bool]) -> Smoother {
+    let weights = smoother.weights().iter().zip(out);
+    smoother.reweighted(&weights.map(|(weight, out)| if *out { NONE * weight } else { *weight }).collect::<Vec<_>>())
+}
+
+/// The net with readings left out, the test value of every reading and the degrees of freedom.
+pub(super) fn tested(
+    smoother: &Smoother,
+    lambda: f64,
+    out: &[bool],
+) -> Result<(Smoothed, Vec<f64>, f64), SingularMatrix> {
+    let smoother = without(smoother, out);
+    let (weights, smoothed) = (smoother.weights(), smoother.at(lambda)?);
     let kept = weights.iter().zip(out).filter(|(weight, out)| **weight > 0.0 && !**out).count() as f64;
     let freedom = (kept - smoothed.edf).max(1.0);
     let sigma = (smoothed.rss / freedom).sqrt();

@@ -61,7 +61,11 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
             scale_y / scale_x,
             "inflections ringed, dots: points as given,",
             "squares: locked,",
-            "triangles: at their tolerance"
+            if fair.points.iter().any(|point| point.suspect) {
+                "triangles: at their tolerance, crosses: left out"
+            } else {
+                "triangles: at their tolerance"
+            }
         ),
         &text,
     );
@@ -93,6 +97,7 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
             let Some(before) = point.before else { continue };
             let at = place(point.x, before);
             match point.tolerance {
+                _ if point.suspect => cross(&mut canvas, at),
                 Some(t) if t <= 0.0 => square(&mut canvas, at),
                 _ if point.active => triangle(&mut canvas, at),
                 _ => ring(&mut canvas, at, 0.5, &Pen::new(0.35, RED)),
@@ -160,6 +165,12 @@ fn square(canvas: &mut Canvas, [x, y]: [f64; 2]) {
     canvas.fill(&Rectangle::new(x - 0.8, y - 0.8, x + 0.8, y + 0.8), RED);
 }
 
+fn cross(canvas: &mut Canvas, [x, y]: [f64; 2]) {
+    for side in [-1.0, 1.0] {
+        canvas.line([x - 1.0, y - side], [x + 1.0, y + side], &Pen::new(0.4, RED));
+    }
+}
+
 fn triangle(canvas: &mut Canvas, [x, y]: [f64; 2]) {
     canvas.area(&[[x - 1.0, y + 0.8], [x + 1.0, y + 0.8], [x, y - 1.0]], RED);
 }
@@ -169,13 +180,14 @@ fn moves(canvas: &mut Canvas, fair: &FairCurve, across: impl Fn(f64) -> f64) {
     let window = Rectangle::new(SIDES[0], MOVES[0], SIDES[1], MOVES[1]);
     let middle = 0.5 * (MOVES[0] + MOVES[1]);
     let moved = |most: f64, value: Option<f64>| most.max(value.unwrap_or(0.0).abs());
-    let largest = fair.points.iter().fold(0.0, |most, p| moved(most, p.moved()));
+    let kept = || fair.points.iter().filter(|point| !point.suspect);
+    let largest = kept().fold(0.0, |most, p| moved(most, p.moved()));
     // Bands much wider than the moves are cut off.
     let widest = fair.points.iter().fold(0.0, |most, p| moved(most, p.tolerance)).min(3.0 * largest.max(1e-9));
     let reach = 1.1 * largest.max(widest).max(1e-9);
     let unit = 0.5 * window.height() / reach;
     canvas.begin_clip(&Rectangle::new(window.left - 2.0, window.top, window.right + 2.0, window.bottom));
-    for point in &fair.points {
+    for point in kept() {
         let x = across(point.x);
         if let Some(tolerance) = point.tolerance {
             let half = tolerance * unit;

@@ -11,7 +11,8 @@ use super::files::OutputFile;
 use crate::config::Diagnostic;
 use crate::exchange::{NO_MOVE, curve_csv, curve_json, read_curve};
 use crate::fairing::curve::{
-    CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid, fair_curve,
+    Contradictions, CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid,
+    contradictions, fair_curve,
 };
 use crate::plot::fair_curve_figure;
 use crate::units::Notation;
@@ -45,6 +46,8 @@ pub struct CurveJob {
     pub area: Option<Kept>,
     /// Abscissa of its centroid to be held.
     pub centroid: Option<Kept>,
+    /// Whether suspects are taken as they are.
+    pub keep_suspects: bool,
     /// Everything else; the quantum is that of the file.
     pub settings: CurveSettings,
 }
@@ -52,8 +55,10 @@ pub struct CurveJob {
 /// A job that was done.
 #[derive(Debug, Clone)]
 pub struct FairedCurve {
-    /// The points as they were used.
+    /// The points as they were used: suspects that are left out have no ordinate.
     pub points: Vec<CurvePoint>,
+    /// Suspects, and corners that are shown and not declared.
+    pub found: Contradictions,
     /// What came of them.
     pub fair: FairCurve,
     /// What was assumed.
@@ -98,6 +103,10 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
     notes.extend(closed_ends(&mut points));
     let clock = Instant::now();
     let refused = |error: crate::fairing::curve::CurveError| input("E342", None, error.to_string(), String::new());
+    let quantum = table.quantum;
+    let found = contradictions(&points, &CurveSettings { quantum, ..job.settings.clone() }).map_err(refused)?;
+    let out = if job.keep_suspects { &[][..] } else { &found.suspects };
+    out.iter().for_each(|suspect| points[suspect.index].y = None);
     let given = if job.area.is_some() || job.centroid.is_some() {
         area_and_centroid(&points).map_err(refused)?
     } else {
@@ -110,16 +119,17 @@ pub fn faired_curve(job: &CurveJob) -> Result<FairedCurve, Failure> {
         })
     };
     let settings = CurveSettings {
-        quantum: table.quantum,
+        quantum,
         area: held(job.area, given[0]),
         centroid: held(job.centroid, given[1]),
         // The slope of a curve of areas is no angle.
         true_curvature: job.settings.true_curvature && table.lengths,
         ..job.settings.clone()
     };
-    let fair = fair_curve(&points, &settings).map_err(refused)?;
+    let mut fair = fair_curve(&points, &settings).map_err(refused)?;
+    fair.left_out(out);
     let (seconds, lengths, path) = (clock.elapsed().as_secs_f64(), table.lengths, path.clone());
-    Ok(FairedCurve { points, fair, notes, lengths, seconds, path })
+    Ok(FairedCurve { points, found, fair, notes, lengths, seconds, path })
 }
 
 /// Locks the ends that are 0 of a curve that is nowhere below: a waterline closes there, a curve of areas begins.
@@ -226,7 +236,7 @@ pub fn fair_curve_files(done: &FairedCurve, figures: bool) -> Result<Vec<OutputF
 /// `fairing.json`.
 #[must_use]
 pub fn fair_curve_json(done: &FairedCurve) -> Value {
-    curve_json(&done.points, &done.fair, done.seconds)
+    curve_json(&done.points, &done.fair, &done.found, done.seconds)
 }
 
 /// What is printed.
@@ -248,6 +258,26 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
         fair.points.len()
     ));
     line(format!("noise         {}", done.size(fair.sigma)));
+    for suspect in &done.found.suspects {
+        let point = &fair.points[suspect.index];
+        let what = if point.suspect { "left out; --keep-suspects takes it" } else { "taken as it is" };
+        line(format!(
+            "suspect       x = {:.3} m: given {}, the others have {} (t = {:.1}); {what}",
+            point.x,
+            done.size(suspect.value),
+            done.size(suspect.expected),
+            suspect.score
+        ));
+    }
+    if let Some(corner) = done.found.corners.first() {
+        let places: Vec<f64> = done.found.corners.iter().map(|corner| fair.points[corner.index].x).collect();
+        line(format!(
+            "corners       shown and not declared at x = {} m: with K there (--knuckle) the noise is {} for {}",
+            list(&places),
+            done.size(corner.noise[1]),
+            done.size(corner.noise[0])
+        ));
+    }
     line(format!("energy        order {}: {:.4e} -> {:.4e}", fair.order, fair.energy[1], fair.energy[0]));
     let [before, after] = &fair.inflections;
     let places = if after.is_empty() { String::new() } else { format!(" at x = {} m", list(after)) };

@@ -367,6 +367,7 @@ fn moved(points: &[CurvePoint], curve: &BsplineCurve<1>, tolerances: &[Option<f6
             active,
             slope: d[1][0],
             curvature: d[2][0] / (1.0 + d[1][0] * d[1][0]).powf(1.5),
+            suspect: false,
         }
     };
     points.iter().zip(tolerances).map(one).collect()

@@ -16,6 +16,8 @@
 //! change. Its price, the growth of the objective over sigma^2, must not exceed [`PRICE`]; else one more inflection is
 //! allowed, until it does.
 //!
+//! Points that contradict all others, and corners that nobody declared, are found before ([`contradictions`]).
+//!
 //! References: Reinsch 1967, Wahba 1990 (smoothing splines); Horn 1983, Moreton & Sequin 1992 (true curvature).
 
 mod fair;
@@ -23,9 +25,11 @@ mod given;
 mod result;
 mod signs;
 mod space;
+mod suspects;
 mod wishes;
 mod within;
 
 pub use fair::{PRICE, area_and_centroid, fair_curve};
 pub use given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
 pub use result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind};
+pub use suspects::{Contradictions, CurveCorner, CurveSuspect, contradictions};

@@ -3,6 +3,7 @@
 use super::super::infeasible::Diagnosis;
 use super::super::inflections::Inflections;
 use super::super::smoothing::Trial;
+use super::suspects::CurveSuspect;
 use crate::qp::Certificate;
 use crate::spline::BsplineCurve;
 
@@ -52,6 +53,8 @@ pub struct CurveMove {
     pub slope: f64,
     /// Curvature on the fair curve.
     pub curvature: f64,
+    /// Left out as a suspect.
+    pub suspect: bool,
 }
 
 impl CurveMove {
@@ -157,10 +160,20 @@ pub struct FairCurve {
 }
 
 impl FairCurve {
-    /// Root mean square and largest move, and where the latter is.
+    /// Says of points that were fitted without their ordinates, because they are suspected, what was given.
+    pub fn left_out(&mut self, suspects: &[CurveSuspect]) {
+        for suspect in suspects {
+            if let Some(point) = self.points.get_mut(suspect.index) {
+                (point.before, point.suspect) = (Some(suspect.value), true);
+            }
+        }
+    }
+
+    /// Root mean square and largest move of what was not left out, and where the latter is.
     #[must_use]
     pub fn moves(&self) -> (f64, f64, f64) {
-        let moves: Vec<(f64, f64)> = self.points.iter().filter_map(|p| p.moved().map(|m| (p.x, m))).collect();
+        let kept = self.points.iter().filter(|point| !point.suspect);
+        let moves: Vec<(f64, f64)> = kept.filter_map(|p| p.moved().map(|m| (p.x, m))).collect();
         let square: f64 = moves.iter().map(|m| m.1 * m.1).sum();
         let (at, most) = moves.iter().fold((0.0, 0.0_f64), |b, m| if m.1.abs() > b.1 { (m.0, m.1.abs()) } else { b });
         ((square / moves.len().max(1) as f64).sqrt(), most, at)
