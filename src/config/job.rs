@@ -511,6 +511,13 @@ impl JobFile {
                 Err(problem) => problems.push(*problem),
             }
         }
+        let ends = table.stations.iter().map(|station| station.station.x);
+        if let (Some(from), Some(to)) = (ends.clone().reduce(f64::min), ends.reduce(f64::max)) {
+            for ([x, ..], place) in self.section_areas.iter().filter(|([x, ..], _)| !(from..=to).contains(x)) {
+                let text = format!("no section at x = {x:.3} m: the stations stand from {from:.3} to {to:.3} m");
+                problems.push(place.problem("E171", &text, "Give a position between them."));
+            }
+        }
         let metacentric =
             |(quantity, wish): &(Quantity, Wish)| *quantity == Quantity::MetacentricHeight && *wish != Wish::Free;
         if let (None, Some(place), true) = (self.gravity, self.place("hold.GM"), self.hold.iter().any(metacentric)) {

@@ -63,9 +63,10 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
             };
             for (text, raw, span) in fields {
                 let Some(measure) = document.measure(&format!("{path}.{text}"), raw, span, kind) else { continue };
-                if measure.value < 0.0 {
+                if measure.value <= 0.0 {
                     let message = format!("{path}.{text} is {} m", measure.value);
-                    document.problem("E124", &path, span, message, "A tolerance is 0 or more; 0 locks.".into());
+                    let help = "Expected a positive length; what must not move is locked under [lock].".to_owned();
+                    document.problem("E124", &path, span, message, help);
                     continue;
                 }
                 let mark = mark(document, text, sort, &path, span.start);

@@ -117,6 +117,21 @@ fn an_option_stands_over_the_file() {
 }
 
 #[test]
+fn places_without_hull_and_tolerances_of_nothing_are_refused() {
+    let job = read_job("j.toml", "hold.section_areas = [[500, 20], [50, 20]]").unwrap();
+    let problems = job.for_table(&table(), 100.0).unwrap_err();
+    assert_eq!(problems.len(), 1);
+    let said = problems[0].to_string();
+    assert!(
+        said.starts_with("E171 j.toml:1:") && said.contains("no section at x = 500.000 m: the stations stand"),
+        "{said}"
+    );
+    let problems = read_job("j.toml", "tolerance.stations = { \"0\" = \"0 mm\" }").unwrap_err();
+    let said = "E124 j.toml:1:24 tolerance.stations.0 is 0 m. Expected a positive length; what must not move is locked under [lock].";
+    assert_eq!(problems[0].to_string(), said);
+}
+
+#[test]
 fn all_problems_of_a_file_at_once() {
     let found = messages(
         "tabel.file = \"a\"\n[tolerance]\ntable = -1\nstations = { \"5\" = \"1 t\" }\ncells = { \"5\" = 1 }\n[lock]\ncells = [\"5\", true]\n\
