@@ -92,17 +92,22 @@ impl Judged {
     }
 }
 
+/// What smooths points; none where they make no curve.
+fn smoother(points: &[CurvePoint], order: usize) -> Option<Smoother> {
+    let space = CurveSpace::new(points, order).ok()?;
+    Some(Smoother::new(&space.model(points, &vec![None; points.len()], space.energy(None))))
+}
+
 /// Smooths points, of which one may have no say; none where the others make no curve with a noise that is known.
 fn judged(points: &[CurvePoint], order: usize, out: Option<usize>, least: f64) -> Option<Judged> {
-    let space = CurveSpace::new(points, order).ok()?;
-    let model = space.model(points, &vec![None; points.len()], space.energy(None));
-    let smoother = Smoother::new(&model);
+    let smoother = smoother(points, order)?;
+    let count = smoother.weights().len();
     let place = out.map(|k| points[..k].iter().filter(|point| point.y.is_some()).count());
-    let list: Vec<bool> = (0..model.readings.len()).map(|k| Some(k) == place).collect();
+    let list: Vec<bool> = (0..count).map(|k| Some(k) == place).collect();
     // Points without any error leave nothing to validate.
     let lambda = left_out(&smoother, &list).cross_validated().map_or(0.0, |(lambda, _)| lambda);
     let weights = [lambda].into_iter().chain((POWERS[0]..=POWERS[1]).map(|power| 10f64.powi(power)));
-    let enough = LEAST_FREEDOM * model.readings.len() as f64;
+    let enough = LEAST_FREEDOM * count as f64;
     let (smoothed, scores, freedom) = weights
         .filter(|&weight| weight >= lambda)
         .find_map(|weight| tested(&smoother, weight, &list).ok().filter(|(.., freedom)| *freedom >= enough))?;
@@ -116,8 +121,7 @@ fn standing_out(points: &[CurvePoint], order: usize, mut candidates: Vec<usize>)
     if candidates.len() <= MOST_TRIED {
         return candidates;
     }
-    let Ok(space) = CurveSpace::new(points, order) else { return Vec::new() };
-    let smoother = Smoother::new(&space.model(points, &vec![None; points.len()], space.energy(None)));
+    let Some(smoother) = smoother(points, order) else { return Vec::new() };
     let smoothed = smoother.cross_validated().and_then(|(lambda, _)| smoother.at(lambda));
     let Ok(smoothed) = smoothed else { return Vec::new() };
     let mut residuals = smoothed.residuals.iter();
@@ -158,6 +162,11 @@ pub fn contradictions(points: &[CurvePoint], settings: &CurveSettings) -> Result
         let mut corner: Option<(Judged, usize)> = None;
         let mut pair = f64::INFINITY;
         let less = |told: Judged, best: Option<(Judged, usize)>| best.is_none_or(|(best, _)| told.sigma < best.sigma);
+        let broken = |places: &[usize]| {
+            let mut broken = now.clone();
+            places.iter().for_each(|&at| broken[at].knuckle = true);
+            judged(&broken, order, None, rounding)
+        };
         for &k in &candidates {
             if let Some(told) = judged(&now, order, Some(k), rounding) {
                 let beyond = told.score.abs() > point_of_t(0.5 * LEVEL / count, told.freedom);
@@ -165,20 +174,13 @@ pub fn contradictions(points: &[CurvePoint], settings: &CurveSettings) -> Result
                     spike = Some((told, k));
                 }
             }
-            let mut broken = now.clone();
-            broken[k].knuckle = true;
-            if let Some(told) = judged(&broken, order, None, rounding).filter(|told| less(*told, corner)) {
+            if let Some(told) = broken(&[k]).filter(|told| less(*told, corner)) {
                 corner = Some((told, k));
             }
         }
         let room = (found.suspects.len() + 1) as f64 <= (MOST * count).max(1.0);
         // Where there are two corners, one alone explains little.
         if let Some((_, k)) = spike.filter(|_| corners.len() + 1 < MOST_CORNERS) {
-            let broken = |places: &[usize]| {
-                let mut broken = now.clone();
-                places.iter().for_each(|&at| broken[at].knuckle = true);
-                judged(&broken, order, None, rounding)
-            };
             let others = candidates.iter().filter(|&&other| other != k);
             let least =
                 others.filter_map(|&other| broken(&[k, other])).map(|told| told.sigma).fold(f64::INFINITY, f64::min);
