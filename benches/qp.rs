@@ -3,13 +3,19 @@
 //! energy within the same rows (336 and 2,400 unknowns). `cargo bench --bench qp [-- 336]`. Under each row: seconds of CPU of
 //! both (Linux; Clarabel with one thread), and by what ours misses displacement (relative), LCB (over L) and the bands
 //! \[m\].
+//!
+//! `-- --offsets DIR` takes the readings from `DIR/fair_21x11_24x14.csv`, `fair_81x41_60x40.csv` and
+//! `fair_161x101_125x80.csv` (depths in the first row, stations in the first column). `--partner COMMAND` runs another
+//! program between ours, turn by turn, with `{case}` in COMMAND replaced by `81x41_60x40` and so on; it has to print its
+//! seconds of CPU as `t=0.31s` and may print its objective as `J=1203.112`.
 
 #[path = "../tests/qp_problems/mod.rs"]
 mod qp_problems;
 
 use loftsman::fairing::least_bending::{LeastBending, least_bending};
 use loftsman::qp::{Engine, Problem, Settings, Solver};
-use qp_problems::{fairing, unbent};
+use qp_problems::{constant_part, fairing, fairing_of, unbent};
+use std::process::Command;
 use std::time::Instant;
 
 const CASES: [([usize; 2], [usize; 2], usize); 3] =
@@ -92,16 +98,70 @@ fn bending(problem: &Problem, net: [usize; 2], rounds: usize) -> (f64, LeastBend
     (shortest, found.unwrap())
 }
 
+/// The half-breadths of a file: the first row and the first column are depths and stations.
+fn readings(file: &str) -> Vec<f64> {
+    let text = std::fs::read_to_string(file).unwrap_or_else(|problem| panic!("{file}: {problem}"));
+    let row = |line: &str| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
+    text.lines().skip(1).flat_map(row).collect()
+}
+
+/// Seconds of CPU and the objective that another program prints.
+fn partner(command: &str, case: &str) -> (f64, Option<f64>) {
+    let command = command.replace("{case}", case);
+    let output = Command::new("sh").args(["-c", &command]).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let number = |name: &str| {
+        let word = text.split_whitespace().find_map(|word| word.strip_prefix(name))?;
+        word.trim_end_matches('s').parse().ok()
+    };
+    let seconds = number("t=").unwrap_or_else(|| panic!("{command} printed no t=...s"));
+    (seconds, number("J="))
+}
+
+/// Medians of our seconds of CPU and of another program's, turn by turn, and the objectives of both.
+fn against(problem: &Problem, constant: f64, command: &str, case: &str) {
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    let (mut reached, mut printed) = (0.0, None);
+    for _ in 0..5 {
+        let used = processor_seconds();
+        let solution = problem.solve(&Settings::default()).unwrap();
+        ours.push(processor_seconds().zip(used).map_or(f64::NAN, |(now, then)| now - then));
+        reached = problem.objective(&solution.x) + constant;
+        let (seconds, objective) = partner(command, case);
+        theirs.push(seconds);
+        printed = objective;
+    }
+    let median = |mut all: Vec<f64>| {
+        all.sort_by(f64::total_cmp);
+        all[all.len() / 2]
+    };
+    let (ours, theirs) = (median(ours), median(theirs));
+    let printed = printed.map_or(String::new(), |j| format!(", partner's {j:.6}"));
+    println!(
+        "         CPU {ours:.4} s, partner {theirs:.4} s: ours/partner {:.3}; objective {reached:.6}{printed}",
+        ours / theirs
+    );
+}
+
 fn main() {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let value = |name: &str| arguments.iter().position(|a| a == name).and_then(|at| arguments.get(at + 1));
+    let (folder, command) = (value("--offsets"), value("--partner"));
+    let wanted = arguments.iter().find(|&a| CASES.iter().any(|(_, net, _)| (net[0] * net[1]).to_string() == *a));
     println!("unknowns   rows |     ours      its gap     | Clarabel   its gap     | ours/Clarabel | warm/cold");
     let mut last: Option<(f64, f64)> = None;
     for (seed, (offsets, net, rounds)) in (1..).zip(CASES) {
         let n = net[0] * net[1];
-        if wanted.as_ref().is_some_and(|wanted| *wanted != n.to_string()) {
+        if wanted.is_some_and(|wanted| **wanted != n.to_string()) {
             continue;
         }
-        let problem = fairing(offsets, net, seed);
+        let case = format!("{}x{}_{}x{}", offsets[0], offsets[1], net[0], net[1]);
+        let given = folder.map(|folder| readings(&format!("{folder}/fair_{case}.csv")));
+        let constant = given.as_ref().map_or(f64::NAN, |readings| constant_part(readings));
+        let problem = match &given {
+            Some(readings) => fairing_of(offsets, net, readings),
+            None => fairing(offsets, net, seed),
+        };
         let [ours, clarabel] = race(&problem, rounds);
         let [cold, again] = warm(&problem, 2 + offsets[0] / 2 * offsets[1] + offsets[1] / 3);
         println!(
@@ -123,6 +183,9 @@ fn main() {
         );
         if let Some((before, seconds)) = last.filter(|_| n > 2400) {
             println!("growth exponent from {before}: {:.2}", (ours.seconds / seconds).ln() / (n as f64 / before).ln());
+        }
+        if let Some(command) = command {
+            against(&problem, constant, command, &case);
         }
         last = Some((n as f64, ours.seconds));
         if n <= 2400 {

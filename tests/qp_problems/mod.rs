@@ -19,6 +19,24 @@ const DATA: f64 = 1e5;
 /// and LCB are equalities (rows 0 and 1).
 pub(crate) fn fairing(offsets: [usize; 2], net: [usize; 2], seed: u64) -> Problem {
     let mut rng = StdRng::seed_from_u64(seed);
+    let readings: Vec<f64> = (0..offsets[0] * offsets[1])
+        .map(|k| {
+            let [u, v] = [k / offsets[1], k % offsets[1]];
+            let (u, v) = (u as f64 / (offsets[0] - 1) as f64, v as f64 / (offsets[1] - 1) as f64);
+            let half = 0.5 * BEAM * (1.0 - (2.0 * u - 1.0).powi(2)) * (1.0 - (v - 1.0).powi(2));
+            half + rng.random_range(-NOISE..NOISE)
+        })
+        .collect();
+    fairing_of(offsets, net, &readings)
+}
+
+/// The part of the objective that does not depend on the net: the weighted mean square of the readings.
+pub(crate) fn constant_part(readings: &[f64]) -> f64 {
+    DATA * readings.iter().map(|y| y * y).sum::<f64>() / readings.len() as f64
+}
+
+/// [`fairing`] of given half-breadths \[m\], station by station.
+pub(crate) fn fairing_of(offsets: [usize; 2], net: [usize; 2], readings: &[f64]) -> Problem {
     let knots = net.map(|count| KnotVector::uniform(3, count - 3).unwrap());
     let n = net[0] * net[1];
     let place = |i: usize, j: usize| i * net[1] + j;
@@ -55,8 +73,7 @@ pub(crate) fn fairing(offsets: [usize; 2], net: [usize; 2], seed: u64) -> Proble
     for a in 0..offsets[0] {
         for b in 0..offsets[1] {
             let (u, v) = (a as f64 / (offsets[0] - 1) as f64, b as f64 / (offsets[1] - 1) as f64);
-            let half = 0.5 * BEAM * (1.0 - (2.0 * u - 1.0).powi(2)) * (1.0 - (v - 1.0).powi(2));
-            let reading = half + rng.random_range(-NOISE..NOISE);
+            let reading = readings[a * offsets[1] + b];
             let (su, sv) = (knots[0].find_span(u), knots[1].find_span(v));
             let (nu, nv) = (knots[0].basis(su, u), knots[1].basis(sv, v));
             let row: Vec<(usize, f64)> =
