@@ -80,7 +80,7 @@ fn number(value: f64) -> Value {
 }
 
 /// Inflections of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it. `asked` is the number that the
-/// signs of the program were made for, `allowed` the most that its rows admit, never more than before.
+/// signs of the program were made for, `allowed` the most that its rows admit: no more than before, or than was asked.
 fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
     let list = outcome.turns.iter().filter(|turns| crate::fairing::inspect::kind(&turns.cut) == kind);
     list.map(|turns| {

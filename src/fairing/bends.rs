@@ -24,6 +24,9 @@ use std::ops::Range;
 /// ends count.
 const PLACES: [f64; 3] = [0.01, 0.5, 0.99];
 
+/// The same of stations whose heights do not run on evenly: z' y'' - z'' y' of two cubics is a parabola there.
+const PLACES_UPRIGHT: [f64; 5] = [0.01, 0.25, 0.5, 0.75, 0.99];
+
 /// The same where the line runs across the other lines of the net: its second derivative is no straight line.
 const PLACES_ACROSS: [f64; 7] = [0.01, 0.17, 0.33, 0.5, 0.67, 0.83, 0.99];
 
@@ -182,7 +185,11 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     let net = hull.surface();
     let bends: Vec<Bend> = match line {
         Line::Station(x) => {
-            let places: &[f64] = if hull.is_level() || hull.is_upright() { &PLACES } else { &PLACES_ACROSS };
+            let places: &[f64] = match () {
+                () if hull.is_level() => &PLACES,
+                () if hull.is_upright() => &PLACES_UPRIGHT,
+                () => &PLACES_ACROSS,
+            };
             let along = inside(net.v(), places).into_iter();
             along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
         }
@@ -345,8 +352,8 @@ fn length(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
     (high - low).abs() * mean
 }
 
-/// Whether each bend lies in a lobe of the signs whose greatest curvature kappa and length l come to kappa l^2 / 8 < 2
-/// `seen`.
+/// Whether each bend lies in a lobe of the signs that departs from its chord by less than `seen` \[m\], or so little more
+/// that it may fade below it: an arc of its greatest curvature kappa and its length l by kappa l^2 / 8 < 2 `seen`.
 fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
     let mut small = vec![false; bends.len()];
     let mut from = 0;
@@ -354,16 +361,40 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
         from = first;
         let to = (from + 1..bends.len()).find(|&k| signs[k] == -signs[from]).unwrap_or(bends.len());
         let largest = bends[from..to].iter().map(|bend| bend.curvature(net).abs()).fold(0.0, f64::max);
-        let length = length(bends, [from, to], net);
-        small[from..to].fill(largest * length * length < 16.0 * seen);
+        let arc = largest * length(bends, [from, to], net).powi(2) / 8.0;
+        small[from..to].fill(arc < 2.0 * seen || departure(bends, [from, to], net) < seen);
         from = to;
     }
     small
 }
 
+/// Greatest distance of a part of a line from its chord \[m\]: with theta the integral of curvature along the line, the
+/// integral of theta less its mean, from the middle of the gap before the part to the middle of the gap after it.
+fn departure(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
+    let speed = |bend: &Bend| bend.along.hypot(value(&bend.slope, net)) / bend.along.abs();
+    let middle = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
+    // Every bend stands for the line up to the middle of the gaps beside it.
+    let (mut s, mut turned, mut off) = (vec![0.0], 0.0, vec![0.0]);
+    for k in from..to {
+        let (low, high) = (middle(k.saturating_sub(1), k), middle(k, (k + 1).min(bends.len() - 1)));
+        let step = (high - low).abs() * speed(&bends[k]);
+        let bent = bends[k].curvature(net) * step;
+        let (last, before) = (off[off.len() - 1], s[s.len() - 1]);
+        off.push(last + (turned + 0.5 * bent) * step);
+        s.push(before + step);
+        turned += bent;
+    }
+    let (length, end) = (s[s.len() - 1], off[off.len() - 1]);
+    if length <= 0.0 {
+        return 0.0;
+    }
+    s.iter().zip(&off).map(|(s, off)| (off - end * s / length).abs()).fold(0.0, f64::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// A line from 0 to 10 m with this y''.
     fn line(second: impl Fn(f64) -> f64) -> (Vec<Bend>, Vec<f64>) {
@@ -407,6 +438,32 @@ mod tests {
         assert!(limits[20..].iter().all(|limit| limit.lower.is_infinite() && limit.upper < 2e-4));
         let loose = kept(&bends, &second, 1e-4, false);
         assert!(loose[40..].iter().all(|limit| limit.lower.is_finite() && limit.upper.is_finite()));
+    }
+
+    /// An arc departs by kappa l^2 / 8, a half wave by kappa l^2 / pi^2, a wave with as much of either sign the same way as
+    /// its two halves.
+    #[test]
+    fn what_departs_is_known_to_a_hundredth() {
+        let off = |second: &dyn Fn(f64) -> f64| {
+            let (bends, second) = line(second);
+            departure(&bends, [0, bends.len()], &second)
+        };
+        assert!((off(&|_| 1e-3) - 0.0125).abs() < 1e-4);
+        assert!((off(&|x| 1e-3 * (PI * x / 10.0).sin()) - 0.1 / PI.powi(2)).abs() < 1e-4);
+        assert!((off(&|x| 1e-3 * (PI * x / 5.0).sin()) - 0.1 / (4.0 * PI.powi(2))).abs() < 1e-4);
+        // Sharp: an arc of its greatest curvature departs by 2.5 times as much.
+        assert!((off(&|x| 1e-3 * (1.0 - (x - 5.0).abs() / 5.0).powi(3)) - 0.0125 / 2.5).abs() < 1e-4);
+    }
+
+    /// A lobe that turns sharply and departs by less than is seen may not grow though an arc of its greatest curvature
+    /// would be seen twice over.
+    #[test]
+    fn sharp_lobes_that_nobody_sees_may_not_grow() {
+        let sharp = |x: f64| if (x - 5.0).abs() < 1.0 { -1e-2 * (1.0 - (x - 5.0).abs()).powi(3) } else { 1e-2 };
+        let (bends, second) = line(sharp);
+        let limits = kept(&bends, &second, 2.3e-3, false);
+        assert!((limits[50].lower + 1e-2).abs() < 1e-15, "{:?}", limits[50]);
+        assert!(kept(&bends, &second, 1.5e-3, false)[50].lower.is_infinite());
     }
 
     /// + from 0 to 4 m, a lobe of a metre and -1e-3 / m in it, - from 4 m, and what nobody sees at the end.

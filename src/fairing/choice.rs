@@ -29,12 +29,24 @@ const KEEPS: f64 = 0.02;
 /// Whether each of the `lines`, with these limits beside the rows of a program, is worth its one of `prices` \[m^2\]; none when that
 /// was not found. `net` meets the rows of the program.
 pub(super) fn worth_it(
-    (program, reduced): (&Program, &Reduced),
+    program: (&Program, &Reduced),
     net: &[f64],
     lines: &[&[Limit]],
     prices: &[f64],
     settings: &Settings,
 ) -> Result<Option<Vec<bool>>, ProblemError> {
+    let parts = given_up(program, net, lines, prices, settings)?;
+    Ok(parts.map(|parts| parts.into_iter().map(|part| part <= KEEPS).collect()))
+}
+
+/// The part s_l that each line gives up.
+pub(super) fn given_up(
+    (program, reduced): (&Program, &Reduced),
+    net: &[f64],
+    lines: &[&[Limit]],
+    prices: &[f64],
+    settings: &Settings,
+) -> Result<Option<Vec<f64>>, ProblemError> {
     let old = &program.problem;
     let (n, count) = (old.linear.len(), lines.len());
     let widened = |rows: &SparseRows| {
@@ -54,8 +66,7 @@ pub(super) fn worth_it(
     for (l, limits) in (n..).zip(lines) {
         problem.quadratic.push([(l, 0.0)]);
         for limit in *limits {
-            let now = value(&limit.row, net);
-            let missed = (limit.lower - now).max(0.0) + (limit.upper - now).min(0.0);
+            let missed = missed(limit, net);
             let (row, offset) = reduced.row(&limit.row);
             problem.rows.push(row.into_iter().chain([(l, missed)]).filter(|(_, value)| *value != 0.0));
             problem.lower.push(limit.lower - offset);
@@ -66,8 +77,19 @@ pub(super) fn worth_it(
         problem.upper.push(1.0);
     }
     let answer = problem.solve(&Settings { tolerance: ACCURACY, proof: false, ..settings.clone() })?;
-    let kept = answer.x[n..].iter().map(|kept| *kept <= KEEPS).collect();
-    Ok((answer.status == Status::Optimal).then_some(kept))
+    Ok((answer.status == Status::Optimal).then(|| answer.x[n..].to_vec()))
+}
+
+/// By how much a net is below (> 0) or above (< 0) a limit.
+fn missed(limit: &Limit, net: &[f64]) -> f64 {
+    let now = value(&limit.row, net);
+    (limit.lower - now).max(0.0) + (limit.upper - now).min(0.0)
+}
+
+/// The limit with a part of what `net` misses given up.
+pub(super) fn loosened(limit: &Limit, net: &[f64], part: f64) -> Limit {
+    let given = part * missed(limit, net);
+    Limit { lower: limit.lower - given.max(0.0), upper: limit.upper - given.min(0.0), row: limit.row.clone() }
 }
 
 /// Settings for a program with signs that may not be had.
@@ -98,4 +120,23 @@ pub(super) fn charges(
         TableLine::charge(limits, own, net)
     };
     lines.iter().map(&mut of_line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_gives_up_a_part_of_what_is_missed_on_the_side_that_is_missed() {
+        let limit = |lower: f64, upper: f64| Limit { row: vec![(0, 2.0)], lower, upper };
+        let at = |limit: &Limit, part: f64| {
+            let loose = loosened(limit, &[1.5], part);
+            (loose.lower, loose.upper)
+        };
+        assert_eq!(at(&limit(5.0, 7.0), 0.25), (4.5, 7.0));
+        assert_eq!(at(&limit(f64::NEG_INFINITY, 1.0), 0.5), (f64::NEG_INFINITY, 2.0));
+        assert_eq!(at(&limit(2.0, 4.0), 1.0), (2.0, 4.0));
+        // With all of it the net is within.
+        assert_eq!(at(&limit(5.0, 7.0), 1.0).0, 3.0);
+    }
 }

@@ -268,9 +268,9 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
-/// Curves that bend more often after than before, in words; `carried` is the factor on the tolerances from which targets
-/// are had by one smooth move.
-fn more_often(lines: &[Turns], carried: Option<f64>) -> Option<String> {
+/// Curves that bend more often after than before, in words; `wished` says whether anything is asked for besides what the
+/// table has, `carried` is the factor on the tolerances from which targets are had by one smooth move.
+fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) -> Option<String> {
     let worse: Vec<&Turns> = lines.iter().filter(|turns| turns.after > turns.before).collect();
     let kinds = ["station", "waterline", "buttock", "diagonal"].map(|wanted| {
         let own: Vec<&&Turns> = worse.iter().filter(|turns| kind(&turns.cut) == wanted).collect();
@@ -280,14 +280,18 @@ fn more_often(lines: &[Turns], carried: Option<f64>) -> Option<String> {
     let told: Vec<String> = kinds.into_iter().flatten().collect();
     (!told.is_empty()).then(|| {
         let wider = match carried.filter(|factor| *factor > 1.0) {
-            Some(factor) => format!("tolerances {factor:.2} times as wide, with which the targets are one smooth move,"),
+            Some(factor) => {
+                format!("tolerances {factor:.2} times as wide, with which the targets are one smooth move,")
+            }
             None => "wider tolerances".to_owned(),
         };
-        format!(
-            "bend more often than before: {}; what is wished or locked asks for that, and nearer targets or {wider} would leave a \
-             fairer hull",
-            told.join(", ")
-        )
+        let why = if wished {
+            format!("what is wished or locked asks for that, and nearer targets or {wider} would leave a fairer hull")
+        } else {
+            "their signs do not go together with those of the other lines, half-breadths up to B/2 and the tolerances"
+                .to_owned()
+        };
+        format!("bend more often than before: {}; {why}", told.join(", "))
     })
 }
 
@@ -632,8 +636,9 @@ impl Job {
                     .to_owned(),
             );
         }
+        let wished = settings.others.contains(&true) || !self.rules.is_empty() || !self.locked.is_empty();
         // Before all else: whoever reads no further should know it.
-        notes.splice(0..0, more_often(&lines, faired.carried));
+        notes.splice(0..0, more_often(&lines, wished, faired.carried));
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

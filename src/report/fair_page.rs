@@ -197,16 +197,24 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
 fn more_than_asked(outputs: &FairOutputs) -> String {
     let kinds = outputs.certificate["inflections"].as_object().into_iter().flatten();
     let lines = kinds.flat_map(|(_, lines)| lines.as_array().into_iter().flatten());
-    let more = |line: &&serde_json::Value| {
-        line["asked"].as_u64().is_some_and(|asked| line["after"].as_u64().is_some_and(|after| after > asked))
+    let more = |line: &serde_json::Value, than: &str| {
+        line[than].as_u64().is_some_and(|most| line["after"].as_u64().is_some_and(|after| after > most))
     };
-    match lines.filter(more).count() {
+    let lines: Vec<_> = lines.filter(|line| more(line, "asked")).collect();
+    let worse = lines.iter().filter(|line| more(line, "before")).count();
+    match lines.len() {
         0 => String::new(),
         n => wrapped(
             &format!(
-                "{} than was asked of them and no more than before, in the dead band or between the places of their signs: \
-                 asked and after in fairing.json.",
-                counted(n, "line bends more often", "lines bend more often")
+                "{} than was asked of {}, {} than before, in the dead band or between the places of their signs: asked and after in \
+                 fairing.json.",
+                counted(n, "line bends more often", "lines bend more often"),
+                if n == 1 { "it" } else { "them" },
+                match worse {
+                    0 => "none more often".to_owned(),
+                    worse if worse == n => "more often".to_owned(),
+                    worse => format!("{worse} of them more often"),
+                }
             ),
             2,
         ),
