@@ -137,6 +137,6 @@ mod tests {
         assert_eq!(at(&limit(f64::NEG_INFINITY, 1.0), 0.5), (f64::NEG_INFINITY, 2.0));
         assert_eq!(at(&limit(2.0, 4.0), 1.0), (2.0, 4.0));
         // With all of it the net is within.
-        assert_eq!(at(&limit(5.0, 7.0), 1.0).0, 3.0);
+        assert_eq!(at(&limit(5.0, 7.0), 1.0), (3.0, 7.0));
     }
 }
