@@ -8,7 +8,7 @@
 //!    of it charges most.
 //! 3. A line that bends more often than at the start keeps the signs of the start, which the start itself
 //!    satisfies. Where that contradicts what the start itself breaks (half-breadths beyond B/2, offsets that are locked),
-//!    those lines give up the least part of what the net without signs misses ([`super::choice`]), and the others keep
+//!    those lines give up the least part of what the net without signs misses (`choice.rs`), and the others keep
 //!    theirs. Tried instead: a part for each place and not for each line (a stern trawler 501 > 451 for 443
 //!    inflections, moves half as large again).
 //!

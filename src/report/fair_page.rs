@@ -134,13 +134,19 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
 
 /// The noise of the table, and what was taken of it.
 fn noise(outcome: &Outcome) -> String {
-    let [taken, found] = [outcome.faired.errors, outcome.table_noise].map(millimetres);
-    if outcome.faired.errors < 0.995 * outcome.table_noise {
-        format!(
+    let [sigma, errors] = [outcome.faired.sigma, outcome.faired.errors];
+    let [admitted, taken, found] = [sigma, errors, outcome.table_noise].map(millimetres);
+    let less = |part: f64, whole: f64| part < 0.995 * whole;
+    match (less(sigma, outcome.table_noise), less(errors, sigma)) {
+        (false, false) => format!("noise of the table {taken} mm"),
+        (false, true) => format!(
             "noise of the table {found} mm, of which {taken} mm are taken for errors and the rest for the hull's own"
-        )
-    } else {
-        format!("noise of the table {taken} mm")
+        ),
+        (true, false) => format!("noise of the table {found} mm, of which {admitted} mm are taken for noise"),
+        (true, true) => format!(
+            "noise of the table {found} mm; {admitted} mm are taken for noise, {taken} mm of them for errors and the rest for the \
+             hull's own"
+        ),
     }
 }
 

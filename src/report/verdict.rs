@@ -76,7 +76,7 @@ fn kept(record: &FairRecord) -> String {
     let (rms, largest, _) = record.moves();
     let notation = record.lines.notation;
     let [rms, largest, noise] = [rms, largest, record.sigma].map(|length| small(length, notation));
-    line.push_str(&format!(". Moves: {rms} RMS, {largest} at most; noise of the table {noise}."));
+    line.push_str(&format!(". Moves: {rms} RMS, {largest} at most; taken for noise {noise}."));
     line
 }
 
