@@ -14,7 +14,7 @@ mod qp_problems;
 
 use loftsman::fairing::least_bending::{LeastBending, least_bending};
 use loftsman::qp::{Engine, Problem, Settings, Solver};
-use qp_problems::{constant_part, fairing, fairing_of, unbent};
+use qp_problems::{constant_part, fairing_of, readings, unbent};
 use std::process::Command;
 use std::time::Instant;
 
@@ -99,7 +99,7 @@ fn bending(problem: &Problem, net: [usize; 2], rounds: usize) -> (f64, LeastBend
 }
 
 /// The half-breadths of a file: the first row and the first column are depths and stations.
-fn readings(file: &str) -> Vec<f64> {
+fn readings_of(file: &str) -> Vec<f64> {
     let text = std::fs::read_to_string(file).unwrap_or_else(|problem| panic!("{file}: {problem}"));
     let row = |line: &str| line.split(',').skip(1).map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
     text.lines().skip(1).flat_map(row).collect()
@@ -156,12 +156,9 @@ fn main() {
             continue;
         }
         let case = format!("{}x{}_{}x{}", offsets[0], offsets[1], net[0], net[1]);
-        let given = folder.map(|folder| readings(&format!("{folder}/fair_{case}.csv")));
-        let constant = given.as_ref().map_or(f64::NAN, |readings| constant_part(readings));
-        let problem = match &given {
-            Some(readings) => fairing_of(offsets, net, readings),
-            None => fairing(offsets, net, seed),
-        };
+        let read = |folder| readings_of(&format!("{folder}/fair_{case}.csv"));
+        let half_breadths = folder.map_or_else(|| readings(offsets, seed), read);
+        let problem = fairing_of(offsets, net, &half_breadths);
         let [ours, clarabel] = race(&problem, rounds);
         let [cold, again] = warm(&problem, 2 + offsets[0] / 2 * offsets[1] + offsets[1] / 3);
         println!(
@@ -185,7 +182,7 @@ fn main() {
             println!("growth exponent from {before}: {:.2}", (ours.seconds / seconds).ln() / (n as f64 / before).ln());
         }
         if let Some(command) = command {
-            against(&problem, constant, command, &case);
+            against(&problem, constant_part(&half_breadths), command, &case);
         }
         last = Some((n as f64, ours.seconds));
         if n <= 2400 {

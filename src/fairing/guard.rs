@@ -39,10 +39,10 @@ const ROUNDS: usize = 12;
 /// A line whose proof of infeasibility has more than this part of the largest charge is let go.
 const SHARE: f64 = 0.5;
 
-/// Price of giving up the signs of the start, in sigma^2; the least part of them that counts; and what a line gives up over
-/// the least it must, for an interior to solve in.
+/// Price of giving up the signs of the start, in sigma^2; the part of them that every line gives up then, which nobody
+/// sees; and what a line gives up over the least it must: for an interior to solve in.
 const FIRM: f64 = 1e5;
-const NOTHING: f64 = 1e-3;
+const ROOM: f64 = 1e-3;
 const BEYOND: f64 = 1.5;
 
 /// What the guard comes to.
@@ -184,8 +184,8 @@ impl Question<'_> {
         for _ in 0..2 {
             self.choose(&mut asked, free, &mut guarded)?;
         }
-        // How many lines keep the signs of the start that were seen to go together.
-        let mut together = 0;
+        // How many lines kept the signs of the start when they were loosened last.
+        let mut loosened = 0;
         for round in 0..ROUNDS {
             let last = round + 1 == ROUNDS;
             if last {
@@ -230,8 +230,8 @@ impl Question<'_> {
                 continue;
             }
             let starts = asked.iter().filter(|asked| asked.is_start()).count();
-            if starts > together {
-                together = starts;
+            if starts > loosened {
+                loosened = starts;
                 if self.loosen(&mut asked, free, &mut guarded)? {
                     guarded.accepted = None;
                     continue;
@@ -262,10 +262,7 @@ impl Question<'_> {
         if wishing.len() < 2 {
             return Ok(());
         }
-        let kept = asked.iter().filter(|asked| asked.is_start()).flat_map(|asked| asked.limits.iter());
-        let bends = kept.chain(self.oblique).cloned().collect();
-        let wishes = Wishes { bends, ..self.wishes.clone() };
-        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
+        let program = self.program(asked.iter().filter(|asked| asked.is_start()));
         let limits: Vec<&[Limit]> = wishing.iter().map(|&k| asked[k].limits.as_slice()).collect();
         let prices: Vec<f64> = wishing.iter().map(|&k| asked[k].dearest).collect();
         let chosen = worth_it((&program, &self.smoother.reduced), &free.net, &limits, &prices, self.solver)?;
@@ -278,10 +275,9 @@ impl Question<'_> {
     }
 
     /// Lines whose signs of the start contradict each other or what else is asked, which the start itself may break, give
-    /// up a part of what they would have to; the others so little that it cannot be seen, for an interior to solve in.
+    /// up the least part that they must; the others so little that it cannot be seen. False where that was not found.
     fn loosen(&self, asked: &mut [Asked], free: &Solved, guarded: &mut Guarded) -> Result<bool, ProblemError> {
-        let wishes = Wishes { bends: self.oblique.to_vec(), ..self.wishes.clone() };
-        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
+        let program = self.program([].into_iter());
         let starts: Vec<usize> = (0..asked.len()).filter(|&k| asked[k].is_start()).collect();
         let limits: Vec<Vec<Limit>> = starts.iter().map(|&k| self.signs_of_start(&self.lines[asked[k].line])).collect();
         let given: Vec<&[Limit]> = limits.iter().map(Vec::as_slice).collect();
@@ -290,7 +286,7 @@ impl Question<'_> {
         guarded.programs += 1;
         let Some(parts) = parts else { return Ok(false) };
         for ((&k, limits), part) in starts.iter().zip(&limits).zip(parts) {
-            let part = (BEYOND * part).clamp(NOTHING, 1.0);
+            let part = (BEYOND * part).clamp(ROOM, 1.0);
             asked[k].limits = limits.iter().map(|limit| loosened(limit, &free.net, part)).collect();
         }
         Ok(true)
@@ -336,10 +332,15 @@ impl Question<'_> {
         keep_signs(&line.bends, &self.surface.start, self.seen, self.strict.contains(&line.line))
     }
 
-    fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
-        let bends = asked.iter().flat_map(|asked| asked.limits.iter()).chain(self.oblique).cloned().collect();
+    /// The program with these signs, and those of buttocks and diagonals.
+    fn program<'b>(&self, asked: impl Iterator<Item = &'b Asked>) -> Program {
+        let bends = asked.flat_map(|asked| asked.limits.iter()).chain(self.oblique).cloned().collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
-        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
+        Program::new(self.model, self.smoother, self.lambda, &wishes, None)
+    }
+
+    fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
+        let program = self.program(asked.iter());
         let solved = program.solve(self.model, self.smoother, self.lambda, &trial(self.solver))?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;

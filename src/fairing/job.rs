@@ -636,9 +636,9 @@ impl Job {
                     .to_owned(),
             );
         }
-        let wished = settings.others.contains(&true) || !self.rules.is_empty() || !self.locked.is_empty();
+        let asks = settings.others.contains(&true) || !self.rules.is_empty() || !self.locked.is_empty();
         // Before all else: whoever reads no further should know it.
-        notes.splice(0..0, more_often(&lines, wished, faired.carried));
+        notes.splice(0..0, more_often(&lines, asks, faired.carried));
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
         }

@@ -18,16 +18,19 @@ const DATA: f64 = 1e5;
 /// energy and the deviation; bands at all offsets, y >= 0, control polygons concave along both directions; displacement
 /// and LCB are equalities (rows 0 and 1).
 pub(crate) fn fairing(offsets: [usize; 2], net: [usize; 2], seed: u64) -> Problem {
+    fairing_of(offsets, net, &readings(offsets, seed))
+}
+
+/// Half-breadths of the hull with noise \[m\], station by station.
+pub(crate) fn readings(offsets: [usize; 2], seed: u64) -> Vec<f64> {
     let mut rng = StdRng::seed_from_u64(seed);
-    let readings: Vec<f64> = (0..offsets[0] * offsets[1])
-        .map(|k| {
-            let [u, v] = [k / offsets[1], k % offsets[1]];
-            let (u, v) = (u as f64 / (offsets[0] - 1) as f64, v as f64 / (offsets[1] - 1) as f64);
-            let half = 0.5 * BEAM * (1.0 - (2.0 * u - 1.0).powi(2)) * (1.0 - (v - 1.0).powi(2));
-            half + rng.random_range(-NOISE..NOISE)
-        })
-        .collect();
-    fairing_of(offsets, net, &readings)
+    let mut reading = |k: usize| {
+        let [u, v] = [k / offsets[1], k % offsets[1]];
+        let (u, v) = (u as f64 / (offsets[0] - 1) as f64, v as f64 / (offsets[1] - 1) as f64);
+        let half = 0.5 * BEAM * (1.0 - (2.0 * u - 1.0).powi(2)) * (1.0 - (v - 1.0).powi(2));
+        half + rng.random_range(-NOISE..NOISE)
+    };
+    (0..offsets[0] * offsets[1]).map(&mut reading).collect()
 }
 
 /// The part of the objective that does not depend on the net: the weighted mean square of the readings.
