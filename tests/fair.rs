@@ -63,6 +63,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     names.sort();
     let expected = [
         "changes.csv",
+        "control-polygon.csv",
         "fairing-body-plan.png",
         "fairing-body-plan.svg",
         "fairing-half-breadth-plan.png",
@@ -103,7 +104,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     }
     assert_eq!(program(&arguments).status.code(), Some(6));
     let announced = read_fair(&carried(TABLE), &[]).unwrap().outputs();
-    assert!(announced.len() == 7 && announced.iter().all(|name| names.contains(name)), "{announced:?}");
+    assert!(announced.len() == 8 && announced.iter().all(|name| names.contains(name)), "{announced:?}");
 }
 
 #[test]

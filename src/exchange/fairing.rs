@@ -158,14 +158,34 @@ fn diagnosis(outcome: &Outcome) -> Value {
 
 /// Signs of the rows and columns of a net: + outboard of the chord of the neighbours, - inboard, 0 on it.
 fn polygon(lines: &[PolygonSigns]) -> Vec<Value> {
-    let sign = |line: &PolygonSigns| line.signs.iter().map(|side| side.as_char()).collect::<String>();
     let of = |line: &PolygonSigns| {
         json!({
-            "line": line.line.as_str(), "index": line.index, "at": number(line.at), "signs": sign(line),
+            "line": line.line.as_str(), "index": line.index, "at": number(line.at), "signs": line.text(),
             "changes": line.changes, "enclosed": line.enclosed,
         })
     };
     lines.iter().map(of).collect()
+}
+
+/// The same as a table, of both nets: one row a row or column, from aft forward or from bottom to top.
+#[must_use]
+pub fn control_polygon_csv(outcome: &Outcome) -> String {
+    let mut csv = line(&["net", "line", "index", "at [m]", "changes", "enclosed", "signs"].map(str::to_owned));
+    for (net, lines) in ["before", "after"].iter().zip(&outcome.signs) {
+        for of in lines {
+            csv.push_str(&line(&[
+                (*net).to_owned(),
+                of.line.as_str().to_owned(),
+                of.index.to_string(),
+                cell(Some(of.at)),
+                of.changes.to_string(),
+                of.enclosed.to_string(),
+                // Not a number, whatever reads it.
+                format!("'{}", of.text()),
+            ]));
+        }
+    }
+    csv
 }
 
 /// A line that the table does not declare, and what it would bring.
@@ -295,6 +315,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },
         "signs": signs,
+        // The greatest jump of curvature across lines of the net where the surface through the table has none [1/m].
+        "jump": json_number(outcome.jump),
         "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
         "lines": outcome.proposals.iter().map(proposed).collect::<Vec<_>>(),
         "infeasible": diagnosis(outcome),

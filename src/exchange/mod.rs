@@ -23,7 +23,10 @@ mod table;
 
 pub use cad::{CadUnit, DxfLine, DxfVersion, write_dxf, write_iges, write_step};
 pub use curve::{CurveProblem, CurveTable, curve_csv, curve_json, read_curve};
-pub use fairing::{COMPROMISE_LINE, NO_MOVE, RoundingEffect, changes_csv, fairing_json, priced, reached, status_word};
+pub use fairing::{
+    COMPROMISE_LINE, NO_MOVE, RoundingEffect, changes_csv, control_polygon_csv, fairing_json, priced, reached,
+    status_word,
+};
 pub use fairing_read::{FairingFile, FairingFileError, read_changes, read_fairing, read_texts};
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, json_message, read_hull, write_hull};

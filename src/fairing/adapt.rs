@@ -30,6 +30,7 @@
 
 use super::cells::{Cells, Row, add_square};
 use super::metric::Metric;
+use super::unbroken::Unbroken;
 use crate::numeric::SymmetricBand;
 
 /// Exponent of the ratio of energy densities.
@@ -49,7 +50,7 @@ pub(super) struct Spared {
 
 impl Spared {
     /// The weights for the cells of a start.
-    pub(super) fn new(cells: &Cells<'_>, metric: &Metric) -> Self {
+    pub(super) fn new(cells: &Cells<'_>, metric: &Metric, unbroken: &Unbroken) -> Self {
         let [rows, columns] = cells.count();
         let mut density = vec![vec![0.0; rows * columns]; metric.count()];
         for (k, cell) in cells.all().enumerate() {
@@ -75,8 +76,11 @@ impl Spared {
             let count = [columns, rows][way];
             let rho =
                 |span: usize, e: usize| weights[term][if way == 0 { span * columns + e } else { e * columns + span }];
-            let lines = cells.jumps(way).iter().map(|jump| {
+            let lines = cells.jumps(way).iter().enumerate().map(|(line, jump)| {
                 let spans = (0..count).map(|e| {
+                    if unbroken.has(way, line, e) {
+                        return 0.0;
+                    }
                     let (mut own, mut area) = (0.0, 0.0);
                     for at in cells.crossings(way, jump, e) {
                         area += at.length * at.weight;
@@ -133,6 +137,7 @@ fn spared(density: f64, median: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::metric::true_energy;
+    use super::super::unbroken::Breaks;
     use super::*;
     use crate::spline::{BsplineSurface, KnotVector};
 
@@ -151,6 +156,11 @@ mod tests {
         BsplineSurface::new(u.clone(), v.clone(), points).unwrap()
     }
 
+    fn weights(surface: &BsplineSurface<3>, anisotropy: f64, breaks: &Breaks) -> Spared {
+        let (cells, metric) = (Cells::new(surface), Metric::new(surface, 3, anisotropy));
+        Spared::new(&cells, &metric, &Unbroken::new(&cells, &metric, breaks))
+    }
+
     fn of(energy: &SymmetricBand, surface: &BsplineSurface<3>) -> f64 {
         let y: Vec<f64> = surface.points().iter().map(|point| point[1]).collect();
         energy.apply(&y).iter().zip(&y).map(|(e, y)| e * y).sum()
@@ -163,7 +173,7 @@ mod tests {
         let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 4).unwrap());
         let cube = |knots: &KnotVector, i: usize| knots.knots()[i + 1..i + 4].iter().product::<f64>();
         let even = surface(&u, &v, |i, j| 1e-4 * (cube(&u, i) + cube(&v, j)));
-        let weights = Spared::new(&Cells::new(&even), &Metric::new(&even, 3, 0.6));
+        let weights = weights(&even, 0.6, &Breaks::default());
         for term in [0, 3] {
             assert!(weights.cells[term].iter().all(|w| (w - 1.0).abs() < 1e-6), "{:?}", weights.cells[term]);
         }
@@ -184,7 +194,7 @@ mod tests {
         let pairs = |t: &[f64]| (t[0] * t[1] + t[0] * t[2] + t[1] * t[2]) / 3.0;
         // Slopes so small that curvature is the second derivative.
         let cube = surface(&u, &v, |_, j| 1e-6 * knots(j).iter().product::<f64>());
-        let weights = Spared::new(&Cells::new(&cube), &Metric::new(&cube, 3, 1.0));
+        let weights = weights(&cube, 1.0, &Breaks { tangents: [Vec::new(), vec![0.5]], ..Breaks::default() });
         let smooth = surface(&u, &v, |_, j| 1e-6 * pairs(knots(j)));
         assert!(of(&weights.energy(&Cells::new(&smooth), &Metric::new(&smooth, 3, 1.0)), &smooth).abs() < 1e-15);
         // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5.
@@ -241,7 +251,7 @@ mod tests {
             let k = i * columns + j;
             if k == columns + 1 { 1e-2 } else { ((k * 7919) % 13) as f64 * 1e-6 }
         });
-        let weights = Spared::new(&Cells::new(&bumped), &Metric::new(&bumped, 3, 0.6)).cells;
+        let weights = weights(&bumped, 0.6, &Breaks::default()).cells;
         for term in weights {
             let (bump, far) = (term[0], term[term.len() - 1]);
             assert!(bump < 1e-4 && far > 1e3 * bump, "{bump} {far}");

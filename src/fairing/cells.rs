@@ -45,6 +45,8 @@ impl Node {
 
 /// A line of a cubic net inside its domain that leaves one continuous derivative.
 pub(super) struct Jump {
+    /// Its parameter, of the domain.
+    pub(super) at: f64,
     /// Index of the span above it.
     pub(super) above: usize,
     /// First control value of the rows.
@@ -92,7 +94,13 @@ impl Spans {
                     rows[2][place] += sign * node.basis[2][k];
                 }
             }
-            Jump { above, first, rows, length: 0.5 * (lengths[above - 1] + lengths[above]) }
+            Jump {
+                at: (breaks[above] - from) / (to - from),
+                above,
+                first,
+                rows,
+                length: 0.5 * (lengths[above - 1] + lengths[above]),
+            }
         });
         let jumps = jumps.collect();
         Self { nodes, jumps, first: spans.iter().map(|span| span - degree).collect(), lengths, degree }
@@ -221,6 +229,19 @@ impl<'a> Cells<'a> {
     /// The area of a cell, of the unit square.
     pub(super) fn area(&self, [e, f]: [usize; 2]) -> f64 {
         self.spans[0].lengths[e] * self.spans[1].lengths[f]
+    }
+
+    /// Points of span e of a line of [`Self::jumps`] and of the far edges of the cells beside it, at its ends \[m\].
+    pub(super) fn corners(&self, way: usize, jump: &Jump, e: usize) -> [[f64; 3]; 6] {
+        let knots = [self.surface.u(), self.surface.v()];
+        let (across, along) = (knots[way].breakpoints(), knots[1 - way].breakpoints());
+        let at = |t: f64, s: f64| if way == 0 { self.surface.eval(t, s) } else { self.surface.eval(s, t) };
+        std::array::from_fn(|k| at(across[jump.above - 1 + k / 2], along[e + k % 2]))
+    }
+
+    /// The greatest half-breadth of the net \[m\].
+    pub(super) fn greatest_half_breadth(&self) -> f64 {
+        self.surface.points().iter().map(|point| point[1]).fold(0.0, f64::max)
     }
 
     /// A form of zeros into which every row of this net fits.

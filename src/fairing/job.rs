@@ -100,6 +100,9 @@ pub struct Job {
     /// Whether the flat of side that the table shows is kept where no rule says what is flat; not on a net of its own,
     /// which keeps straight parts straight.
     pub keep_flat: bool,
+    /// Whether the curvature goes on not to jump where that of the surface through the table does not, though the net would
+    /// let it.
+    pub runs_on: bool,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
@@ -130,6 +133,7 @@ impl Default for Job {
             holding: Holding::Table,
             rules: Vec::new(),
             keep_flat: true,
+            runs_on: true,
             accepted: Accepted::None,
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
@@ -255,6 +259,9 @@ pub struct Outcome {
     pub order: usize,
     /// Energy of the start net and of the fair net.
     pub energy: [f64; 2],
+    /// The greatest jump of curvature of the fair hull across lines of its net where the surface through the table has
+    /// none and none is declared \[1/m\]; none on a net of its own.
+    pub jump: Option<f64>,
     /// Whether the net is one of its own and not that of the surface through the table.
     pub own: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
@@ -365,6 +372,19 @@ impl Job {
                         .to_owned(),
                 );
                 outcome = other;
+            }
+        }
+        // What takes all the room that the tolerances leave may have to break.
+        if self.runs_on && outcome.jump.is_some() && outcome.status == Status::Limit {
+            let mut other = Self { runs_on: false, ..self.clone() }.run_with_flat(table, another)?;
+            if other.status != Status::Limit {
+                other.notes.insert(
+                    0,
+                    "the curvature may jump across lines of the net where that of the surface through the table does not: else \
+                     nothing was proved to be the optimum"
+                        .to_owned(),
+                );
+                return Ok(other);
             }
         }
         // A net of its own that bends more often than the surface through the table, and more, does not follow it after
@@ -662,6 +682,7 @@ impl Job {
                 faired.solved.solution.status
             },
             table: written(table, &changes),
+            jump: surface.greatest_jump(&after),
             before,
             after,
             changes,

@@ -241,29 +241,57 @@ impl Metric {
     }
 
     /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight
-    /// of its square, and its factors. It counts as dkappa/ds = jump/h over the mean length h of the spans beside the
-    /// line.
+    /// of its square in the energy of order 3, and its factors. It counts as dkappa/ds = jump/h over the mean length h of
+    /// the spans beside the line.
     pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
-        let (held, run) = if way == 1 { (0, 2) } else { (2, 0) };
-        let (steep, level) = (at.by_s[held], at.by_t[held]);
-        if self.parametric && self.order == 3 {
+        if self.order != 3 {
+            return None;
+        }
+        if self.parametric {
             return Some((self.weight(3 * way) * at.weight / at.length, [0.0, 0.0, 1.0]));
         }
-        if self.order != 3 || steep.abs() <= STEEP * (steep.abs() + level.abs()) {
+        let Jumped { factors, speed, steep } = self.jumped(way, at)?;
+        Some((self.scales[way] * steep * at.weight / (at.length * speed), factors))
+    }
+
+    /// The same jump as factors; by the parameters that of d^2 y/dt^2, at speed 1.
+    pub(super) fn jumped(&self, way: usize, at: &Crossing<'_>) -> Option<Jumped> {
+        if self.parametric {
+            return Some(Jumped { factors: [0.0, 0.0, 1.0], speed: 1.0, steep: 1.0 });
+        }
+        let (held, run) = if way == 1 { (0, 2) } else { (2, 0) };
+        let (steep, level) = (at.by_s[held], at.by_t[held]);
+        if steep.abs() <= STEEP * (steep.abs() + level.abs()) {
             return None;
         }
         let (a, b) = (-level / steep, -at.jumped[held] / steep);
         let along = |axis: usize| at.by_t[axis] + a * at.by_s[axis];
         let (x, y) = (along(run), along(1));
-        let square = x * x + y * y;
-        if square <= 0.0 || square.is_nan() {
+        let speed = x.hypot(y);
+        if speed <= 0.0 || speed.is_nan() {
             return None;
         }
-        let g = 1.0 / (square * square.sqrt());
+        let g = 1.0 / (speed * speed * speed);
         let turned = at.jumped[run] + b * at.by_s[run];
         let factors = [g * (x * b - turned * a), -g * turned, g * x];
-        let weight = self.scales[way] * steep.abs() * at.weight / (at.length * square.sqrt());
-        Some((weight, factors))
+        Some(Jumped { factors, speed, steep: steep.abs() })
+    }
+}
+
+/// A jump of curvature as a form.
+pub(super) struct Jumped {
+    /// Factors of dy/ds, dy/dt and the jump of d^2 y/dt^2.
+    pub(super) factors: [f64; 3],
+    /// Length of the line for the parameter \[m\].
+    pub(super) speed: f64,
+    /// Derivative of the held coordinate across the line \[m\].
+    steep: f64,
+}
+
+impl Jumped {
+    /// What a jump of size 1 makes the line depart by over a span \[m^2\].
+    pub(super) fn departure(&self, at: &Crossing<'_>) -> f64 {
+        (self.speed * at.length).powi(2)
     }
 }
 

@@ -42,6 +42,7 @@ mod start;
 pub mod surface;
 mod suspects;
 mod told;
+mod unbroken;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use suspects::{

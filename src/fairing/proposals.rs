@@ -11,13 +11,12 @@ use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
 use super::surface::{EnergySettings, FairSurface, energy as plain_energy};
+use super::unbroken::{AT_KNOT, Breaks, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
+use crate::spline::KnotVector;
 
 /// A line of the net departs by no more than this \[m\] from the line that is proposed.
 const STRAIGHT: f64 = 1e-6;
-
-/// Nearer to a knot than this part of a span, a line is at the knot.
-const AT_KNOT: f64 = 1e-6;
 
 /// Which proposals are taken.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -65,13 +64,7 @@ pub struct Proposal {
 /// [`HullError`] when the net makes no hull.
 pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullError> {
     let surface = hull.surface();
-    let (us, vs) = (surface.u().domain(), surface.v().domain());
-    let middle = 0.5 * (line.reach[0] + line.reach[1]);
-    let at = match line.course {
-        LineCourse::Waterline => hull.parameters(middle, line.at).map(|at| at[1]),
-        LineCourse::Station => hull.parameters(line.at, middle).map(|at| at[0]),
-    };
-    let Some(t) = at else { return Ok(None) };
+    let Some(t) = parameter(hull, line) else { return Ok(None) };
     // Along the reach of the line its parameter stands still.
     let follows = (0..=8).all(|k| {
         let part = line.reach[0] + (line.reach[1] - line.reach[0]) * f64::from(k) / 8.0;
@@ -87,25 +80,48 @@ pub fn with_line(hull: &Hull, line: &ProposedLine) -> Result<Option<Hull>, HullE
             (on - axis).abs() <= STRAIGHT
         })
     });
-    let (from, to) = if line.course == LineCourse::Waterline { vs } else { us };
+    let (from, to) = knots(hull, line.course).domain();
     if !follows || t <= from || t >= to {
         return Ok(None);
     }
     broken(hull, line.course, t, line.kind).map(Some)
 }
 
-/// Whether the net of a hull breaks along a line already.
-pub(super) fn has_line(hull: &Hull, line: &ProposedLine) -> bool {
-    let surface = hull.surface();
+/// The parameter of the net across a line, in its middle.
+pub(super) fn parameter(hull: &Hull, line: &ProposedLine) -> Option<f64> {
     let middle = 0.5 * (line.reach[0] + line.reach[1]);
-    let (knots, at) = match line.course {
-        LineCourse::Waterline => (surface.v(), hull.parameters(middle, line.at).map(|at| at[1])),
-        LineCourse::Station => (surface.u(), hull.parameters(line.at, middle).map(|at| at[0])),
-    };
+    match line.course {
+        LineCourse::Waterline => hull.parameters(middle, line.at).map(|at| at[1]),
+        LineCourse::Station => hull.parameters(line.at, middle).map(|at| at[0]),
+    }
+}
+
+pub(super) fn knots(hull: &Hull, course: LineCourse) -> &KnotVector {
+    if course == LineCourse::Waterline { hull.surface().v() } else { hull.surface().u() }
+}
+
+/// Whether the surface of a hull breaks along a line already. A net that might let the curvature jump where the surface
+/// does not is none.
+pub(super) fn has_line(hull: &Hull, line: &ProposedLine) -> bool {
+    let knots = knots(hull, line.course);
     let wanted = knots.degree() - usize::from(line.kind == LineKind::Tangent);
-    let (from, to) = knots.domain();
+    let ((from, to), at) = (knots.domain(), parameter(hull, line));
     let near = |t: f64| at.is_some_and(|at| (at - t).abs() <= AT_KNOT * (to - from));
-    knots.breakpoints().into_iter().any(|t| t > from && t < to && near(t) && knots.multiplicity(t) >= wanted)
+    let mut lines = knots.breakpoints().into_iter().filter(|&t| t > from && t < to && near(t));
+    lines.any(|t| match knots.multiplicity(t) {
+        times if times < wanted => false,
+        times if times >= knots.degree() => true,
+        _ => !runs_on(hull.surface(), usize::from(line.course == LineCourse::Waterline), (t - from) / (to - from)),
+    })
+}
+
+/// Adds lines along which the curvature of a hull may jump, of those given.
+pub(super) fn add_tangents<'a>(hull: &Hull, lines: impl Iterator<Item = &'a ProposedLine>, breaks: &mut Breaks) {
+    for line in lines.filter(|line| line.kind == LineKind::Tangent) {
+        let (from, to) = knots(hull, line.course).domain();
+        let way = usize::from(line.course == LineCourse::Waterline);
+        breaks.tangents[way].extend(parameter(hull, line).map(|t| (t - from) / (to - from)));
+    }
 }
 
 /// The knuckles along waterlines that were taken, as lines of the table: the fit itself then breaks there, where a fit
@@ -129,8 +145,7 @@ pub(super) fn declared(proposals: &[Proposal], hull: &Hull, table: &OffsetTable)
 /// The same surface with a line of the parameters along which its slope or its curvature may break: a p-fold or a
 /// (p-1)-fold knot.
 pub(super) fn broken(hull: &Hull, course: LineCourse, mut t: f64, kind: LineKind) -> Result<Hull, HullError> {
-    let surface = hull.surface();
-    let knots = if course == LineCourse::Waterline { surface.v() } else { surface.u() };
+    let (surface, knots) = (hull.surface(), knots(hull, course));
     let (from, to) = knots.domain();
     let nearest = knots.breakpoints().into_iter().min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()));
     if let Some(knot) = nearest.filter(|knot| (knot - t).abs() <= AT_KNOT * (to - from)) {
@@ -159,14 +174,14 @@ pub fn proposals(
     lines: &[ProposedLine],
     energy: EnergySettings,
     noise: f64,
-    accepted: &Accepted,
+    (accepted, breaks): (&Accepted, &Breaks),
 ) -> Result<Vec<Proposal>, FairError> {
     if lines.is_empty() {
         return Ok(Vec::new());
     }
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
-    let of = |hull: &Hull, weight: Option<f64>| -> Result<[f64; 3], FairError> {
-        let surface = FairSurface::new(table, hull, energy, None)?;
+    let of = |hull: &Hull, weight: Option<f64>, breaks: &Breaks| -> Result<[f64; 3], FairError> {
+        let surface = FairSurface::new(table, hull, energy, None, breaks)?;
         // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way
         // there.
         let net = surface.hull.surface();
@@ -181,13 +196,15 @@ pub fn proposals(
         let weight = lambda * smoother.unit;
         Ok([rms, smoothed.rss + weight * smoothed.energy, weight])
     };
-    let without = of(hull, None)?;
+    let without = of(hull, None, breaks)?;
     let mut list = Vec::with_capacity(lines.len());
     for (k, line) in lines.iter().enumerate() {
         let accepted = accepted.has(k + 1);
         let mut proposal = Proposal { number: k + 1, line: *line, rms: None, gain: None, accepted };
         if let Some(hull) = with_line(hull, line)? {
-            let with = of(&hull, Some(without[2]))?;
+            let mut breaks = breaks.clone();
+            add_tangents(&hull, std::iter::once(line), &mut breaks);
+            let with = of(&hull, Some(without[2]), &breaks)?;
             proposal.rms = Some([without[0], with[0]]);
             proposal.gain = Some((without[1] - with[1]) / (noise * noise));
         } else {

@@ -1,16 +1,18 @@
 //! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
 
-use super::constraint::{Constraint, Rule, edged};
+use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
+use super::flats::shown_flat;
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
 use super::lines::{ProposedLine, proposed_lines};
-use super::proposals::{Accepted, Proposal, declared, has_line, proposals, with_line};
+use super::proposals::{Accepted, Proposal, add_tangents, declared, has_line, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
-use crate::hull::{Entry, FitMethod, Hull, HullError, OffsetTable};
+use super::unbroken::Breaks;
+use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
 
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
@@ -70,14 +72,15 @@ struct Modelled {
     proposals: Vec<Proposal>,
     /// The surface with accepted lines and edges of flats.
     start: Hull,
+    breaks: Breaks,
     surface: FairSurface,
     search: Option<Search>,
     watched: Watched,
 }
 
 /// What may be declared, the surface through the table with what is where that is another one, the same with edges of
-/// flats, the net over it, and its weight where it is one of its own.
-type Surfaced = (Vec<Proposal>, Option<Hull>, Hull, FairSurface, Option<Search>);
+/// flats and the lines along which its curvature may jump, the net over it, and its weight where it is one of its own.
+type Surfaced = (Vec<Proposal>, Option<Hull>, (Hull, Breaks), FairSurface, Option<Search>);
 
 impl Started {
     /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
@@ -127,7 +130,8 @@ impl Started {
             // difference.
             let dear = gap > noise && !matches!(job.holding, Holding::Given(_));
             if dear || !modelled.follows(noise) || modelled.swings(&cleaned.clean) {
-                modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None)?;
+                modelled.surface =
+                    FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None, &modelled.breaks)?;
                 (modelled.search, gap) = (None, 0.0);
             }
         }
@@ -158,7 +162,7 @@ impl Modelled {
         let before = fitted.hull;
         let (mut watched, modelled) =
             at_once(|| Watched::new(clean, &before), || Self::surface(job, table, found, (noise, own), &before));
-        let (proposals, refitted, start, surface, search) = modelled?;
+        let (proposals, refitted, (start, breaks), surface, search) = modelled?;
         // Without a line that the hull has, the surface through the table is another one between the offsets.
         let before = match refitted {
             Some(refitted) => {
@@ -167,7 +171,7 @@ impl Modelled {
             }
             None => before,
         };
-        Ok(Self { before, notes: fitted.notes, proposals, start, surface, search, watched })
+        Ok(Self { before, notes: fitted.notes, proposals, start, breaks, surface, search, watched })
     }
 
     /// What may be declared, the surface through the table with what is where that is another one, the same with edges
@@ -191,7 +195,9 @@ impl Modelled {
         let told: Vec<ProposedLine> = job.lines.iter().filter(|line| !has_line(before, line)).copied().collect();
         let found = list.len();
         list.extend(&told);
-        let mut proposals = proposals(clean, before, &list, job.energy, noise, &job.accepted)?;
+        let mut breaks = declared_breaks(charted, before, &table.excluded);
+        breaks.anywhere = !job.runs_on;
+        let mut proposals = proposals(clean, before, &list, job.energy, noise, (&job.accepted, &breaks))?;
         for proposal in proposals.iter_mut().skip(found) {
             let ProposedLine { course, kind, at, .. } = proposal.line;
             if proposal.rms.is_none() {
@@ -215,16 +221,19 @@ impl Modelled {
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
             start = with_line(&start, &proposal.line)?.unwrap_or(start);
         }
+        add_tangents(&start, proposals.iter().filter(|p| p.accepted).map(|p| &p.line), &mut breaks);
         for rule in &job.rules {
             if let Rule::FlatOfSide { x, z } = rule {
-                start = edged(&start, *x, *z)?;
+                let edges = edges(*x, *z);
+                add_tangents(&start, edges.iter(), &mut breaks);
+                start = edged(&start, &edges)?;
             }
         }
         let own = own && !job.rules.iter().any(|rule| rule.keeps_the_fit(before));
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
-        let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least))?;
+        let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least), &breaks)?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;
-        Ok((proposals, refitted, start, surface, search))
+        Ok((proposals, refitted, (start, breaks), surface, search))
     }
 
     /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through
@@ -295,4 +304,19 @@ impl Search {
     fn hull(&self, surface: &FairSurface) -> Result<Hull, HullError> {
         surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))
     }
+}
+
+/// The lines that a table declares as tangent lines, and the flat of side that it shows.
+fn declared_breaks(table: &OffsetTable, hull: &Hull, left_out: &[Cell]) -> Breaks {
+    let (from, to) = hull.surface().v().domain();
+    let mut breaks = Breaks::default();
+    for line in table.lines.iter().filter(|line| line.kind == hull::LineKind::Tangent) {
+        let middle = line.points.get(line.points.len() / 2);
+        let at = middle.and_then(|point| hull.parameters(point[0], point[2]));
+        breaks.tangents[1].extend(at.map(|[_, v]| (v - from) / (to - from)));
+    }
+    if let Some(Rule::FlatShown { rectangles, .. }) = shown_flat(table, left_out) {
+        breaks.flats = rectangles;
+    }
+    breaks
 }

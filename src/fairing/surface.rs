@@ -20,6 +20,7 @@ use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::metric::{Metric, true_energy};
 use super::model::{Model, Reading};
+use super::unbroken::{Breaks, Unbroken};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE, add_product};
@@ -140,6 +141,8 @@ pub struct FairSurface {
     pub start: Vec<f64>,
     /// Weights of the cells of the energy on the net of a fit.
     spared: Option<Spared>,
+    /// Where the net of a fit might break and does not.
+    unbroken: Option<Unbroken>,
     /// Order of the energy.
     pub order: usize,
     /// w_u of the energy.
@@ -312,7 +315,7 @@ impl FairSurface {
     }
 
     /// From a fit of the table to a model of it; `own` asks for a quintic net of its own, where the hull stands over a
-    /// rectangle.
+    /// rectangle. The curvature may jump at `breaks` though it does not in the fit.
     ///
     /// # Errors
     /// [`HullError`] when the net makes no hull.
@@ -321,6 +324,7 @@ impl FairSurface {
         fitted: &Hull,
         settings: EnergySettings,
         own: Option<f64>,
+        breaks: &Breaks,
     ) -> Result<Self, HullError> {
         let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
         let smooth = over.is_some();
@@ -350,24 +354,27 @@ impl FairSurface {
             }
         }
         let (u, v) = (surface.u(), surface.v());
-        let (spared, energy) = if smooth {
-            (None, energy(u, v, order, settings.anisotropy))
+        let plain = is_plain(&hull);
+        let mut straight = straightness(surface, &courses);
+        let (spared, unbroken, energy) = if smooth {
+            (None, None, energy(u, v, order, settings.anisotropy))
         } else {
             let level = hull.is_level();
             let metric = if level { Metric::new } else { Metric::parametric }(surface, order, settings.anisotropy);
             let cells = Cells::new(surface);
-            let weights = Spared::new(&cells, &metric);
+            let unbroken = Unbroken::new(&cells, &metric, breaks);
+            let weights = Spared::new(&cells, &metric, &unbroken);
             let energy = weights.energy(&cells, &metric);
-            (level.then_some(weights), energy)
+            straight = unbroken.form(&cells, &metric);
+            (level.then_some(weights), Some(unbroken), energy)
         };
-        let plain = is_plain(&hull);
-        let straight = straightness(hull.surface(), &courses);
         Ok(Self {
             model: Model { energy, readings, known, straight, start: (!smooth).then(|| start.clone()), carried: None },
             courses,
             places,
             start,
             spared,
+            unbroken,
             order,
             anisotropy: settings.anisotropy,
             plain,
@@ -399,6 +406,12 @@ impl FairSurface {
             || true_energy(surface, self.order, self.anisotropy),
             |spared| spared.energy(&Cells::new(surface), &Metric::new(surface, self.order, self.anisotropy)),
         )
+    }
+
+    /// The greatest jump of curvature of a hull on this net across lines of it where the surface through the table has
+    /// none \[1/m\]; none where there are no such lines, on a net of its own as well.
+    pub(super) fn greatest_jump(&self, hull: &Hull) -> Option<f64> {
+        self.unbroken.as_ref()?.greatest(hull.surface())
     }
 
     /// The hull with other half-breadths of the net.

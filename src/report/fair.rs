@@ -14,7 +14,8 @@ use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_n
 use crate::config::{self, JobFile, Place};
 use crate::exchange::{
     COMPROMISE_LINE, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv,
-    conventions_json, fairing_json, read_table_with, row_json, status_word, write_hull, write_table,
+    control_polygon_csv, conventions_json, fairing_json, read_table_with, row_json, status_word, write_hull,
+    write_table,
 };
 use crate::fairing::ProposedLine;
 use crate::fairing::constraint::Constraint;
@@ -142,7 +143,8 @@ fn fitted(table: &OffsetTable) -> Result<Hull, FitError> {
 }
 
 /// Files that every fairing writes, besides the table.
-const FILES: [&str; 6] = ["hull.json", "start.json", "changes.csv", "fairing.json", "summary.json", "manifest.json"];
+const FILES: [&str; 7] =
+    ["hull.json", "start.json", "changes.csv", "control-polygon.csv", "fairing.json", "summary.json", "manifest.json"];
 
 impl FairJob {
     /// Names of the files that the job writes, whatever comes of it; figures are not among them.
@@ -346,6 +348,7 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         OutputFile::text("start.json", start.map_err(|e| Failure::Internal(format!("start.json: {e}")))?),
         OutputFile::table(&name, written.text, &job.table.form)?,
         OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
+        OutputFile::text("control-polygon.csv", control_polygon_csv(&outcome)),
         json_file("fairing.json", &certificate)?,
         json_file("summary.json", &summary)?,
     ];

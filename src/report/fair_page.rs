@@ -252,13 +252,20 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     let sum =
         |side: usize, count: fn(&PolygonSigns) -> usize| outputs.outcome.signs[side].iter().map(count).sum::<usize>();
     let line = format!(
-        "Control polygon, signs + and -: {} -> {} changes, {} -> {} enclosed by two of the other.",
+        "Control polygon, signs + and -: {} -> {} changes, {} -> {} enclosed by two of the other (control-polygon.csv).",
         sum(0, |line| line.changes),
         sum(1, |line| line.changes),
         sum(0, |line| line.enclosed),
         sum(1, |line| line.enclosed)
     );
     page.push_str(&wrapped(&line, 2));
+    if let Some(jump) = outputs.outcome.jump {
+        let line = format!(
+            "Where the surface through the table runs on across lines of its net, the curvature of the fair one jumps by \
+             {jump:.1e} 1/m at most."
+        );
+        page.push_str(&wrapped(&line, 2));
+    }
     if outputs.outcome.held.is_empty() {
         page.push_str("Nothing of the whole hull is held.\n");
     }

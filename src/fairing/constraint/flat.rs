@@ -10,9 +10,9 @@
 //! the offsets. It is held a cell of the knots inside of its outermost offsets, so that the surface may leave it in between
 //! with continuous curvature: a cubic that is flat up to its last offset swings about those beyond.
 
-use super::super::lines::{LineCourse, LineKind};
+use super::super::lines::{LineCourse, LineKind, ProposedLine};
 use super::super::model::Limit;
-use super::super::proposals::broken;
+use super::super::proposals::{broken, knots, parameter};
 use super::super::surface::{FairSurface, Origin, basis_row};
 use super::fixed::held;
 use crate::hull::{Hull, HullError};
@@ -25,25 +25,24 @@ fn within([from, to]: [f64; 2], value: f64) -> bool {
     (from - SLACK..=to + SLACK).contains(&value)
 }
 
+/// The edges of a flat of side.
+pub fn edges(x: [f64; 2], z: [f64; 2]) -> [ProposedLine; 4] {
+    let edge = |course, at, reach| ProposedLine { kind: LineKind::Tangent, course, at, reach, gain: 0.0 };
+    let [station, waterline] = [LineCourse::Station, LineCourse::Waterline];
+    [edge(station, x[0], z), edge(station, x[1], z), edge(waterline, z[0], x), edge(waterline, z[1], x)]
+}
+
 /// The same surface with the edges of a flat of side as lines along which the curvature may jump.
 ///
 /// # Errors
 /// [`HullError`] when the net makes no hull.
-pub fn edged(hull: &Hull, x: [f64; 2], z: [f64; 2]) -> Result<Hull, HullError> {
-    let middle = [x, z].map(|[from, to]| 0.5 * (from + to));
+pub fn edged(hull: &Hull, edges: &[ProposedLine]) -> Result<Hull, HullError> {
     let mut edged = hull.clone();
-    for (course, ends) in [(LineCourse::Station, x), (LineCourse::Waterline, z)] {
-        for end in ends {
-            let (at, axis) = match course {
-                LineCourse::Station => (edged.parameters(end, middle[1]), 0),
-                LineCourse::Waterline => (edged.parameters(middle[0], end), 1),
-            };
-            let knots = if axis == 0 { edged.surface().u() } else { edged.surface().v() };
-            let (from, to) = knots.domain();
-            let slack = 1e-6 * (to - from);
-            if let Some(t) = at.map(|at| at[axis]).filter(|&t| t > from + slack && t < to - slack) {
-                edged = broken(&edged, course, t, LineKind::Tangent)?;
-            }
+    for edge in edges {
+        let (from, to) = knots(hull, edge.course).domain();
+        let slack = 1e-6 * (to - from);
+        if let Some(t) = parameter(&edged, edge).filter(|&t| t > from + slack && t < to - slack) {
+            edged = broken(&edged, edge.course, t, edge.kind)?;
         }
     }
     Ok(edged)

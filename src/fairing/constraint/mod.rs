@@ -245,7 +245,7 @@ impl Constraint {
 }
 
 pub use breadth::{admit, between, breadths, broken, control_values};
-pub use flat::edged;
+pub use flat::{edged, edges};
 pub use rule::{FixedLine, Rule, TangentPlace};
 
 /// A dense row without its zeros, times a factor.

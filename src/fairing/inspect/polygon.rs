@@ -73,6 +73,14 @@ pub struct PolygonSigns {
     pub enclosed: usize,
 }
 
+impl PolygonSigns {
+    /// The signs in order, as `+-0+`.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.signs.iter().map(|side| side.as_char()).collect()
+    }
+}
+
 /// Signs of a polygon of (abscissa, half-breadth); vertices at most `zero` off the chord are on it.
 #[must_use]
 pub fn polygon_signs(polygon: &[[f64; 2]], zero: f64) -> Vec<Side> {
