@@ -146,6 +146,23 @@ fn fewer_inflections_than_the_tolerance_allows_are_refused_with_the_tolerance_th
     assert_eq!(fair_curve(&given, &again).unwrap().status, FairStatus::Optimal);
 }
 
+/// The waterline at 6.5024 m of the Series 60 with one inflection: 13.656 mm would do, however little less is given.
+#[test]
+fn the_tolerance_that_would_do_is_found_just_below_it() {
+    let table = include_str!("data/series60_cb060/offsets.csv");
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "6.5024").unwrap();
+    let given = rows[1..].iter().map(|row| CurvePoint::new(row[0].parse().unwrap(), row[column].parse().unwrap()));
+    let given: Vec<CurvePoint> = given.collect();
+    for tolerance in [0.0134, 0.0135, 0.01365, 0.013655] {
+        let one = InflectionWish::AtMost(1);
+        let settings = CurveSettings { tolerance: Some(tolerance), inflections: one, ..CurveSettings::default() };
+        let fair = fair_curve(&given, &settings).unwrap();
+        assert_eq!((fair.status, fair.inflections[1].len()), (FairStatus::Infeasible, 1), "{tolerance}");
+        assert!((tolerance * fair.widening - 0.013656).abs() < 1e-6, "{tolerance} {}", fair.widening);
+    }
+}
+
 #[test]
 fn the_price_guard_keeps_what_the_readings_say() {
     // Tolerances so wide that a straight line would do: the hollow is paid for all the same.

@@ -10,7 +10,7 @@
 
 use super::model::Row;
 use super::program::{Program, RowName};
-use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, Status};
+use crate::qp::{Engine, LeastFactor, ProblemError, RepeatedSolver, Settings, Solution, Status};
 
 /// What a target may miss, relative, and still count as had.
 const HAD: f64 = 1e-9;
@@ -126,14 +126,19 @@ fn least_factor(
         }
     }
     let problem = factor.into_problem();
-    let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
     // Where many limits meet, the multipliers stall at what is proof enough of a factor.
-    let proved = || {
+    let found = |solution: &Solution| {
         let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let gap = (certificate.primal - certificate.dual).abs();
-        certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs()
+        let proved = certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs();
+        solution.status == Status::Optimal || proved
     };
-    let found = solution.status == Status::Optimal || proved();
+    let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
+    if solution.status == Status::Limit && !found(&solution) {
+        // A linear program whose least factor is hardly more than what is had already may lose its way.
+        solution = problem.solve(&Settings { proof: false, engine: Engine::Clarabel, ..settings.clone() })?;
+    }
+    let found = found(&solution);
     let factor = solution.x.split_off(n)[0];
     Ok(found.then_some((factor, solution.x)))
 }

@@ -772,7 +772,8 @@ impl Outcome {
     }
 
     /// How many targets the surface through the table is off by more than a part of their scale.
-    fn targets_off(&self, part: f64) -> usize {
+    #[must_use]
+    pub fn targets_off(&self, part: f64) -> usize {
         self.held.iter().filter(|held| held.constraint.missed(held.before, &self.before) > part).count()
     }
 }

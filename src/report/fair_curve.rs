@@ -289,11 +289,17 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     }
     for smaller in &fair.least.smaller {
         line(match smaller.factor {
-            Some(factor) => format!("              {} need {factor:.3} times the tolerances", smaller.count),
+            Some(factor) => format!(
+                "              {} need {factor:.3} times the tolerances at least, whatever the curve",
+                smaller.count
+            ),
             None => format!("              {} cannot be had at any tolerance: locked points forbid it", smaller.count),
         });
     }
     line(match fair.allowed {
+        Some(allowed) if fair.widening.is_infinite() && after.len() > allowed => {
+            format!("  allowed     {allowed}, GIVEN UP")
+        }
         Some(allowed) => format!("  allowed     {allowed}, price {:.2} sigma^2 (limit {PRICE})", fair.price),
         None => "  allowed     as they come".to_owned(),
     });

@@ -272,6 +272,11 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     for held in &outputs.outcome.held {
         page.push_str(&wrapped(&held_line(held, length, outputs.outcome.nearest), 2));
     }
+    if outputs.outcome.targets_off(ON_TARGET) > 1 {
+        let line = "What each costs is what the same program moves less without it, its lines with the signs that they have; a job \
+                    without it may choose others.";
+        page.push_str(&wrapped(line, 2));
+    }
     for held in &outputs.outcome.rules {
         let words = held.rule.words();
         let binds = match held.binding {
