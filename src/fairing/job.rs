@@ -622,7 +622,8 @@ impl Job {
         at_once(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
         let held =
             held.unwrap_or_else(|| held::constraints(&surface, &settings, &faired, [&before, &after], &mut solver));
-        let held = asked.into_iter().zip(held).map(|(constraint, held)| Held { constraint, ..held }).collect();
+        let held: Vec<Held> =
+            asked.into_iter().zip(held).map(|(constraint, held)| Held { constraint, ..held }).collect();
         let mut rules = held::rules(&surface, &settings, &faired);
         given_up.iter().for_each(|&rule| rules.insert(rule, HeldRule::given_up(&wished[rule], &surface, &after)));
         faired.diagnosis = refused.or(faired.diagnosis);
@@ -656,11 +657,15 @@ impl Job {
                     .to_owned(),
             );
         }
-        let asks = settings.others.contains(&true) || !self.rules.is_empty() || !self.locked.is_empty();
+        let off = |held: &Held| held.constraint.missed(held.before, &before) > ON_TARGET;
+        let asks = held.iter().any(off) || !self.rules.is_empty() || !self.locked.is_empty();
         // Before all else: whoever reads no further should know it.
         notes.splice(0..0, more_often(&lines, asks, faired.carried));
         if !excluded.is_empty() {
             notes.push(format!("{} suspects were left out of the fairing", excluded.len()));
+        }
+        if self.accepted == Accepted::All && !proposals.iter().any(|proposal| proposal.accepted) {
+            notes.push("all proposed lines were to be taken, and there is none that could be".to_owned());
         }
         if noise > ALARM * quantum && proposals.iter().any(|proposal| !proposal.accepted) {
             notes.push(

@@ -474,10 +474,12 @@ impl FairOutputs {
         };
         // Rules whose giving alone would do, the nearest first.
         let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
-        let rule = rule.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(rule, give)| {
-            let unit = self.outcome.rules.get(rule)?.rule.unit();
-            Some(format!(" {} would have to give by {give:.1e}{unit};", rule_words(rule)?))
-        });
+        let breadth = self.outcome.after.particulars().breadth;
+        let rule =
+            rule.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, give)| *give < breadth).and_then(|(rule, give)| {
+                let unit = self.outcome.rules.get(rule)?.rule.unit();
+                Some(format!(" {} would have to give by {give:.1e}{unit};", rule_words(rule)?))
+            });
         let given_up = (0..self.outcome.rules.len()).filter(|&rule| self.outcome.rules[rule].given_up);
         let given_up = given_up.filter_map(rule_words).collect::<Vec<_>>().join(", ");
         let given_up = if given_up.is_empty() { String::new() } else { format!(" given up was {given_up};") };

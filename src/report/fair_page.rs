@@ -60,6 +60,9 @@ fn place(job: &FairJob, change: &Change) -> String {
     format!("{station}, {}", change.origin.words(change.z))
 }
 
+/// Parts of its tolerance from which an offset is beyond it.
+const BEYOND: f64 = 1.001;
+
 /// The offsets: how many stayed, how many moved more, how many are suspected.
 fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     let (limit, shown) = limit(job.table.form.quantum(), outcome.faired.sigma, job.table.form.notation);
@@ -122,7 +125,12 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     }
     let stopped = reached(outcome).count();
     if stopped > 0 {
-        page.push_str(&format!("  {} at the tolerance\n", counted(stopped, "offset stops", "offsets stop")));
+        let shares = reached(outcome).filter_map(|change| Some(size(change) / change.tolerance?));
+        let farthest = shares.fold(0.0, f64::max);
+        // A compromise may widen the tolerances.
+        let beyond =
+            if farthest > BEYOND { format!(" or beyond, at {farthest:.3} times it at most") } else { String::new() };
+        page.push_str(&format!("  {} at the tolerance{beyond}\n", counted(stopped, "offset stops", "offsets stop")));
     }
     let locked = outcome.changes.iter().filter(|change| change.locked).count();
     if locked > 0 {
@@ -343,7 +351,10 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         2,
     ));
     if !outcome.proposals.is_empty() {
-        page.push_str("Lines that the table does not declare (--accept-lines takes them):\n");
+        // What is taken, or cannot be, needs no hint.
+        let open = outcome.proposals.iter().any(|line| line.rms.is_some() && !line.accepted);
+        let hint = if open { " (--accept-lines takes them)" } else { "" };
+        page.push_str(&format!("Lines that the table does not declare{hint}:\n"));
     }
     for line in outcome.proposals.iter().take(MOST_LINES) {
         page.push_str(&format!("  {}", wrapped(&proposal(line), 5)));

@@ -132,7 +132,7 @@ impl Rule {
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Tangent(..) | Self::Monotone { .. } => " in slope",
-            Self::Curvature { .. } | Self::Inflections { .. } => " of the size of a row of curvature",
+            Self::Curvature { .. } | Self::Inflections { .. } => " m of one control half-breadth",
             _ => " m of half-breadth",
         }
     }
