@@ -317,6 +317,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "signs": signs,
         // The greatest jump of curvature across lines of the net where the surface through the table has none [1/m].
         "jump": json_number(outcome.jump),
+        // By how much the half-breadth passes the greatest of the table, or B/2, before and after [m].
+        "beyond_half_breadth": outcome.beyond.map(number),
         "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
         "lines": outcome.proposals.iter().map(proposed).collect::<Vec<_>>(),
         "infeasible": diagnosis(outcome),

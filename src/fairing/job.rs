@@ -5,7 +5,7 @@
 
 use super::bends::Line;
 use super::compromise::{Instead, within_reach};
-use super::constraint::{Constraint, Rule};
+use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
 use super::fair::{FairError, FairSettings, Faired, PRICE, Prepared, fair_prepared};
 use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
@@ -46,6 +46,9 @@ const LOCKED: f64 = 1e-9;
 
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
+
+/// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
+const BREADTH: f64 = 1e-6;
 
 /// Part of the smoothing weight that is tried where lines bend more often with all of it: DTC as sections 780 > 924
 /// inflections with all of it, 773 with this part, 793 with a hundredth of it again.
@@ -262,6 +265,8 @@ pub struct Outcome {
     /// The greatest jump of curvature of the fair hull across lines of its net where the surface through the table has
     /// none and none is declared \[1/m\]; none on a net of its own.
     pub jump: Option<f64>,
+    /// By how much the half-breadth passes the greatest of the table, or B/2, before and after \[m\].
+    pub beyond: [f64; 2],
     /// Whether the net is one of its own and not that of the surface through the table.
     pub own: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
@@ -644,6 +649,17 @@ impl Job {
                 surface.order
             ));
         }
+        let readings = surface.model.readings.iter().map(|reading| reading.value);
+        let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
+        let beyond = [&before, &after].map(|hull| excess_of_breadth(hull.surface(), greatest));
+        if beyond[1] > quantum.max(BREADTH * greatest) {
+            notes.push(format!(
+                "between offsets the half-breadth passes {greatest:.3} m by {:.2} mm at most, that of the surface through the table by \
+                 {:.2} mm",
+                1e3 * beyond[1],
+                1e3 * beyond[0]
+            ));
+        }
         if self.true_curvature && faired.refreshed.is_none() && faired.solved.is_optimal() {
             notes.push(
                 "the metric of true curvature stayed that of the start: refreshing it did not lower the functional"
@@ -688,6 +704,7 @@ impl Job {
             },
             table: written(table, &changes),
             jump: surface.greatest_jump(&after),
+            beyond,
             before,
             after,
             changes,

@@ -9,10 +9,40 @@ use super::super::model::{Limit, value};
 use super::super::program::Between;
 use super::super::surface::basis_row;
 use crate::hull::Hull;
-use crate::spline::KnotVector;
+use crate::spline::{BsplineSurface, KnotVector};
 
 /// Points a span.
 const FINENESS: usize = 4;
+
+/// Points a span of [`excess`].
+const FINER: usize = 12;
+
+/// The greatest half-breadth of a surface over `greatest`, 0 where it is not over it \[m\], by twelve points a span: h^2/8
+/// times its second derivative is missed at most, h a twelfth of a span.
+#[must_use]
+pub fn excess(surface: &BsplineSurface<3>, greatest: f64) -> f64 {
+    let [u, v] = [surface.u(), surface.v()];
+    let mut most = greatest;
+    for i in u.spans() {
+        for j in v.spans() {
+            // The surface lies within the hull of its control points.
+            let mut acting = (i - u.degree()..=i).flat_map(|k| (j - v.degree()..=j).map(move |l| (k, l)));
+            if acting.all(|(k, l)| surface.point(k, l)[1] <= most) {
+                continue;
+            }
+            let at = |knots: &KnotVector, span: usize, k: usize| {
+                let [from, to] = [knots.knots()[span], knots.knots()[span + 1]];
+                from + (to - from) * k as f64 / FINER as f64
+            };
+            for k in 0..=FINER {
+                for l in 0..=FINER {
+                    most = most.max(surface.eval(at(u, i, k), at(v, j, l))[1]);
+                }
+            }
+        }
+    }
+    most - greatest
+}
 
 /// Points of the grid along one direction.
 fn sites(knots: &KnotVector) -> Vec<f64> {
@@ -90,4 +120,25 @@ pub fn between(
         (moved > tolerance * widening + room + slack).then_some(Between { row, value: middle, tolerance, room })
     });
     far.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// y = 5 sin(pi u) sin(pi v) at the Greville points: its top is at the middle of both.
+    #[test]
+    fn the_excess_is_that_of_the_top() {
+        let knots = KnotVector::uniform(3, 7).unwrap();
+        let wave = |t: f64| (std::f64::consts::PI * t).sin();
+        let points = knots
+            .greville()
+            .into_iter()
+            .flat_map(|u| knots.greville().into_iter().map(move |v| [100.0 * u, 5.0 * wave(u) * wave(v), 10.0 * v]));
+        let surface = BsplineSurface::new(knots.clone(), knots.clone(), points.collect()).unwrap();
+        let top = surface.eval(0.5, 0.5)[1];
+        assert!((excess(&surface, 4.0) - (top - 4.0)).abs() < 1e-12, "{}", excess(&surface, 4.0));
+        assert!(excess(&surface, top).abs() < 1e-12);
+        assert!(excess(&surface, 5.1) == 0.0);
+    }
 }

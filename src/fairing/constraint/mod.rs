@@ -244,7 +244,7 @@ impl Constraint {
     }
 }
 
-pub use breadth::{admit, between, breadths, broken, control_values};
+pub use breadth::{admit, between, breadths, broken, control_values, excess};
 pub use flat::{edged, edges};
 pub use rule::{FixedLine, Rule, TangentPlace};
 
