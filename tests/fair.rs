@@ -429,6 +429,53 @@ fn the_least_tolerances_for_a_section_area_are_found() {
     assert_eq!([run(0.01 * widening * 1.002).0, run(0.01 * widening * 0.99).0], [Some(0), Some(4)]);
 }
 
+/// The whole sectional-area curve: the table's own within a band, or from a file beside the job.
+#[test]
+fn a_sectional_area_curve_is_held() {
+    let folder = folder("areas");
+    let run = |areas: &str| {
+        let (job, out) = (folder.join("job.toml"), folder.join("out"));
+        let table = carried(TABLE).display().to_string();
+        fs::write(&job, format!("[table]\nfile = {table:?}\n[hold]\n{areas}\n")).unwrap();
+        let (job, to) = (job.display().to_string(), out.display().to_string());
+        let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
+        (output.status.code(), stderr(&output), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let certificate =
+        || -> Value { serde_json::from_str(&fs::read_to_string(folder.join("out/fairing.json")).unwrap()).unwrap() };
+    let areas = || -> Vec<[f64; 4]> {
+        let all = certificate()["constraints"].as_array().unwrap().clone();
+        let own = all.iter().filter(|c| c["kind"] == "section_area");
+        own.map(|c| ["x", "band", "before", "after"].map(|key| c[key].as_f64().unwrap())).collect()
+    };
+    let (code, said, page) = run("section_areas = \"table\"");
+    assert_eq!(code, Some(0), "{said}");
+    assert!(page.contains("Section areas at 25 places: off target by "), "{page}");
+    let exact = areas();
+    assert_eq!(exact.len(), 25);
+    assert!(exact.iter().all(|[_, band, before, after]| *band == 0.0 && (after / before - 1.0).abs() < 1e-10));
+    let (code, said, _) = run("section_areas = \"table\"\nsection_area_band = 0.01");
+    assert_eq!(code, Some(0), "{said}");
+    let within = areas();
+    assert!(within.iter().all(|[_, band, before, after]| *band == 0.01 && (after - before).abs() < 0.01 + 1e-9));
+    assert!(within.iter().any(|[_, _, before, after]| (after - before).abs() > 1e-4));
+    let [x, _, area, _] = exact[12];
+    fs::write(folder.join("areas.csv"), format!("x,area,band\n{x},{area},\n20,54.82,0.05\n")).unwrap();
+    let (code, said, page) = run("section_areas = \"areas.csv\"\nsection_area_band = 0.02");
+    assert_eq!(code, Some(0), "{said}");
+    assert!(page.contains("section area at x = 20.000 m"), "{page}");
+    let mut bands: Vec<f64> = areas().iter().map(|area| area[1]).collect();
+    bands.sort_by(f64::total_cmp);
+    assert_eq!(bands, [0.02, 0.05]);
+    fs::write(folder.join("areas.csv"), "x,area\n20,54.8\n30,x\n").unwrap();
+    let (code, said, _) = run("section_areas = \"areas.csv\"");
+    assert!(code == Some(3) && said.contains("E340") && said.contains("areas.csv:3"), "{code:?} {said}");
+    let (code, said, _) = run("section_areas = \"nowhere.csv\"");
+    assert!(code == Some(6) && said.contains("nowhere.csv"), "{code:?} {said}");
+    let (code, said, _) = run("section_areas = \"table\"\nsection_area_band = -1");
+    assert!(code == Some(3) && said.contains("E124") && said.contains("hold.section_area_band is -1"), "{said}");
+}
+
 /// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the
 /// half-breadths.
 #[test]

@@ -180,7 +180,15 @@ pub const JOB_KEYS: &[Key] = &[
         "section_areas",
         Kind::SectionAreas,
         &[],
-        "Areas of sections below the design draught, both sides: [[x, area], [x, area, band]].",
+        "Areas of sections below the design draught, both sides: [[x, area], [x, area, band]], a CSV of x, area and band (a path from \
+         this file), or \"table\": those of the table at every station.",
+    ),
+    key(
+        "hold",
+        "section_area_band",
+        Kind::Number,
+        &["0.5"],
+        "How far section areas may be off that have no band of their own, m2. Default: 0.",
     ),
     key(
         "energy",
@@ -273,6 +281,10 @@ pub struct JobFile {
     pub accepted: Option<Accepted>,
     /// Section areas: x \[m\], area and band \[m^2\].
     pub section_areas: Vec<([f64; 3], Place)>,
+    /// Where more of them are from.
+    pub section_area_curve: Option<(AreaCurve, Place)>,
+    /// The band of those that have none of their own \[m^2\].
+    pub section_area_band: f64,
     /// Whether suspects are left out.
     pub exclude_suspects: Option<bool>,
     /// Whether the flat of side that the table shows is kept.
@@ -287,6 +299,26 @@ pub struct JobFile {
     pub bending: Option<bool>,
     /// Where the values of the keys stand; of a key that is said twice the last counts.
     places: Vec<Place>,
+}
+
+/// Where the areas of a sectional-area curve are from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum AreaCurve {
+    /// The surface through the table, at its stations.
+    Table,
+    /// A file, from the folder of the job.
+    File(String),
+}
+
+impl JobFile {
+    /// The file of section areas, with the place that names it.
+    #[must_use]
+    pub fn area_file(&self) -> Option<(&str, &Place)> {
+        match &self.section_area_curve {
+            Some((AreaCurve::File(file), place)) => Some((file, place)),
+            _ => None,
+        }
+    }
 }
 
 /// Reads a job file. `file` is its name for messages.
@@ -432,6 +464,7 @@ impl JobFile {
         self.tolerances.extend(other.tolerances);
         self.locks.extend(other.locks);
         self.section_areas.extend(other.section_areas);
+        self.section_area_curve = other.section_area_curve.or(self.section_area_curve);
         self.rules.extend(other.rules);
         self.lines.extend(other.lines);
         self.places.extend(other.places);
@@ -472,7 +505,7 @@ impl JobFile {
         job.bending = self.bending.unwrap_or(false);
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
-        job.holding = self.holding(length);
+        job.holding = self.holding(table, length);
         let mut problems = Vec::new();
         let mut named: Vec<(Spot, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
@@ -540,18 +573,26 @@ impl JobFile {
     pub fn place_of(&self, constraint: &Constraint) -> Option<&Place> {
         if let Constraint::SectionArea { x, .. } = constraint {
             let same = |(area, _): &&([f64; 3], Place)| area[0].total_cmp(x).is_eq();
-            return self.section_areas.iter().find(same).map(|(_, place)| place);
+            let row = self.section_areas.iter().find(same).map(|(_, place)| place);
+            return row.or(self.section_area_curve.as_ref().map(|(_, place)| place));
         }
         let held = self.hold.iter().find(|(quantity, wish)| *wish != Wish::Free && quantity.is_of(constraint));
         held.and_then(|(quantity, _)| self.place(&format!("hold.{}", quantity.key())))
     }
 
-    fn holding(&self, length: f64) -> Holding {
-        if self.hold.is_empty() && self.section_areas.is_empty() {
+    fn holding(&self, table: &OffsetTable, length: f64) -> Holding {
+        let own = matches!(self.section_area_curve, Some((AreaCurve::Table, _)));
+        if self.hold.is_empty() && self.section_areas.is_empty() && !own {
             return Holding::Table;
         }
+        let places: Vec<f64> = table.stations.iter().filter(|_| own).map(|station| station.station.x).collect();
         let density = self.density.unwrap_or(crate::hydrostatics::Conventions::default().density);
-        hold::holding(&self.hold, &self.section_areas, [length, density, self.gravity.unwrap_or(0.0)])
+        hold::holding(
+            &self.hold,
+            &self.section_areas,
+            (&places, self.section_area_band),
+            [length, density, self.gravity.unwrap_or(0.0)],
+        )
     }
 }
 

@@ -51,7 +51,7 @@ fn value_schema(kind: Kind) -> Value {
         Kind::Names => json!({ "type": "array", "items": { "type": ["number", "string"] } }),
         Kind::NamedLengths => json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } }),
         Kind::SectionAreas => json!({
-            "type": "array",
+            "type": ["array", "string"],
             "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 3 }
         }),
         Kind::Phrases(_) => json!({ "type": ["array", "string"], "items": { "type": "string" } }),

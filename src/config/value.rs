@@ -38,7 +38,9 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::OrWord(inner, words) => format!("{}; or one of \"{}\"", expected(*inner), words.join("\", \"")),
         Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
         Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),
-        Kind::SectionAreas => "a list of [x, area] or [x, area, band], m and m2".into(),
+        Kind::SectionAreas => {
+            "a list of [x, area] or [x, area, band], m and m2, the name of a CSV file, or \"table\"".into()
+        }
         Kind::Phrases(example) => format!("a list of texts, as [{example}]"),
         Kind::NamedAngles(example) => format!("a table of places with angles, as {{ {example} }}"),
         Kind::NamedCounts(example) => format!("a table of lines with whole numbers, as {{ {example} }}"),

@@ -47,6 +47,9 @@ const LOCKED: f64 = 1e-9;
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
+/// Area of a section over B T below which it is none.
+const EMPTY: f64 = 1e-9;
+
 /// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
 const BREADTH: f64 = 1e-6;
 
@@ -467,7 +470,13 @@ impl Job {
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(&before));
         let constraints = match &self.holding {
             Holding::Given(list) => list.clone(),
-            Holding::Both { own: list, given } => list.iter().map(valued).chain(given.iter().copied()).collect(),
+            Holding::Both { own: list, given } => {
+                // A section above the water has no area.
+                let p = before.particulars();
+                let least = EMPTY * p.breadth * p.draught;
+                let there = |c: &Constraint| !matches!(c, Constraint::SectionArea { area, .. } if *area <= least);
+                list.iter().map(valued).filter(there).chain(given.iter().copied()).collect()
+            }
             Holding::Table => {
                 [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
                     .map(|constraint| valued(&constraint))

@@ -11,11 +11,11 @@ use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
-use crate::config::{self, JobFile, Place};
+use crate::config::{self, Diagnostic, JobFile, Place};
 use crate::exchange::{
-    COMPROMISE_LINE, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting, changes_csv,
-    control_polygon_csv, conventions_json, fairing_json, read_table_with, row_json, status_word, write_hull,
-    write_table,
+    COMPROMISE_LINE, CurveProblem, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting,
+    changes_csv, control_polygon_csv, conventions_json, fairing_json, read_curve, read_table_with, row_json,
+    status_word, write_hull, write_table,
 };
 use crate::fairing::ProposedLine;
 use crate::fairing::constraint::Constraint;
@@ -26,6 +26,7 @@ use crate::fairing::record::FairRecord;
 use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
+use crate::units::Notation;
 
 /// A table, and what is wished for it.
 #[derive(Debug, Clone)]
@@ -130,6 +131,20 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
             hull.particulars().length_between_perpendiculars
         }
     };
+    let area_file =
+        said.area_file().map(|(file, place)| (path.parent().unwrap_or(Path::new("")).join(file), place.clone()));
+    if let Some((file, place)) = area_file {
+        let bytes = read_bytes(&file)?;
+        inputs.push(manifest_entry(&file, &bytes));
+        let curve = read_curve(&utf8(&file, bytes)?, Notation::Metres).map_err(|problems| {
+            let of = |p: CurveProblem| Diagnostic { line: p.line, ..problem("E340", &file, p.message, p.remedy) };
+            Failure::Input(problems.into_iter().map(of).collect())
+        })?;
+        let band = said.section_area_band;
+        let rows = curve.points.iter().filter_map(|p| Some([p.x, p.y?, p.tolerance.unwrap_or(band)]));
+        said.section_areas.extend(rows.map(|row| (row, place.clone())));
+        files.push(file);
+    }
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);

@@ -15,6 +15,9 @@ use crate::units::Notation;
 /// Moves and suspects that the page lists.
 const MOST_LINES: usize = 8;
 
+/// Section areas that the page lists one by one.
+const MOST_AREAS: usize = 4;
+
 /// Remarks that the page shows.
 const MOST_REMARKS: usize = 16;
 
@@ -277,8 +280,29 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     if outputs.outcome.held.is_empty() {
         page.push_str("Nothing of the whole hull is held.\n");
     }
+    let areas = outputs.outcome.held.iter().filter(|held| matches!(held.constraint, Constraint::SectionArea { .. }));
+    let areas: Vec<&Held> = areas.collect();
+    let whole = areas.len() > MOST_AREAS;
     for held in &outputs.outcome.held {
-        page.push_str(&wrapped(&held_line(held, length, outputs.outcome.nearest), 2));
+        if !(whole && matches!(held.constraint, Constraint::SectionArea { .. })) {
+            page.push_str(&wrapped(&held_line(held, length, outputs.outcome.nearest), 2));
+        }
+    }
+    if whole {
+        let off = areas.iter().map(|held| {
+            let missed = (held.after - held.constraint.target()).abs() - held.constraint.band();
+            missed.max(0.0) / held.scale
+        });
+        let price = areas.iter().map(|held| held.price).fold(0.0, f64::max);
+        let moved = areas.iter().map(|held| (held.after - held.before).abs()).fold(0.0, f64::max);
+        let line = format!(
+            "Section areas at {} places: off target by {:.0e} B T at most, changed by {moved:.3} m2 at most; of the dearest, {} \
+             (fairing.json).",
+            areas.len(),
+            off.fold(0.0, f64::max),
+            priced("it", price)
+        );
+        page.push_str(&wrapped(&line, 2));
     }
     if outputs.outcome.targets_off(ON_TARGET) > 1 {
         let line = "What each costs is what the same program moves less without it, its lines with the signs that they have; a job \

@@ -4,7 +4,7 @@ use super::super::document::{Document, Raw};
 use super::super::keys::Kind;
 use super::super::value::{Scalar, expected};
 use super::super::wishes::position_along;
-use super::{HOLD, JobFile, Place};
+use super::{AreaCurve, HOLD, JobFile, Place};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::Holding;
 use crate::units::Dimension;
@@ -188,7 +188,17 @@ fn word(word: &str) -> Wish {
 
 fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
     let path = "hold.section_areas";
+    job.section_area_band = band(document);
     let Some((raw, span, kind)) = document.raw(path) else { return };
+    if let Raw::Text(text) = &raw {
+        let place = Place::new(document, path, span.start);
+        match text.trim() {
+            "" => document.unexpected(path, &raw, &span, kind),
+            "table" => job.section_area_curve = Some((AreaCurve::Table, place)),
+            file => job.section_area_curve = Some((AreaCurve::File(file.to_owned()), place)),
+        }
+        return;
+    }
     let Raw::Array(items) = &raw else {
         document.unexpected(path, &raw, &span, kind);
         return;
@@ -206,7 +216,7 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
         };
         let place = Place::new(document, path, at.start);
         match numbers.as_deref() {
-            Some(&[x, area]) if area > 0.0 => job.section_areas.push(([x, area, 0.0], place)),
+            Some(&[x, area]) if area > 0.0 => job.section_areas.push(([x, area, job.section_area_band], place)),
             Some(&[x, area, band]) if area > 0.0 && band >= 0.0 => job.section_areas.push(([x, area, band], place)),
             _ => {
                 let message = format!("{path}: an item is {}", item.describe());
@@ -216,10 +226,24 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
     }
 }
 
-/// The constraints; what is said stands over the default.
+/// The band about section areas that have none of their own \[m^2\].
+fn band(document: &mut Document<'_>) -> f64 {
+    let path = "hold.section_area_band";
+    let Some(value) = document.number(path) else { return 0.0 };
+    if value < 0.0 {
+        let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+        let help = "Expected an area of 0 or more, m2.".to_owned();
+        document.problem("E124", path, &span, format!("{path} is {value}"), help);
+    }
+    value.max(0.0)
+}
+
+/// The constraints; what is said stands over the default. The table's own areas are held at `places` \[m\] within the
+/// band \[m^2\].
 pub(super) fn holding(
     hold: &[(Quantity, Wish)],
     areas: &[([f64; 3], Place)],
+    (places, band): (&[f64], f64),
     [length, density, gravity]: [f64; 3],
 ) -> Holding {
     let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
@@ -235,6 +259,7 @@ pub(super) fn holding(
             Wish::Value(value) => given.push(quantity.constraint(value, gravity)),
         }
     }
+    own.extend(places.iter().map(|&x| Constraint::SectionArea { x, area: 0.0, band }));
     given.extend(areas.iter().map(|&([x, area, band], _)| Constraint::SectionArea { x, area, band }));
     Holding::Both { own, given }
 }
