@@ -453,11 +453,15 @@ fn a_sectional_area_curve_is_held() {
     assert!(page.contains("Section areas at 25 places: off target by "), "{page}");
     let exact = areas();
     assert_eq!(exact.len(), 25);
-    assert!(exact.iter().all(|[_, band, before, after]| *band == 0.0 && (after / before - 1.0).abs() < 1e-10));
+    assert!(exact.iter().all(|[_, band, before, after]| band.abs() < 1e-15 && (after / before - 1.0).abs() < 1e-10));
     let (code, said, _) = run("section_areas = \"table\"\nsection_area_band = 0.01");
     assert_eq!(code, Some(0), "{said}");
     let within = areas();
-    assert!(within.iter().all(|[_, band, before, after]| *band == 0.01 && (after - before).abs() < 0.01 + 1e-9));
+    assert!(
+        within
+            .iter()
+            .all(|[_, band, before, after]| (band - 0.01).abs() < 1e-15 && (after - before).abs() < 0.01 + 1e-9)
+    );
     assert!(within.iter().any(|[_, _, before, after]| (after - before).abs() > 1e-4));
     let [x, _, area, _] = exact[12];
     fs::write(folder.join("areas.csv"), format!("x,area,band\n{x},{area},\n20,54.82,0.05\n")).unwrap();
@@ -466,7 +470,7 @@ fn a_sectional_area_curve_is_held() {
     assert!(page.contains("section area at x = 20.000 m"), "{page}");
     let mut bands: Vec<f64> = areas().iter().map(|area| area[1]).collect();
     bands.sort_by(f64::total_cmp);
-    assert_eq!(bands, [0.02, 0.05]);
+    assert!(bands.len() == 2 && (bands[0] - 0.02).abs() < 1e-15 && (bands[1] - 0.05).abs() < 1e-15, "{bands:?}");
     fs::write(folder.join("areas.csv"), "x,area\n20,54.8\n30,x\n").unwrap();
     let (code, said, _) = run("section_areas = \"areas.csv\"");
     assert!(code == Some(3) && said.contains("E340") && said.contains("areas.csv:3"), "{code:?} {said}");
