@@ -6,7 +6,7 @@
 //! the middle stations are lines u = constant. Cubes and line lie in the cubic spline space of u: the net is exact.
 //!
 //! v runs like the girth of the sections (mean over the stations of the chord lengths between waterlines), and dz/dv =
-//! 0 at the bottom where it is flat, so that y(v) is smooth where dy/dz is infinite.
+//! 0 at the bottom where it is flat and a bilge leaves it, so that y(v) is smooth where dy/dz is infinite.
 
 use super::super::HullError;
 use super::FitError;
@@ -130,7 +130,7 @@ fn knots_at(sites: &[f64], times: &[usize]) -> Result<KnotVector, SplineError> {
 }
 
 /// z(v) for waterlines at heights `z` with the mean chord lengths `girths` between them and `times`-fold knots on them;
-/// `blunt` where the bottom is flat. Ever less of the chord lengths and more of the heights until z rises with v.
+/// `blunt` where a bilge leaves a flat bottom. Ever less of the chord lengths and more of the heights until z rises with v.
 pub(super) fn heights(z: &[f64], girths: &[f64], times: &[usize], blunt: bool) -> Result<Heights, FitError> {
     const STEPS: u32 = 8;
     let total: f64 = girths.iter().sum();

@@ -28,16 +28,36 @@ const FLOOR: f64 = 1e-5;
 /// Control values that are one half-breadth differ by less than this part of it.
 const SAME: f64 = 1e-10;
 
+/// Half-breadths of each waterline by station.
+fn by_station(rows: &[Row], stations: usize) -> Vec<Vec<Option<f64>>> {
+    let line = |row: &Row| {
+        let mut line = vec![None; stations];
+        row.sites.iter().for_each(|s| line[s.station] = Some(s.y));
+        line
+    };
+    rows.iter().map(line).collect()
+}
+
+/// Whether the sections leave a flat bottom with a bilge, dy/dz infinite, and not at a corner: over all stations the mean
+/// dy/dz between the two lowest waterlines, a height h up, is that of y = sqrt(z) rather than that of a straight line, over the mean
+/// between the second and the third, H up: 1 + sqrt(H/h) or 1, which part at their geometric mean. What does not widen at all is no corner.
+fn leaves_with_a_bilge(rows: &[Row], stations: usize) -> bool {
+    let [first, second, third, ..] = rows else { return true };
+    let (low, high) = (second.z - first.z, third.z - first.z);
+    let known = by_station(&rows[..3], stations);
+    let mut slopes = [0.0; 2];
+    for station in 0..stations {
+        if let (Some(a), Some(b), Some(c)) = (known[0][station], known[1][station], known[2][station]) {
+            slopes[0] += (b - a) / low;
+            slopes[1] += (c - b) / (high - low);
+        }
+    }
+    slopes[0] <= 0.0 || slopes[0] >= (1.0 + (high / low).sqrt()).sqrt() * slopes[1]
+}
+
 /// Mean over the stations of the chord lengths of sections between waterlines.
 fn girths(rows: &[Row], stations: usize) -> Vec<f64> {
-    let known: Vec<Vec<Option<f64>>> = rows
-        .iter()
-        .map(|row| {
-            let mut line = vec![None; stations];
-            row.sites.iter().for_each(|s| line[s.station] = Some(s.y));
-            line
-        })
-        .collect();
+    let known = by_station(rows, stations);
     rows.windows(2)
         .zip(known.windows(2))
         .map(|(pair, lines)| {
@@ -110,7 +130,7 @@ impl Part {
         let z: Vec<f64> = rows.iter().map(|r| r.z).collect();
         let widest = |row: &Row| row.sites.iter().map(|s| s.y).fold(0.0, f64::max);
         let times: Vec<usize> = rows.iter().map(|r| if r.knuckle { 3 } else { 1 + usize::from(r.tangent) }).collect();
-        let blunt = widest(&rows[0]) > FLAT_BOTTOM * widest(&rows[1]);
+        let blunt = widest(&rows[0]) > FLAT_BOTTOM * widest(&rows[1]) && leaves_with_a_bilge(&rows, stations);
         let up = heights(&z, &girths(&rows, stations), &times, blunt)?;
         let profiles = [Spline::default(), Spline::default()];
         let mut part = Self { rows, up, span: Span::Blend, profiles, corner: None, lines: Vec::new() };
