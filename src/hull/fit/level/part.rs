@@ -46,8 +46,8 @@ fn leaves_with_a_bilge(rows: &[Row], stations: usize) -> bool {
     let (low, high) = (second.z - first.z, third.z - first.z);
     let known = by_station(&rows[..3], stations);
     let mut slopes = [0.0; 2];
-    for station in 0..stations {
-        if let (Some(a), Some(b), Some(c)) = (known[0][station], known[1][station], known[2][station]) {
+    for ((a, b), c) in known[0].iter().zip(&known[1]).zip(&known[2]) {
+        if let (Some(a), Some(b), Some(c)) = (a, b, c) {
             slopes[0] += (b - a) / low;
             slopes[1] += (c - b) / (high - low);
         }
