@@ -342,14 +342,24 @@ pub fn asked(bends: &[Bend], net: &[f64], signs: &[i8], strictly: Range<usize>, 
     rooms(bends, signs, net, [ROOM * none, seen]).into_iter().enumerate().filter_map(limit).collect()
 }
 
+/// Length of a line over that of the coordinate along it, at a bend.
+fn stretch(bend: &Bend, net: &[f64]) -> f64 {
+    bend.along.hypot(value(&bend.slope, net)) / bend.along.abs()
+}
+
+/// Length of the coordinate for which the bend `k` stands, from the middle of the gap before it to the middle of that
+/// after it \[m\].
+fn gap(bends: &[Bend], k: usize) -> f64 {
+    let middle = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
+    (middle(k, (k + 1).min(bends.len() - 1)) - middle(k.saturating_sub(1), k)).abs()
+}
+
 /// Length of the part of a line with these bends, from the middle of the gap before it to the middle of the gap after
 /// \[m\].
 fn length(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
-    let end = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
-    let (low, high) = (end(from.saturating_sub(1), from), end(to - 1, to.min(bends.len() - 1)));
-    let slope = |bend: &Bend| bend.along.hypot(value(&bend.slope, net)) / bend.along.abs();
-    let mean = bends[from..to].iter().map(slope).sum::<f64>() / (to - from) as f64;
-    (high - low).abs() * mean
+    let along: f64 = (from..to).map(|k| gap(bends, k)).sum();
+    let mean = bends[from..to].iter().map(|bend| stretch(bend, net)).sum::<f64>() / (to - from) as f64;
+    along * mean
 }
 
 /// Whether each bend lies in a lobe of the signs that departs from its chord by less than `seen` \[m\], or so little more
@@ -371,13 +381,9 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
 /// Greatest distance of a part of a line from its chord \[m\]: with theta the integral of curvature along the line, the
 /// integral of theta less its mean, from the middle of the gap before the part to the middle of the gap after it.
 fn departure(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
-    let speed = |bend: &Bend| bend.along.hypot(value(&bend.slope, net)) / bend.along.abs();
-    let middle = |a: usize, b: usize| 0.5 * (bends[a].at + bends[b].at);
-    // Every bend stands for the line up to the middle of the gaps beside it.
     let (mut s, mut turned, mut off) = (vec![0.0], 0.0, vec![0.0]);
     for k in from..to {
-        let (low, high) = (middle(k.saturating_sub(1), k), middle(k, (k + 1).min(bends.len() - 1)));
-        let step = (high - low).abs() * speed(&bends[k]);
+        let step = gap(bends, k) * stretch(&bends[k], net);
         let bent = bends[k].curvature(net) * step;
         let (last, before) = (off[off.len() - 1], s[s.len() - 1]);
         off.push(last + (turned + 0.5 * bent) * step);

@@ -74,9 +74,23 @@ impl fmt::Display for Failure {
                 let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
                 write!(f, "E601 there already: {}. Use --force to overwrite, or -o for another place", names.join(", "))
             }
-            Self::FileSystem { act, path, error } => write!(f, "E602 cannot {act} {}: {error}", path.display()),
+            Self::FileSystem { act, path, error } => {
+                write!(f, "E602 cannot {act} {}: {error}. {}", path.display(), remedy(error.kind()))
+            }
             Self::Internal(message) => write!(f, "E901 {message}. This is a fault of the program; please report it"),
         }
+    }
+}
+
+/// What helps against a failure of the file system.
+fn remedy(kind: std::io::ErrorKind) -> &'static str {
+    match kind {
+        std::io::ErrorKind::NotFound => "Check the name and the folder",
+        std::io::ErrorKind::PermissionDenied => "Allow it, or name another place",
+        std::io::ErrorKind::IsADirectory => "Name a file in it",
+        std::io::ErrorKind::NotADirectory => "Name another folder, a file has this name",
+        std::io::ErrorKind::StorageFull => "Make room, or name another place",
+        _ => "Check the path, or name another place",
     }
 }
 

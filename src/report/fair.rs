@@ -445,7 +445,13 @@ impl FairOutputs {
         let found = self.outcome.faired.diagnosis.as_ref();
         let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
         let wide = |factor: f64| {
-            let [wide, now] = [factor * typical, typical].map(millimetres);
+            // Upward: with less it would not do.
+            let factor = (1e3 * factor).ceil() / 1e3;
+            let mut shown = [factor * typical, typical].map(millimetres);
+            if shown[0] == shown[1] {
+                shown = [factor * typical, typical].map(|length| format!("{:.3}", 1e3 * length));
+            }
+            let [wide, now] = shown;
             format!("{factor:.3} times as wide ({wide} mm where it is widest now {now} mm)")
         };
         let least = found.map(|found| match found.widening {
@@ -528,7 +534,7 @@ impl FairOutputs {
             Status::Unbounded | Status::Limit => (
                 "E402",
                 "the solver stopped before the optimum was proved; what was written is its best point",
-                "Look at the certificate in fairing.json".to_owned(),
+                "Widen the tolerances, wish for less, or leave the signs of curvature alone (signs.impose = false); the residuals are in fairing.json".to_owned(),
             ),
         };
         Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))

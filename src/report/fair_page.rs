@@ -2,6 +2,7 @@
 
 use super::fair::{FairJob, FairOutputs};
 use super::page::{WIDTH, fixed, fixed_sign, wrapped};
+use super::verdict::more_than;
 use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::held::Held;
@@ -214,11 +215,8 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
 fn more_than_asked(outputs: &FairOutputs) -> String {
     let kinds = outputs.certificate["inflections"].as_object().into_iter().flatten();
     let lines = kinds.flat_map(|(_, lines)| lines.as_array().into_iter().flatten());
-    let more = |line: &serde_json::Value, than: &str| {
-        line[than].as_u64().is_some_and(|most| line["after"].as_u64().is_some_and(|after| after > most))
-    };
-    let lines: Vec<_> = lines.filter(|line| more(line, "asked")).collect();
-    let worse = lines.iter().filter(|line| more(line, "before")).count();
+    let lines: Vec<_> = lines.filter(|line| more_than(line, "asked").is_some()).collect();
+    let worse = lines.iter().filter(|line| more_than(line, "before").is_some()).count();
     match lines.len() {
         0 => String::new(),
         n => wrapped(

@@ -286,7 +286,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
                 _ => "nothing".to_owned(),
             };
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
-                (Some(price), _) => format!("{price:.2}"),
+                (Some(price), _) => fixed(price, 2),
                 (None, Some(Some(dear))) => format!("over {dear:.1}"),
                 (None, Some(None)) => "not to be had".to_owned(),
                 (None, None) => String::new(),

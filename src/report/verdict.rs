@@ -125,12 +125,19 @@ fn settings(result: &JobResult, record: &FairRecord, fairing: &Value) -> String 
     )
 }
 
+/// How often a line of `fairing.json` bends after, and the number that it is compared with (`before`, `asked`), where
+/// it bends more often than that.
+pub(super) fn more_than(line: &Value, than: &str) -> Option<[u64; 2]> {
+    let (after, most) = line["after"].as_u64().zip(line[than].as_u64())?;
+    (after > most).then_some([after, most])
+}
+
 /// The lines that bend more often after fairing than `than` says, with the numbers of their inflections.
 fn more_often(fairing: &Value, than: &str) -> Vec<String> {
     let one = |key: &str, line: &Value| {
-        let (after, most) = line["after"].as_u64().zip(line[than].as_u64())?;
+        let [after, most] = more_than(line, than)?;
         let at = fixed(line["at"].as_f64()?, 3);
-        (after > most).then(|| format!("{} {at} m ({after} for {most})", key.trim_end_matches('s')))
+        Some(format!("{} {at} m ({after} for {most})", key.trim_end_matches('s')))
     };
     KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]).filter_map(move |line| one(key, line))).collect()
 }
