@@ -215,6 +215,11 @@ impl<'a> Cells<'a> {
         Self { surface, spans: [Spans::new(surface.u()), Spans::new(surface.v())] }
     }
 
+    /// The surface.
+    pub(super) fn surface(&self) -> &'a BsplineSurface<3> {
+        self.surface
+    }
+
     /// How many cells there are along the ship and up.
     pub(super) fn count(&self) -> [usize; 2] {
         [0, 1].map(|k: usize| self.spans[k].lengths.len())

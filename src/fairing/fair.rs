@@ -82,6 +82,8 @@ pub struct FairSettings {
     pub released: Vec<(Line, f64)>,
     /// The least departure of a lobe from its chord that counts \[m\].
     pub seen: f64,
+    /// Whether half-breadths may be outside 0 to B/2 as far as those of the surface through the table are.
+    pub admits: bool,
     /// Whether the energy is that of true curvature, by refreshing the metric.
     pub true_curvature: bool,
     /// Whether the bending energy of the surface takes the place of the energy at last; what else is charged (straight
@@ -300,7 +302,7 @@ pub fn fair_prepared(
         ..Wishes::default()
     };
     // The surface through the table swings past B/2 between offsets that stay: so does any other through them.
-    if !surface.own && surface.places.iter().any(|place| place.locked) {
+    if !surface.own && (settings.admits || surface.places.iter().any(|place| place.locked)) {
         admit(&mut wishes.breadths, &surface.start);
     }
     let forms = sign_forms(surface);

@@ -25,6 +25,7 @@ use super::start::Started;
 use super::surface::{EnergySettings, FairSurface, Origin};
 use super::suspects::Suspect;
 use super::told::{Watched, changes, written};
+pub use super::unbroken::RunsOn;
 use crate::hull::{Cut, FitError, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
 use crate::qp::{RepeatedSolver, Settings, Status};
@@ -106,9 +107,9 @@ pub struct Job {
     /// Whether the flat of side that the table shows is kept where no rule says what is flat; not on a net of its own,
     /// which keeps straight parts straight.
     pub keep_flat: bool,
-    /// Whether the curvature goes on not to jump where that of the surface through the table does not, though the net would
+    /// Where the curvature goes on not to jump where that of the surface through the table does not, though the net would
     /// let it.
-    pub runs_on: bool,
+    pub runs_on: RunsOn,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
@@ -139,7 +140,7 @@ impl Default for Job {
             holding: Holding::Table,
             rules: Vec::new(),
             keep_flat: true,
-            runs_on: true,
+            runs_on: RunsOn::Everywhere,
             accepted: Accepted::None,
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
@@ -365,6 +366,31 @@ impl Job {
     /// `another`, over its scale, is one smooth move.
     fn run_with_flat(&self, table: &OffsetTable, another: f64) -> Result<Outcome, JobError> {
         let mut outcome = self.run_on(table, true, another)?;
+        // Curvature that must run on where the flat of side, or what is wished, takes all the room there is bends lines more often and
+        // rises the energy.
+        let worse = |outcome: &Outcome| {
+            let energy = (outcome.energy[1] / outcome.energy[0]).max(1.0);
+            (outcome.status == Status::Limit, excess(&outcome.turns), energy)
+        };
+        for (runs_on, where_) in
+            [(RunsOn::ButFlats, "beside the flat of side"), (RunsOn::Nowhere, "across lines of the net")]
+        {
+            let hindered = worse(&outcome) > (false, 0, 1.0) && outcome.status != Status::Infeasible;
+            if self.runs_on != RunsOn::Everywhere || outcome.own || !hindered {
+                break;
+            }
+            let mut other = Self { runs_on, ..self.clone() }.run_on(table, false, another)?;
+            if worse(&other) < worse(&outcome) {
+                other.notes.insert(
+                    0,
+                    format!(
+                        "{where_} the curvature may jump where that of the surface through the table does not: else lines \
+                         bend more often, the energy rises or nothing is proved"
+                    ),
+                );
+                outcome = other;
+            }
+        }
         // What a net of its own cannot have, that of the fit may, which meets every offset.
         if outcome.own && outcome.status != Status::Optimal {
             let mut other = self.run_on(table, false, another)?;
@@ -380,19 +406,6 @@ impl Job {
                         .to_owned(),
                 );
                 outcome = other;
-            }
-        }
-        // What takes all the room that the tolerances leave may have to break.
-        if self.runs_on && outcome.jump.is_some() && outcome.status == Status::Limit {
-            let mut other = Self { runs_on: false, ..self.clone() }.run_with_flat(table, another)?;
-            if other.status != Status::Limit {
-                other.notes.insert(
-                    0,
-                    "the curvature may jump across lines of the net where that of the surface through the table does not: else \
-                     nothing was proved to be the optimum"
-                        .to_owned(),
-                );
-                return Ok(other);
             }
         }
         // A net of its own that bends more often than the surface through the table, and more, does not follow it after
@@ -494,6 +507,8 @@ impl Job {
         // A net of its own is searched without them.
         let left = (!surface.own).then(|| left_by_differences(table, &excluded)).flatten();
         let differences = left.map(|left| Differences { left, noise: found.noise });
+        let readings = surface.model.readings.iter().map(|reading| reading.value);
+        let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
         let mut settings = FairSettings {
             others: constraints.iter().map(|c| c.missed(c.value(&before), &before) > another).collect(),
             constraints,
@@ -517,6 +532,8 @@ impl Job {
             oblique: Vec::new(),
             released: Vec::new(),
             seen: quantum,
+            // Tolerances that are less than that leave no room to do better.
+            admits: self.tolerance.table.is_some_and(|named| excess_of_breadth(before.surface(), greatest) > named),
             solver: self.solver.clone(),
         };
         let mut prepared = match search {
@@ -658,8 +675,6 @@ impl Job {
                 surface.order
             ));
         }
-        let readings = surface.model.readings.iter().map(|reading| reading.value);
-        let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
         let beyond = [&before, &after].map(|hull| excess_of_breadth(hull.surface(), greatest));
         if beyond[1] > quantum.max(BREADTH * greatest) {
             notes.push(format!(

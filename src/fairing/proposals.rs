@@ -11,7 +11,7 @@ use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
 use super::surface::{EnergySettings, FairSurface, energy as plain_energy};
-use super::unbroken::{AT_KNOT, Breaks, runs_on};
+use super::unbroken::{AT_KNOT, Breaks, Tangent, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
 use crate::spline::KnotVector;
 
@@ -120,7 +120,8 @@ pub(super) fn add_tangents<'a>(hull: &Hull, lines: impl Iterator<Item = &'a Prop
     for line in lines.filter(|line| line.kind == LineKind::Tangent) {
         let (from, to) = knots(hull, line.course).domain();
         let way = usize::from(line.course == LineCourse::Waterline);
-        breaks.tangents[way].extend(parameter(hull, line).map(|t| (t - from) / (to - from)));
+        let tangent = |t: f64| Tangent { at: (t - from) / (to - from), reach: line.reach };
+        breaks.tangents[way].extend(parameter(hull, line).map(tangent));
     }
 }
 

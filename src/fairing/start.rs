@@ -11,7 +11,7 @@ use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
-use super::unbroken::Breaks;
+use super::unbroken::{Breaks, Tangent};
 use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
 
@@ -196,7 +196,7 @@ impl Modelled {
         let found = list.len();
         list.extend(&told);
         let mut breaks = declared_breaks(charted, before, &table.excluded);
-        breaks.anywhere = !job.runs_on;
+        breaks.runs_on = job.runs_on;
         let mut proposals = proposals(clean, before, &list, job.energy, noise, (&job.accepted, &breaks))?;
         for proposal in proposals.iter_mut().skip(found) {
             let ProposedLine { course, kind, at, .. } = proposal.line;
@@ -311,9 +311,13 @@ fn declared_breaks(table: &OffsetTable, hull: &Hull, left_out: &[Cell]) -> Break
     let (from, to) = hull.surface().v().domain();
     let mut breaks = Breaks::default();
     for line in table.lines.iter().filter(|line| line.kind == hull::LineKind::Tangent) {
-        let middle = line.points.get(line.points.len() / 2);
-        let at = middle.and_then(|point| hull.parameters(point[0], point[2]));
-        breaks.tangents[1].extend(at.map(|[_, v]| (v - from) / (to - from)));
+        let [Some(first), Some(middle), Some(last)] =
+            [0, line.points.len() / 2, line.points.len().saturating_sub(1)].map(|point| line.points.get(point))
+        else {
+            continue;
+        };
+        let tangent = |[_, v]: [f64; 2]| Tangent { at: (v - from) / (to - from), reach: [first[0], last[0]] };
+        breaks.tangents[1].extend(hull.parameters(middle[0], middle[2]).map(tangent));
     }
     if let Some(Rule::FlatShown { rectangles, .. }) = shown_flat(table, left_out) {
         breaks.flats = rectangles;

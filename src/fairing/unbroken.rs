@@ -12,14 +12,15 @@
 //! ```
 //!
 //! is asked for beside the offsets whatever the smoothing is, [`STIFF`] times one reading: there is nothing to be
-//! smoothed there. Lines that are declared may break, and so may those beside a flat of side: where a bilge runs into it
-//! with continuous curvature, 0 <= y <= B/2 and the offsets leave none (a tanker: energy 4.6 times that of the fit).
+//! smoothed there. Lines that are declared may break. So may those beside a flat of side, and in the end all of them, where
+//! else lines bend more often, or the energy rises (`job.rs`): where a bilge runs into a flat with continuous curvature,
+//! 0 <= y <= B/2 and the offsets may leave none (a tanker: energy 4.6 times that of the fit).
 //! (Charged in the energy instead, its weight is shared with all that bends: of jumps with 0.036 1/m
 //! of root mean square at a waterline of the Series 60 0.043 was left, with a charge of 1e3 0.010, and the weight that is
 //! searched for goes with the charge.)
 
 use super::breaks::STIFF;
-use super::cells::{Cells, Crossing, Row, add_square};
+use super::cells::{Cells, Crossing, Jump, Row, add_square};
 use super::metric::{Jumped, Metric};
 use crate::numeric::SymmetricBand;
 use crate::spline::BsplineSurface;
@@ -33,18 +34,48 @@ pub(super) const AT_KNOT: f64 = 1e-6;
 /// Slack of the region of a flat \[m\].
 const SLACK: f64 = 1e-6;
 
+/// Where the curvature of a fair hull runs on as that of the surface through the table does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RunsOn {
+    /// Everywhere but at lines that are declared.
+    #[default]
+    Everywhere,
+    /// And not beside the flat of side that the table shows.
+    ButFlats,
+    /// Nowhere: jumps are charged only.
+    Nowhere,
+}
+
+/// A line along which curvature may jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tangent {
+    /// Its parameter, of the domain.
+    pub(super) at: f64,
+    /// From and to in x along the ship, in z up a station \[m\].
+    pub(super) reach: [f64; 2],
+}
+
 /// Where curvature may jump though a fit runs on there.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Breaks {
-    /// Lines that are declared or taken: parameters u and v, of their domains.
-    pub(super) tangents: [Vec<f64>; 2],
+    /// Lines that are declared or taken: v = constant second, u = constant first.
+    pub(super) tangents: [Vec<Tangent>; 2],
     /// Flats of side that the table shows: from and to in x and in z \[m\].
     pub(super) flats: Vec<[[f64; 2]; 2]>,
-    /// Everywhere.
-    pub(super) anywhere: bool,
+    /// Elsewhere.
+    pub(super) runs_on: RunsOn,
 }
 
 impl Breaks {
+    /// Whether a declared line runs along a span of a line of the net, by its points.
+    fn declared(&self, way: usize, at: f64, points: &[[f64; 3]; 6]) -> bool {
+        let axis = if way == 1 { 0 } else { 2 };
+        let ends = [points[2][axis], points[3][axis]];
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let along = |line: &Tangent| line.reach[1].min(high) - line.reach[0].max(low) > SLACK;
+        self.tangents[way].iter().any(|line| (line.at - at).abs() <= AT_KNOT && along(line))
+    }
+
     /// Whether any of these points lies in a flat.
     fn flat(&self, points: &[[f64; 3]]) -> bool {
         let within = |[from, to]: [f64; 2], value: f64| (from - SLACK..=to + SLACK).contains(&value);
@@ -62,33 +93,45 @@ pub(super) fn runs_on(surface: &BsplineSurface<3>, way: usize, at: f64) -> bool 
     lines.any(|(jump, spans)| (jump.at - at).abs() <= AT_KNOT && spans.contains(&true))
 }
 
-/// Which spans of the lines of a net are unbroken: along the ship and up, by line and span.
+/// Spans of the lines of a net: along the ship and up, by line and span.
+type Spans = [Vec<Vec<bool>>; 2];
+
+/// Which spans of the lines of a net are unbroken.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Unbroken {
-    spans: [Vec<Vec<bool>>; 2],
+    /// Those that stay so.
+    spans: Spans,
+    /// Those that are, whether they stay so or not, but for lines that are declared.
+    own: Spans,
 }
 
 impl Unbroken {
     /// The spans across which a surface has no jump of curvature, but for where it may have one.
-    pub(super) fn new(cells: &Cells<'_>, metric: &Metric, may_break: &Breaks) -> Self {
+    pub(super) fn new(cells: &Cells<'_>, metric: &Metric, breaks: &Breaks) -> Self {
         let nil = NIL * cells.greatest_half_breadth();
-        let spans = [0, 1].map(|way: usize| {
-            let lines = cells.jumps(way).iter().map(|jump| {
-                let declared =
-                    may_break.anywhere || may_break.tangents[way].iter().any(|at| (at - jump.at).abs() <= AT_KNOT);
-                let departs = |e: usize| {
-                    let crossings = cells.crossings(way, jump, e);
-                    crossings.filter_map(|at| {
-                        metric.jumped(way, &at).map(|jumped| (jumped.departure(&at) * at.value(jumped.factors)).abs())
-                    })
-                };
-                let beside_flat = |e: usize| may_break.flat(&cells.corners(way, jump, e));
-                let unbroken = |e: usize| !declared && departs(e).all(|departs| departs <= nil) && !beside_flat(e);
-                (0..cells.count()[1 - way]).map(unbroken).collect()
-            });
-            lines.collect()
-        });
-        Self { spans }
+        let spans = |held: &dyn Fn(usize, &Jump, usize) -> bool| {
+            [0, 1].map(|way: usize| {
+                let spans = |jump: &Jump| (0..cells.count()[1 - way]).map(|e| held(way, jump, e)).collect();
+                cells.jumps(way).iter().map(spans).collect()
+            })
+        };
+        let runs_on = |metric: &Metric, way: usize, jump: &Jump, e: usize| {
+            let departs = |at: Crossing<'_>| {
+                metric.jumped(way, &at).map(|jumped| (jumped.departure(&at) * at.value(jumped.factors)).abs())
+            };
+            !breaks.declared(way, jump.at, &cells.corners(way, jump, e))
+                && cells.crossings(way, jump, e).filter_map(departs).all(|departs| departs <= nil)
+        };
+        let stays = |way: usize, jump: &Jump, e: usize| match breaks.runs_on {
+            RunsOn::Nowhere => false,
+            RunsOn::ButFlats => !breaks.flat(&cells.corners(way, jump, e)),
+            RunsOn::Everywhere => true,
+        };
+        let exact = Metric::new(cells.surface(), 3, 1.0);
+        Self {
+            spans: spans(&|way, jump, e| stays(way, jump, e) && runs_on(metric, way, jump, e)),
+            own: spans(&|way, jump, e| runs_on(&exact, way, jump, e)),
+        }
     }
 
     /// Whether span e of a line is unbroken.
@@ -99,7 +142,7 @@ impl Unbroken {
     /// S; none where nothing is unbroken.
     pub(super) fn form(&self, cells: &Cells<'_>, metric: &Metric) -> Option<SymmetricBand> {
         let (mut form, mut row) = (cells.zeros(), Row::new());
-        self.each(cells, metric, |at, jumped| {
+        each(&self.spans, cells, metric, |at, jumped| {
             at.form(jumped.factors, &mut row);
             add_square(&mut form, at.weight * jumped.departure(at).powi(2), &row);
         });
@@ -107,23 +150,25 @@ impl Unbroken {
         (trace > 0.0).then(|| cells.zeros().plus(STIFF / trace, &form))
     }
 
-    /// The greatest jump of curvature of a surface on the same net where it is unbroken \[1/m\]; none where nothing is.
+    /// The greatest jump of curvature of a surface on the same net where the start has none, whether it stays so or not, and
+    /// no line is declared \[1/m\]; none where there is no such place.
     pub(super) fn greatest(&self, surface: &BsplineSurface<3>) -> Option<f64> {
         let mut most = None;
-        self.each(&Cells::new(surface), &Metric::new(surface, 3, 1.0), |at, jumped| {
+        each(&self.own, &Cells::new(surface), &Metric::new(surface, 3, 1.0), |at, jumped| {
             most = Some(at.value(jumped.factors).abs().max(most.unwrap_or(0.0)));
         });
         most
     }
+}
 
-    fn each(&self, cells: &Cells<'_>, metric: &Metric, mut each: impl FnMut(&Crossing<'_>, &Jumped)) {
-        for (way, lines) in self.spans.iter().enumerate() {
-            for (jump, spans) in cells.jumps(way).iter().zip(lines) {
-                for e in (0..spans.len()).filter(|&e| spans[e]) {
-                    for at in cells.crossings(way, jump, e) {
-                        if let Some(jumped) = metric.jumped(way, &at) {
-                            each(&at, &jumped);
-                        }
+/// Every node of these spans with what jumps there.
+fn each(spans: &Spans, cells: &Cells<'_>, metric: &Metric, mut each: impl FnMut(&Crossing<'_>, &Jumped)) {
+    for (way, lines) in spans.iter().enumerate() {
+        for (jump, spans) in cells.jumps(way).iter().zip(lines) {
+            for e in (0..spans.len()).filter(|&e| spans[e]) {
+                for at in cells.crossings(way, jump, e) {
+                    if let Some(jumped) = metric.jumped(way, &at) {
+                        each(&at, &jumped);
                     }
                 }
             }
@@ -189,12 +234,15 @@ mod tests {
     #[test]
     fn declared_lines_and_flats_may_break() {
         let smooth = surface(cube);
-        let line = Breaks { tangents: [vec![], vec![0.5]], ..Breaks::default() };
-        assert!(form(&unbroken(&smooth, &line), &smooth).is_none());
+        let along =
+            |reach: [f64; 2]| Breaks { tangents: [vec![], vec![Tangent { at: 0.5, reach }]], ..Breaks::default() };
+        assert!(form(&unbroken(&smooth, &along([0.0, 100.0])), &smooth).is_none());
+        assert_eq!(unbroken(&smooth, &along([30.0, 50.0])).spans[1], vec![vec![true, false, true, true]]);
         // Beside the span from v = 1 to 1.5, z = 5 to 7.5 m, of the first quarter of the length.
-        let flat = Breaks { flats: vec![[[0.0, 20.0], [7.0, 10.0]]], ..Breaks::default() };
+        let beside = |flat| Breaks { flats: vec![flat], runs_on: RunsOn::ButFlats, ..Breaks::default() };
+        let flat = beside([[0.0, 20.0], [7.0, 10.0]]);
         assert_eq!(unbroken(&smooth, &flat).spans[1], vec![vec![false, true, true, true]]);
-        let far = Breaks { flats: vec![[[0.0, 20.0], [8.0, 10.0]]], ..Breaks::default() };
+        let far = beside([[0.0, 20.0], [8.0, 10.0]]);
         assert_eq!(unbroken(&smooth, &far).spans[1], vec![vec![true; 4]]);
     }
 }

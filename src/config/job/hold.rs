@@ -238,6 +238,9 @@ fn band(document: &mut Document<'_>) -> f64 {
     value.max(0.0)
 }
 
+/// A section this near to midship, over L_PP, is the midship section.
+const AMIDSHIPS: f64 = 1e-6;
+
 /// The constraints; what is said stands over the default. The table's own areas are held at `places` \[m\] within the
 /// band \[m^2\].
 pub(super) fn holding(
@@ -247,7 +250,13 @@ pub(super) fn holding(
     [length, density, gravity]: [f64; 3],
 ) -> Holding {
     let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
-    let silent = |quantity: &Quantity| !said(*quantity) && !quantity.twin().is_some_and(said);
+    // The area of the midship section says the midship coefficient.
+    let midship = areas.iter().any(|([x, ..], _)| (x - 0.5 * length).abs() <= AMIDSHIPS * length);
+    let silent = |quantity: &Quantity| {
+        !said(*quantity)
+            && !quantity.twin().is_some_and(said)
+            && !(midship && *quantity == Quantity::MidshipCoefficient)
+    };
     let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
     let mut given = Vec::new();
     for &(quantity, wish) in hold {
