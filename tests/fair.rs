@@ -429,6 +429,27 @@ fn the_least_tolerances_for_a_section_area_are_found() {
     assert_eq!([run(0.01 * widening * 1.002).0, run(0.01 * widening * 0.99).0], [Some(0), Some(4)]);
 }
 
+/// A tolerance that is less than what the surface through the table passes B/2 by between offsets leaves no room to do better:
+/// it may stay there, and no line bends more often for it.
+#[test]
+fn tolerances_below_the_swings_of_the_start_harm_nothing() {
+    let out = folder("tight").join("out");
+    let (table, to) = (carried(TABLE).display().to_string(), out.display().to_string());
+    let output = program(&["fair", &table, "--tolerance", "0.5 mm", "-o", &to, "--no-figures"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    for kind in ["stations", "waterlines", "buttocks", "diagonals"] {
+        for line in certificate["inflections"][kind].as_array().unwrap() {
+            assert!(line["after"].as_u64() <= line["before"].as_u64(), "{kind} {line}");
+        }
+    }
+    let [before, after] = ["before", "after"].map(|side| certificate["energy"][side].as_f64().unwrap());
+    assert!(after <= before, "{after} {before}");
+    let beyond: Vec<f64> =
+        certificate["beyond_half_breadth"].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
+    assert!(beyond[0] > 5e-4 && beyond[1] <= beyond[0] + 1e-6, "{beyond:?}");
+}
+
 /// The whole sectional-area curve: the table's own within a band, or from a file beside the job.
 #[test]
 fn a_sectional_area_curve_is_held() {
@@ -474,6 +495,10 @@ fn a_sectional_area_curve_is_held() {
     fs::write(folder.join("areas.csv"), "x,area\n20,54.8\n30,x\n").unwrap();
     let (code, said, _) = run("section_areas = \"areas.csv\"");
     assert!(code == Some(3) && said.contains("E340") && said.contains("areas.csv:3"), "{code:?} {said}");
+    // The area of the midship section says the midship coefficient.
+    let (code, said, page) = run("section_areas = [[60.96, 108.10, 0.02]]");
+    assert!(code == Some(0) && page.contains("section area at x = 60.960 m: 108.238 -> 108.120 m2"), "{said} {page}");
+    assert!(certificate()["constraints"].as_array().unwrap().iter().all(|c| c["kind"] != "midship_coefficient"));
     let (code, said, _) = run("section_areas = \"nowhere.csv\"");
     assert!(code == Some(6) && said.contains("nowhere.csv"), "{code:?} {said}");
     let (code, said, _) = run("section_areas = \"table\"\nsection_area_band = -1");

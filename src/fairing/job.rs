@@ -366,25 +366,30 @@ impl Job {
     /// `another`, over its scale, is one smooth move.
     fn run_with_flat(&self, table: &OffsetTable, another: f64) -> Result<Outcome, JobError> {
         let mut outcome = self.run_on(table, true, another)?;
-        // Curvature that must run on where the flat of side, or what is wished, takes all the room there is bends lines more often and
-        // rises the energy.
+        // Where the flat of side, or what is wished, takes all the room there is, curvature that must run on bends lines more
+        // often and raises the energy.
         let worse = |outcome: &Outcome| {
             let energy = (outcome.energy[1] / outcome.energy[0]).max(1.0);
             (outcome.status == Status::Limit, excess(&outcome.turns), energy)
         };
-        for (runs_on, where_) in
-            [(RunsOn::ButFlats, "beside the flat of side"), (RunsOn::Nowhere, "across lines of the net")]
-        {
-            let hindered = worse(&outcome) > (false, 0, 1.0) && outcome.status != Status::Infeasible;
-            if self.runs_on != RunsOn::Everywhere || outcome.own || !hindered {
+        let flat = outcome.rules.iter().any(|rule| matches!(rule.rule, Rule::FlatShown { .. }));
+        let tries = match self.runs_on {
+            RunsOn::Everywhere if outcome.own || outcome.status == Status::Infeasible => &[][..],
+            RunsOn::Everywhere if flat && outcome.status != Status::Limit => &[RunsOn::ButFlats, RunsOn::Nowhere],
+            RunsOn::Everywhere => &[RunsOn::Nowhere],
+            _ => &[],
+        };
+        for &runs_on in tries {
+            if worse(&outcome) <= (false, 0, 1.0) {
                 break;
             }
+            let place = if runs_on == RunsOn::ButFlats { "beside the flat of side" } else { "across lines of the net" };
             let mut other = Self { runs_on, ..self.clone() }.run_on(table, false, another)?;
             if worse(&other) < worse(&outcome) {
                 other.notes.insert(
                     0,
                     format!(
-                        "{where_} the curvature may jump where that of the surface through the table does not: else lines \
+                        "{place} the curvature may jump where that of the surface through the table does not: else lines \
                          bend more often, the energy rises or nothing is proved"
                     ),
                 );
