@@ -84,6 +84,8 @@ pub struct FairingFile {
     pub errors: f64,
     /// Rows of `changes.csv`, where it is known.
     pub offsets: Option<usize>,
+    /// Offsets that are smoothed, where it is known.
+    pub readings: Option<usize>,
     /// Effective degrees of freedom.
     pub edf: f64,
     /// The net at the weight that was taken.
@@ -196,6 +198,7 @@ struct Noise {
 #[derive(Deserialize)]
 struct Smoothing {
     weight: f64,
+    readings: Option<usize>,
     edf: f64,
     rms: f64,
     energy: f64,
@@ -273,6 +276,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
         sigma: record.noise.sigma,
         errors: record.noise.errors.unwrap_or(record.noise.sigma),
         offsets: record.moves.offsets,
+        readings: smoothing.readings,
         edf: smoothing.edf,
         chosen: Trial {
             lambda: smoothing.weight,

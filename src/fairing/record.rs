@@ -122,6 +122,8 @@ pub struct FairRecord {
     pub sigma: f64,
     /// What a search for the smoothing weight takes of it for errors \[m\].
     pub errors: f64,
+    /// Offsets that are smoothed.
+    pub readings: usize,
     /// Smoothing weight.
     pub lambda: f64,
     /// Effective degrees of freedom of the smoothed net.
@@ -250,6 +252,7 @@ impl FairRecord {
             energy: outcome.energy,
             sigma: faired.sigma,
             errors: faired.errors,
+            readings: faired.smoother.count(),
             lambda: faired.lambda,
             edf: faired.edf,
             chosen: faired.chosen,

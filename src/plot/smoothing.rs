@@ -29,7 +29,7 @@ fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
 /// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that
 /// was taken is the best of neither.
 fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
-    let count = record.changes.iter().filter(|change| !change.suspect).count() as f64;
+    let count = record.readings as f64;
     let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.errors * record.errors * trial.edf;
     let shown = |name, of: &dyn Fn(&Trial) -> f64| {
         let least =

@@ -191,6 +191,7 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
                 energy,
                 sigma,
                 errors,
+                readings,
                 offsets,
                 edf,
                 chosen,
@@ -212,6 +213,8 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
             }
             let after = hull.clone();
             let lambda = chosen.lambda;
+            // An older certificate does not say: those that are no suspects.
+            let readings = readings.unwrap_or_else(|| moved.iter().filter(|change| !change.suspect).count());
             let record = FairRecord {
                 name,
                 status,
@@ -224,6 +227,7 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
                 energy,
                 sigma,
                 errors,
+                readings,
                 lambda,
                 edf,
                 chosen,
