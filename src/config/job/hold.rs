@@ -253,9 +253,8 @@ pub(super) fn holding(
     // The area of the midship section says the midship coefficient.
     let midship = areas.iter().any(|([x, ..], _)| (x - 0.5 * length).abs() <= AMIDSHIPS * length);
     let silent = |quantity: &Quantity| {
-        !said(*quantity)
-            && !quantity.twin().is_some_and(said)
-            && !(midship && *quantity == Quantity::MidshipCoefficient)
+        let by_area = midship && *quantity == Quantity::MidshipCoefficient;
+        !(by_area || said(*quantity) || quantity.twin().is_some_and(said))
     };
     let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
     let mut given = Vec::new();
