@@ -51,6 +51,9 @@ const ALARM: f64 = 3.0;
 /// Area of a section over B T below which it is none.
 const EMPTY: f64 = 1e-9;
 
+/// Inflections elsewhere that one more than before on a line is worth.
+const WORSE: usize = 4;
+
 /// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
 const BREADTH: f64 = 1e-6;
 
@@ -372,7 +375,7 @@ impl Job {
             let energy = (outcome.energy[1] / outcome.energy[0]).max(1.0);
             (outcome.status == Status::Limit, excess(&outcome.turns), energy)
         };
-        let flat = outcome.rules.iter().any(|rule| matches!(rule.rule, Rule::FlatShown { .. }));
+        let flat = shown_flat(table, &[]).is_some();
         let tries = match self.runs_on {
             RunsOn::Everywhere if outcome.own || outcome.status == Status::Infeasible => &[][..],
             RunsOn::Everywhere if flat && outcome.status != Status::Limit => &[RunsOn::ButFlats, RunsOn::Nowhere],
@@ -439,7 +442,9 @@ impl Job {
                     |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
                 let nearer = (missed(&other) < missed(&outcome) || told(&other) && !told(&outcome))
                     && excess(&other.turns) <= excess(&outcome.turns);
-                let fairer = excess(&other.turns) < excess(&outcome.turns) && all(&other) <= all(&outcome);
+                // One inflection more than before is as bad as so many elsewhere.
+                let counted = |outcome: &Outcome| all(outcome) + WORSE * excess(&outcome.turns);
+                let fairer = excess(&other.turns) < excess(&outcome.turns) && counted(&other) <= counted(&outcome);
                 if better || other.status == outcome.status && (fairer || nearer) {
                     other.notes.insert(
                         0,
