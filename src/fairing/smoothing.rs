@@ -134,7 +134,8 @@ impl Smoother {
 
     fn weighted(reduced: Reduced, weights: Vec<f64>) -> Self {
         let n = reduced.free.len();
-        let mut width = reduced.energy.width();
+        let straight = reduced.straight.as_ref().map_or(0, SymmetricBand::width);
+        let mut width = reduced.energy.width().max(straight);
         for k in 0..reduced.data.row_count() {
             let columns = reduced.data.row(k).0;
             if let (Some(first), Some(last)) = (columns.first(), columns.last()) {
