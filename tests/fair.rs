@@ -239,7 +239,7 @@ fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
     let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
     outputs.verdict().unwrap();
     let outcome = &outputs.outcome;
-    let turns = |of: fn(&loftsman::fairing::job::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
+    let turns = |of: fn(&loftsman::fairing::outcome::Turns) -> usize| outcome.turns.iter().map(of).sum::<usize>();
     let (before, after) = (turns(|turns| turns.before), turns(|turns| turns.after));
     // 305 inflections and 8.5 times the energy where the readings stay where they are.
     assert!(after < before, "{before} > {after}");

@@ -2,7 +2,8 @@
 
 use loftsman::fairing::bends::Line;
 use loftsman::fairing::constraint::{FixedLine, Rule};
-use loftsman::fairing::job::{Job, Outcome, Tolerance};
+use loftsman::fairing::job::{Job, Tolerance};
+use loftsman::fairing::outcome::Outcome;
 use loftsman::hull::{Cell, Entry, OffsetTable, StatedParticulars, StationOffsets};
 use loftsman::qp::Status;
 

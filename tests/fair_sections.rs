@@ -7,7 +7,8 @@ mod random;
 use std::fmt::Write;
 
 use loftsman::exchange::read_table;
-use loftsman::fairing::job::{Job, Outcome};
+use loftsman::fairing::job::Job;
+use loftsman::fairing::outcome::Outcome;
 use loftsman::hull::Cut;
 use loftsman::qp::Status;
 use random::Random;

@@ -6,7 +6,7 @@ use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::inspect::PolygonSigns;
-use crate::fairing::job::{Change, Outcome};
+use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::program::RowName;
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::TableLines;

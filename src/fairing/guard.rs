@@ -12,7 +12,7 @@
 //!    theirs. Tried instead: a part for each place and not for each line (a stern trawler 501 > 451 for 443
 //!    inflections, moves half as large again).
 //!
-//! A job that is done again for lines that bend more often (`job.rs`) does not ask those again that it let go before.
+//! A job that is done again for lines that bend more often (`repeated.rs`) does not ask those again that it let go before.
 //!
 //! What a line may cost: the price of one inflection, which is about the 99.9 % point of chi-square with one degree of
 //! freedom, times that point with a degree of freedom for each inflection that would go, over that with one; where a part of

@@ -17,9 +17,9 @@
 use super::bends::{Bend, Line, asked, lobes};
 use super::choice::{charges, trial, worth_it};
 use super::fair::{FairError, FairSettings, Faired};
-use super::job::Turns;
 use super::least::TableLine;
 use super::model::Limit;
+use super::outcome::Turns;
 use super::repeated::{Attempt, excess};
 use super::surface::FairSurface;
 use super::told::Counted;

@@ -28,6 +28,7 @@ pub mod metric;
 pub mod model;
 pub mod noise;
 pub mod oblique;
+pub mod outcome;
 pub mod pattern;
 pub mod program;
 pub mod proposals;
@@ -37,12 +38,14 @@ pub mod relinearise;
 mod repeated;
 mod robust;
 mod rules;
+mod run;
 pub mod smoothing;
 mod start;
 pub mod surface;
 mod suspects;
 mod told;
 mod unbroken;
+mod ways;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use suspects::{

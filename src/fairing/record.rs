@@ -3,8 +3,8 @@
 
 use super::constraint::Constraint;
 use super::held::Held;
-use super::job::{Change, Outcome};
 use super::lines::{self as proposed, LineCourse};
+use super::outcome::{Change, Outcome};
 use super::smoothing::Trial;
 use super::suspects::Suspect;
 use crate::hull::{Hull, LineKind, OffsetStation, OffsetTable};

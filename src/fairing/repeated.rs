@@ -3,8 +3,9 @@
 
 use super::bends::Line;
 use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
-use super::job::{JobError, Turns};
+use super::job::JobError;
 use super::oblique::oblique_limits;
+use super::outcome::Turns;
 use super::surface::FairSurface;
 use super::told::Counted;
 use crate::hull::{Cut, Hull};

@@ -1,7 +1,7 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
 use super::inspect::{Planes, Traced};
-use super::job::{Change, Turns};
+use super::outcome::{Change, Turns};
 use super::surface::{FairSurface, Origin};
 use crate::hull::{Cut, Entry, Hull, OffsetTable, default_waterlines};
 

@@ -13,7 +13,7 @@
 //!
 //! is asked for beside the offsets whatever the smoothing is, [`STIFF`] times one reading: there is nothing to be
 //! smoothed there. Lines that are declared may break. So may those beside a flat of side, and in the end all of them, where
-//! else lines bend more often, or the energy rises (`job.rs`): where a bilge runs into a flat with continuous curvature,
+//! else lines bend more often, or the energy rises (`ways.rs`): where a bilge runs into a flat with continuous curvature,
 //! 0 <= y <= B/2 and the offsets may leave none (a tanker: energy 4.6 times that of the fit).
 //! (Charged in the energy instead, its weight is shared with all that bends: of jumps with 0.036 1/m
 //! of root mean square at a waterline of the Series 60 0.043 was left, with a charge of 1e3 0.010, and the weight that is

@@ -13,7 +13,7 @@ use super::scale::{decimals, multiples, nice_step};
 use super::sheet::{LETTERS, Sheet};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::Comb;
-use crate::fairing::job::Change;
+use crate::fairing::outcome::Change;
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
 use crate::hull::{Cut, Hull};

@@ -11,7 +11,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::station_words;
 use super::sheet::{LETTERS, ROOM};
 use super::{PlotError, Svg, caption};
-use crate::fairing::job::Change;
+use crate::fairing::outcome::Change;
 use crate::fairing::record::{Crossing, FairRecord};
 use crate::fairing::surface::Origin;
 use crate::hull::{LineKind, OffsetStation};

@@ -8,7 +8,7 @@ use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::station_words;
 use super::sheet::{LETTERS, ROOM, wide};
 use super::{Svg, caption, font};
-use crate::fairing::job::Change;
+use crate::fairing::outcome::Change;
 use crate::fairing::record::FairRecord;
 use crate::fairing::surface::Origin;
 

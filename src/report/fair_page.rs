@@ -7,7 +7,7 @@ use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
-use crate::fairing::job::{Change, Outcome};
+use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;

@@ -12,7 +12,7 @@ use crate::exchange::{
     FairingFile, HullFile, ManifestEntry, json_message, read_changes, read_fairing, read_hull, read_manifest_input,
     read_manifest_outputs,
 };
-use crate::fairing::job::Change;
+use crate::fairing::outcome::Change;
 use crate::fairing::record::{Doubt, FairRecord};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};

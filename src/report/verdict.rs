@@ -6,7 +6,7 @@ use super::fair_page::{limit, millimetres};
 use super::page::{fixed, fixed_sign};
 use super::result::JobResult;
 use super::result_page::{figures, list, text};
-use crate::fairing::job::Change;
+use crate::fairing::outcome::Change;
 use crate::fairing::record::FairRecord;
 use crate::hydrostatics::{Conventions, Hydrostatics};
 use crate::units::{Notation, counted};

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use loftsman::fairing::constraint::Constraint;
-use loftsman::fairing::job::Outcome;
+use loftsman::fairing::outcome::Outcome;
 use loftsman::hull::{FitMethod, Hull, OffsetTable};
 
 use super::{Case, Truth, cases};

@@ -1,0 +1,162 @@
+//! What a job comes to: every offset with its move, what is held, what bends, and what is to be told of it.
+
+use super::fair::Faired;
+use super::held::{Held, HeldRule};
+use super::inspect::{PolygonSigns, kind};
+use super::proposals::Proposal;
+use super::record::moves;
+use super::repeated::excess;
+use super::surface::Origin;
+use super::suspects::Suspect;
+use crate::hull::{Cut, Hull, OffsetTable};
+use crate::qp::Status;
+use crate::units::counted;
+
+/// A cell and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// Index of the station.
+    pub station: usize,
+    /// What it is of the station.
+    pub origin: Origin,
+    /// Position forward of AP \[m\].
+    pub x: f64,
+    /// Height above the base line \[m\].
+    pub z: f64,
+    /// Half-breadth in the table \[m\].
+    pub before: f64,
+    /// Half-breadth of the fair surface \[m\].
+    pub after: f64,
+    /// Tolerance that was used \[m\]; none for cells that were left out.
+    pub tolerance: Option<f64>,
+    /// The cell was left out as a suspect.
+    pub suspect: bool,
+    /// The cell was locked.
+    pub locked: bool,
+}
+
+/// Inflections of one curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turns {
+    /// The plane that cuts it.
+    pub cut: Cut,
+    /// Inflections of the surface through the table.
+    pub before: usize,
+    /// Inflections of the fair surface.
+    pub after: usize,
+    /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved;
+    /// none on lines that the table does not have.
+    pub minimum: Option<(usize, bool)>,
+}
+
+/// What a job comes to.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// How the program ended.
+    pub status: Status,
+    /// The surface through the table.
+    pub before: Hull,
+    /// The fair hull.
+    pub after: Hull,
+    /// The table of the fair hull, in the writing of the old one and not rounded yet.
+    pub table: OffsetTable,
+    /// Every cell that was read.
+    pub changes: Vec<Change>,
+    /// Constraints.
+    pub held: Vec<Held>,
+    /// Rules for lines and regions.
+    pub rules: Vec<HeldRule>,
+    /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
+    pub turns: Vec<Turns>,
+    /// Knuckles and tangent lines that the table has and does not declare.
+    pub proposals: Vec<Proposal>,
+    /// Signs of the control polygons of the nets before and after.
+    pub signs: [Vec<PolygonSigns>; 2],
+    /// Suspects of the table.
+    pub suspects: Vec<Suspect>,
+    /// The program, its certificate, its noise level and its pattern.
+    pub faired: Faired,
+    /// Order of the energy.
+    pub order: usize,
+    /// Energy of the start net and of the fair net.
+    pub energy: [f64; 2],
+    /// The greatest jump of curvature of the fair hull across lines of its net where the surface through the table has
+    /// none and none is declared \[1/m\]; none on a net of its own.
+    pub jump: Option<f64>,
+    /// By how much the half-breadth passes the greatest of the table, or B/2, before and after \[m\].
+    pub beyond: [f64; 2],
+    /// Whether the net is one of its own and not that of the surface through the table.
+    pub own: bool,
+    /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
+    pub table_noise: f64,
+    /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of
+    /// its noise.
+    pub resolution: f64,
+    /// Whether targets that cannot be had within the tolerances gave way to the nearest that can.
+    pub nearest: bool,
+    /// What the job came to in words, and then what the surface through the table had to assume.
+    pub notes: Vec<String>,
+}
+/// Curves that bend more often after than before, in words; `wished` says whether anything is asked for besides what the
+/// table has, `carried` is the factor on the tolerances from which targets are had by one smooth move.
+pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) -> Option<String> {
+    let worse: Vec<&Turns> = lines.iter().filter(|turns| turns.after > turns.before).collect();
+    let kinds = ["station", "waterline", "buttock", "diagonal"].map(|wanted| {
+        let own: Vec<&&Turns> = worse.iter().filter(|turns| kind(&turns.cut) == wanted).collect();
+        let [before, after] = own.iter().fold([0, 0], |sum, turns| [sum[0] + turns.before, sum[1] + turns.after]);
+        (!own.is_empty()).then(|| format!("{} from {before} to {after}", counted(own.len(), wanted)))
+    });
+    let told: Vec<String> = kinds.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| {
+        let wider = match carried.filter(|factor| *factor > 1.0) {
+            Some(factor) => {
+                format!("tolerances {factor:.2} times as wide, with which the targets are one smooth move,")
+            }
+            None => "wider tolerances".to_owned(),
+        };
+        let why = if wished {
+            format!("what is wished or locked asks for that, and nearer targets or {wider} would leave a fairer hull")
+        } else {
+            "their signs do not go together with those of the other lines, half-breadths up to B/2 and the tolerances"
+                .to_owned()
+        };
+        format!("bend more often than before: {}; {why}", told.join(", "))
+    })
+}
+
+impl Outcome {
+    /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a
+    /// drawing.
+    #[must_use]
+    pub fn waterlines(&self) -> Vec<f64> {
+        let heights = self.turns.iter().filter_map(|turns| match turns.cut {
+            Cut::Waterline { z } => Some(z),
+            _ => None,
+        });
+        heights.collect()
+    }
+
+    /// Root of the mean square and largest of the moves of what was not left out \[m\], with the place of the largest.
+    #[must_use]
+    pub fn moves(&self) -> (f64, f64, Option<&Change>) {
+        moves(&self.changes)
+    }
+
+    /// Inflections before and after of one kind of curve: station, waterline, buttock or diagonal.
+    #[must_use]
+    pub fn inflections(&self, of: &str) -> [usize; 2] {
+        let list = self.turns.iter().filter(|turns| kind(&turns.cut) == of);
+        list.fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
+    }
+
+    /// How many targets the surface through the table is off by more than a part of their scale.
+    #[must_use]
+    pub fn targets_off(&self, part: f64) -> usize {
+        self.held.iter().filter(|held| held.constraint.missed(held.before, &self.before) > part).count()
+    }
+
+    /// Inflections more than before, all curves together that have more.
+    pub(super) fn excess(&self) -> usize {
+        excess(&self.turns)
+    }
+}

@@ -1,0 +1,456 @@
+//! A job on one net, from the model to the outcome: the program; tolerances that give way to noise; rules and targets
+//! that cannot be had and what is done instead; lines that bend more often and are done again; what is told of it all.
+
+use super::bends::Line;
+use super::compromise::{Instead, within_reach};
+use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
+use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
+use super::flats::shown_flat;
+use super::held::{self, Held, HeldRule};
+use super::infeasible::{Diagnosis, Ends};
+use super::inspect::{ON_CHORD, net_signs};
+use super::job::{Job, JobError, LEAST_TOLERANCE};
+use super::least::TableLine;
+use super::least_bending::LeastBending;
+use super::lobes::Lobes;
+use super::noise::{Differences, left_by_differences};
+use super::outcome::{Outcome, Turns, more_often};
+use super::proposals::{Accepted, Proposal};
+use super::record::resolution;
+use super::relinearise::ON_TARGET;
+use super::repeated::{Attempt, Repeated};
+use super::rules::guarded_lines;
+use super::start::Started;
+use super::surface::{FairSurface, Origin};
+use super::suspects::Suspects;
+use super::told::{Counted, Watched, changes, written};
+use crate::hull::{Hull, OffsetTable};
+use crate::numeric::at_once;
+use crate::qp::{RepeatedSolver, Status};
+
+/// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
+const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
+
+/// Noise over the quantum of the writing from which an undeclared line is likely.
+const ALARM: f64 = 3.0;
+
+/// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
+const BREADTH: f64 = 1e-6;
+
+/// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that
+/// has an answer.
+const MOST_WIDENING: f64 = 3.0;
+const WIDER: f64 = 1.1;
+
+/// On which net a job is done, and how far off a target may be, over its scale, before it is one smooth move.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Way {
+    /// Whether the net may be one of its own, where that follows the table.
+    pub(super) own: bool,
+    /// What a target may be off.
+    pub(super) another: f64,
+}
+
+impl Job {
+    /// Fairs a table in one way.
+    pub(super) fn run_on(&self, table: &OffsetTable, way: Way) -> Result<Outcome, JobError> {
+        let (run, watched) = Run::new(self, table, way)?;
+        run.outcome(watched)
+    }
+
+    /// The rules, and the flat that the table shows where no rule says what is flat.
+    fn rules(&self, table: &OffsetTable, surface: &FairSurface, left_out: &[(usize, usize)]) -> Vec<Rule> {
+        let mut rules = self.rules.clone();
+        let said = rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }));
+        if self.keep_flat && !surface.own && !said {
+            let held = |rule: &Rule| rule.limits(surface).is_ok_and(|limits| !limits.is_empty());
+            rules.extend(shown_flat(table, left_out).filter(held));
+        }
+        rules
+    }
+}
+
+/// A job under way.
+struct Run<'a> {
+    job: &'a Job,
+    table: &'a OffsetTable,
+    found: Suspects,
+    /// The surface through the table.
+    before: Hull,
+    surface: FairSurface,
+    proposals: Vec<Proposal>,
+    /// Cells that are left out.
+    excluded: Vec<(usize, usize)>,
+    /// Noise of the table, not below its rounding \[m\].
+    noise: f64,
+    /// Step of its writing \[m\].
+    quantum: f64,
+    /// Greatest half-breadth of the table, or B/2 \[m\].
+    greatest: f64,
+    /// What is to be held, and the rules, before anything gives way.
+    asked: Vec<Constraint>,
+    wished: Vec<Rule>,
+    settings: FairSettings,
+    prepared: Prepared,
+    solver: RepeatedSolver<'a>,
+    /// What is told first, and what the surface through the table had to assume, which is told last.
+    notes: Vec<String>,
+    assumed: Vec<String>,
+}
+
+/// What was done instead of what could not be had.
+#[derive(Default)]
+struct Given {
+    /// Why it could not.
+    refused: Option<Diagnosis>,
+    /// Rules that were left out, by their index.
+    rules: Vec<usize>,
+    /// Whether targets gave way to the nearest that can be had.
+    nearest: bool,
+}
+
+/// An attempt, and what holds of it where that is known by then.
+type Attempted = (Attempt, Option<Vec<Held>>);
+
+impl<'a> Run<'a> {
+    /// The model with the wishes as they are asked for.
+    fn new(job: &'a Job, table: &'a OffsetTable, way: Way) -> Result<(Self, Watched), JobError> {
+        let Started {
+            found,
+            before,
+            notes,
+            assumed,
+            noise,
+            quantum,
+            proposals,
+            mut surface,
+            search,
+            gap,
+            excluded,
+            watched,
+        } = Started::new(job, table, way.own)?;
+        let (draught, depth) = (before.particulars().draught, before.particulars().depth);
+        if draught > depth * (1.0 + 1e-9) {
+            return Err(JobError::Draught { draught, depth });
+        }
+        let asked = job.holding.constraints(&before);
+        let wished = job.rules(table, &surface, &excluded);
+        // A net of its own has another volume between the offsets: the tolerances have room for the difference.
+        let apart = 6.0 * gap;
+        let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
+        let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
+        // A net of its own is searched without them.
+        let left = (!surface.own).then(|| left_by_differences(table, &excluded)).flatten();
+        let differences = left.map(|left| Differences { left, noise: found.noise });
+        let readings = surface.model.readings.iter().map(|reading| reading.value);
+        let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
+        let mut settings = FairSettings {
+            others: asked.iter().map(|c| c.missed(c.value(&before), &before) > way.another).collect(),
+            constraints: asked.clone(),
+            rules: wished.clone(),
+            weight: job.weight,
+            // Whoever names a tolerance for the table says how noisy it is.
+            table_noise: Some(job.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
+            differences,
+            most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
+            least_noise: quantum / 12f64.sqrt(),
+            tolerance_levels: Some(3.0),
+            least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
+            tolerances: job.tolerances(&surface),
+            signs: job.signs,
+            price: job.price,
+            true_curvature: job.true_curvature,
+            bending: job.bending,
+            lines: stations.chain(waterlines).collect(),
+            kept: Vec::new(),
+            strict: Vec::new(),
+            oblique: Vec::new(),
+            released: Vec::new(),
+            seen: quantum,
+            // Tolerances that are less than that leave no room to do better.
+            admits: job.tolerance.table.is_some_and(|named| excess_of_breadth(before.surface(), greatest) > named),
+            solver: job.solver.clone(),
+        };
+        let prepared = match search {
+            Some(search) if job.weight.is_none() => {
+                let found = (search.smoothed.lambda, search.trials);
+                Prepared::searched(&mut surface, &settings, search.smoother, found, None)?
+            }
+            _ => Prepared::new(&mut surface, &settings)?,
+        };
+        settings.seen = resolution(Some(quantum), prepared.sigma);
+        let solver = RepeatedSolver::new(&job.solver);
+        let run = Self {
+            job,
+            table,
+            found,
+            before,
+            surface,
+            proposals,
+            excluded,
+            noise,
+            quantum,
+            greatest,
+            asked,
+            wished,
+            settings,
+            prepared,
+            solver,
+            notes,
+            assumed,
+        };
+        Ok((run, watched))
+    }
+
+    /// All of it.
+    fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
+        let (counted, faired) = {
+            let Self { surface, settings, prepared, solver, .. } = &mut self;
+            let seen = settings.seen;
+            at_once(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
+        };
+        let faired = self.widened(faired?)?;
+        let carried = faired.carried;
+        let mut given = Given::default();
+        let mut faired = self.without_rules(faired, &mut given)?;
+        let (attempt, held) = match faired.instead.take() {
+            Some(Instead::Targets(ends)) => {
+                given.nearest = true;
+                given.refused = given.refused.take().or(faired.diagnosis.take());
+                self.nearest(&faired, &ends, carried, &counted)?
+            }
+            _ => self.attempt(faired, &counted)?,
+        };
+        let Attempt { mut faired, after, mut lines } = attempt;
+        self.least(&mut lines, &faired);
+        let held = held.unwrap_or_else(|| {
+            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], &mut self.solver)
+        });
+        let asked = self.asked.iter().zip(held);
+        let held: Vec<Held> = asked.map(|(&constraint, held)| Held { constraint, ..held }).collect();
+        let mut rules = held::rules(&self.surface, &self.settings, &faired);
+        for &rule in &given.rules {
+            rules.insert(rule, HeldRule::given_up(&self.wished[rule], &self.surface, &after));
+        }
+        faired.diagnosis = given.refused.or(faired.diagnosis);
+        faired.carried = carried;
+        let beyond = [&self.before, &after].map(|hull| excess_of_breadth(hull.surface(), self.greatest));
+        self.tell(&faired, &held, &lines, beyond);
+        let mut changes = changes(self.table, &self.surface, &after, &self.excluded);
+        for change in &mut changes {
+            let deck = matches!(change.origin, Origin::Deck { .. });
+            let has = |rule: &Rule| matches!(rule, Rule::Fixed(line) if line.has([change.x, change.z], deck));
+            change.locked |= self.settings.rules.iter().any(has);
+        }
+        let Self { surface, settings, before, .. } = self;
+        Ok(Outcome {
+            proposals: self.proposals,
+            signs: [&before, &after].map(|hull| net_signs(hull.surface(), ON_CHORD * settings.seen)),
+            status: if let Some(found) = &faired.diagnosis {
+                // What is feasible and was not solved is no contradiction.
+                if found.widening.is_some_and(|least| least <= 1.0) { Status::Limit } else { Status::Infeasible }
+            } else if faired.stalled() {
+                Status::Limit
+            } else {
+                faired.solved.solution.status
+            },
+            table: written(self.table, &changes),
+            jump: surface.greatest_jump(&after),
+            beyond,
+            before,
+            after,
+            changes,
+            held,
+            rules,
+            turns: lines,
+            suspects: self.found.suspects,
+            order: surface.order,
+            energy: [surface.model.energy_of(&surface.start), surface.model.energy_of(&faired.net)],
+            faired,
+            resolution: settings.seen,
+            nearest: given.nearest,
+            own: surface.own,
+            table_noise: self.found.noise,
+            notes: self.notes,
+        })
+    }
+
+    /// The program of the settings as they are.
+    fn solve(&mut self) -> Result<Faired, JobError> {
+        Ok(fair_prepared(&mut self.surface, &self.settings, &self.prepared, &mut self.solver)?)
+    }
+
+    /// Of several hundred offsets some are further off than three noise levels: where nobody named the tolerances, they
+    /// give way.
+    fn widened(&mut self, faired: Faired) -> Result<Faired, JobError> {
+        let least = faired.diagnosis.as_ref().and_then(Diagnosis::of_tolerances_alone);
+        let Some(least) = least.filter(|least| self.job.names_no_tolerance() && *least <= MOST_WIDENING) else {
+            return Ok(faired);
+        };
+        self.surface.widen(least * WIDER);
+        self.prepared.lines = self.prepared.lines.iter().map(|line| TableLine::new(&self.surface, line.line)).collect();
+        self.notes.push(format!(
+            "tolerances are {:.2} times three noise levels: with less, the offsets contradict each other, the ends of the hull or its \
+             greatest half-breadth",
+            least * WIDER
+        ));
+        self.solve()
+    }
+
+    /// The program without the rules that have to give way.
+    fn without_rules(&mut self, mut faired: Faired, given: &mut Given) -> Result<Faired, JobError> {
+        let mut kept: Vec<usize> = (0..self.wished.len()).collect();
+        while let Some(Instead::WithoutRules(rules)) = &faired.instead {
+            given.rules.extend(rules.iter().map(|&rule| kept[rule]));
+            kept.retain(|rule| !given.rules.contains(rule));
+            self.settings.rules = kept.iter().map(|&rule| self.wished[rule].clone()).collect();
+            given.refused = given.refused.take().or(faired.diagnosis.take());
+            self.solver = RepeatedSolver::new(&self.job.solver);
+            faired = self.solve()?.after(&faired);
+        }
+        given.rules.sort_unstable();
+        Ok(faired)
+    }
+
+    /// The nearest targets to those that cannot be had that leave a fair hull; the settings are theirs then.
+    fn nearest(
+        &mut self,
+        faired: &Faired,
+        ends: &Ends,
+        carried: Option<f64>,
+        counted: &Counted,
+    ) -> Result<Attempted, JobError> {
+        let plain = self.settings.clone();
+        let mut best: Option<(Attempted, FairSettings)> = None;
+        for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface)? {
+            self.settings = FairSettings { constraints, ..plain.clone() };
+            self.solver = RepeatedSolver::new(&self.job.solver);
+            let again = self.solve()?;
+            if !again.solved.is_optimal() && best.is_some() {
+                continue;
+            }
+            let attempted = self.attempt(again.after(faired), counted)?;
+            let sum = |attempt: &Attempt, count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum::<usize>();
+            let after = sum(&attempted.0, |turns| turns.after);
+            let done = after <= sum(&attempted.0, |turns| turns.before);
+            let fewest = best.as_ref().is_none_or(|((best, _), _)| after < sum(best, |turns| turns.after));
+            if done || fewest {
+                best = Some((attempted, self.settings.clone()));
+            }
+            if done {
+                break;
+            }
+        }
+        let Some((attempted, settings)) = best else { unreachable!("there is a part") };
+        self.settings = settings;
+        Ok(attempted)
+    }
+
+    /// The fair hull, after as many repetitions as lines that bend more often ask for.
+    fn attempt(&mut self, faired: Faired, counted: &Counted) -> Result<Attempted, JobError> {
+        let after = self.surface.hull_of(&faired.net)?;
+        let Self { surface, settings, prepared, solver, before, wished, .. } = self;
+        if surface.own {
+            // Nothing is repeated on a net of its own: the prices are final.
+            let (lines, held) = at_once(
+                || counted.turns(&after),
+                || held::constraints(surface, settings, &faired, [before, &after], solver),
+            );
+            return Ok((Attempt { faired, after, lines }, Some(held)));
+        }
+        let lines = counted.turns(&after);
+        let mut attempt = Attempt { faired, after, lines };
+        if self.job.signs {
+            let seen = settings.seen;
+            // What a rule says of the inflections of a line stands over the guard of them.
+            let ruled: Vec<Line> = wished.iter().filter_map(Rule::counted_line).collect();
+            let repeated = Repeated { surface, settings, prepared, watched: counted };
+            attempt = repeated.until_none_is_worse(attempt, seen, |line| !ruled.contains(line))?;
+            let lines = &guarded_lines(&prepared.lines, &settings.rules);
+            attempt = Lobes { surface, settings, lines, watched: counted, seen }.fewer(attempt)?;
+        }
+        Ok((attempt, None))
+    }
+
+    /// The least inflections of every line of the table.
+    fn least(&self, lines: &mut [Turns], faired: &Faired) {
+        let least = |turns: &mut Turns| {
+            let Some(line) = Line::of(turns.cut) else { return };
+            let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            // The proof speaks of the line as one curve; where it is counted in pieces it may have less.
+            let told = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
+            turns.minimum = match known {
+                Some((_, count, proved)) => Some((*count, *proved)),
+                None if self.job.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => {
+                    TableLine::minimum(&self.surface, line, &faired.net)
+                }
+                None => None,
+            }
+            .map(told);
+        };
+        let half = lines.len() / 2;
+        let (some, others) = lines.split_at_mut(half);
+        at_once(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
+    }
+
+    /// What is told, what bends more often before all else: whoever reads no further should know it.
+    fn tell(&mut self, faired: &Faired, held: &[Held], lines: &[Turns], beyond: [f64; 2]) {
+        let (job, surface) = (self.job, &self.surface);
+        let optimal = faired.solved.is_optimal();
+        let notes = &mut self.notes;
+        let mut when = |told: bool, note: &str| {
+            if told {
+                notes.push(note.to_owned());
+            }
+        };
+        surface.straight_parts().iter().for_each(|note| when(true, note));
+        faired.bent.iter().for_each(|bent| when(true, &LeastBending::words(bent)));
+        when(
+            job.bending && faired.bent.is_none() && optimal,
+            "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or no step of the solver \
+             lowers it",
+        );
+        if let Some(wanted) = job.energy.order.filter(|&wanted| wanted != surface.order) {
+            let of = surface.order;
+            when(
+                true,
+                &format!(
+                    "the energy is of order {of}: one of order {wanted} needs a net of its own, which does not follow this table"
+                ),
+            );
+        }
+        let [start, fair] = beyond.map(|beyond| 1e3 * beyond);
+        when(
+            beyond[1] > self.quantum.max(BREADTH * self.greatest),
+            &format!(
+                "between offsets the half-breadth passes {:.3} m by {fair:.2} mm at most, that of the surface through the table by \
+                 {start:.2} mm",
+                self.greatest
+            ),
+        );
+        when(
+            job.true_curvature && faired.refreshed.is_none() && optimal,
+            "the metric of true curvature stayed that of the start: refreshing it did not lower the functional",
+        );
+        when(
+            !surface.own && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),
+            "a line that does not move, or a flat, keeps the net of the surface through the table, on which less is taken for noise \
+             than on a net of its own",
+        );
+        let suspects = self.excluded.len();
+        when(suspects > 0, &format!("{suspects} suspects were left out of the fairing"));
+        let takeable = |proposal: &Proposal| !proposal.accepted;
+        when(
+            job.accepted == Accepted::All && self.proposals.iter().all(takeable),
+            "all proposed lines were to be taken, and there is none that could be",
+        );
+        when(
+            self.noise > ALARM * self.quantum && self.proposals.iter().any(takeable),
+            "the noise is far above the rounding of the table, and lines are proposed that it does not declare",
+        );
+        self.notes.append(&mut self.assumed);
+        let off = |held: &Held| held.constraint.missed(held.before, &self.before) > ON_TARGET;
+        let asks = held.iter().any(off) || !job.rules.is_empty() || !job.locked.is_empty();
+        self.notes.splice(0..0, more_often(lines, asks, faired.carried));
+    }
+}
