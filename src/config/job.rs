@@ -399,27 +399,29 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
     job
 }
 
-/// The number of a key that must be above 0.
-fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> {
-    let value = document.number(path)?;
-    if value > 0.0 {
+/// A value where it is allowed; otherwise it is told what was expected.
+fn allowed(document: &mut Document<'_>, path: &str, value: f64, allowed: bool, expected: &str) -> Option<f64> {
+    if allowed {
         return Some(value);
     }
     let span = document.entry(path).map_or(0..0, |e| e.span.clone());
-    document.problem("E124", path, &span, format!("{path} is {value}"), format!("Expected a positive {noun}."));
+    let found = format!("{value:?}");
+    let message = format!("{path} is {}", found.trim_end_matches(".0"));
+    document.problem("E124", path, &span, message, format!("Expected {expected}."));
     None
+}
+
+/// A number above 0.
+fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> {
+    let value = document.number(path)?;
+    allowed(document, path, value, value > 0.0, &format!("a positive {noun}"))
 }
 
 /// The density of a water.
 fn density(document: &mut Document<'_>) -> Option<f64> {
     let value = document.number("water.density")?;
-    if DENSITIES.contains(&value) {
-        return Some(value);
-    }
-    let span = document.entry("water.density").map_or(0..0, |e| e.span.clone());
-    let help = format!("Expected {} to {} t/m3.", DENSITIES.start(), DENSITIES.end());
-    document.problem("E124", "water.density", &span, format!("water.density is {value} t/m3"), help);
-    None
+    let expected = format!("{} to {} t/m3", DENSITIES.start(), DENSITIES.end());
+    allowed(document, "water.density", value, DENSITIES.contains(&value), &expected)
 }
 
 /// Greatest price of a sign: no sign that the tolerances have is as dear.
@@ -427,14 +429,9 @@ const MOST_PRICE: f64 = 1e6;
 
 /// What a sign may cost.
 fn price(document: &mut Document<'_>) -> Option<f64> {
-    let value = positive(document, "signs.price", "number")?;
-    if value <= MOST_PRICE {
-        return Some(value);
-    }
-    let span = document.entry("signs.price").map_or(0..0, |e| e.span.clone());
-    let help = format!("Expected a positive number, {MOST_PRICE:.0e} at most.");
-    document.problem("E124", "signs.price", &span, format!("signs.price is {value:?}"), help);
-    None
+    let value = document.number("signs.price")?;
+    let expected = format!("a positive number, {MOST_PRICE:.0e} at most");
+    allowed(document, "signs.price", value, value > 0.0 && value <= MOST_PRICE, &expected)
 }
 
 /// Greatest smoothing weight: nothing but the energy is left well below it.
@@ -442,14 +439,9 @@ const MOST_WEIGHT: f64 = 1e9;
 
 fn weight(document: &mut Document<'_>) -> Option<Option<f64>> {
     let Scalar::Measure(measure) = document.number_or_word("energy.weight")? else { return Some(None) };
-    if measure.value > 0.0 && measure.value <= MOST_WEIGHT {
-        return Some(Some(measure.value));
-    }
-    let span = document.entry("energy.weight").map_or(0..0, |e| e.span.clone());
-    let message = format!("energy.weight is {:?}", measure.value);
-    let help = format!("Expected a positive number, {MOST_WEIGHT:.0e} at most, or \"auto\".");
-    document.problem("E124", "energy.weight", &span, message, help);
-    None
+    let sensible = measure.value > 0.0 && measure.value <= MOST_WEIGHT;
+    let expected = format!("a positive number, {MOST_WEIGHT:.0e} at most, or \"auto\"");
+    allowed(document, "energy.weight", measure.value, sensible, &expected).map(Some)
 }
 
 impl JobFile {

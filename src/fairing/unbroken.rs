@@ -109,29 +109,37 @@ impl Unbroken {
     /// The spans across which a surface has no jump of curvature, but for where it may have one.
     pub(super) fn new(cells: &Cells<'_>, metric: &Metric, breaks: &Breaks) -> Self {
         let nil = NIL * cells.greatest_half_breadth();
-        let spans = |held: &dyn Fn(usize, &Jump, usize) -> bool| {
-            [0, 1].map(|way: usize| {
-                let spans = |jump: &Jump| (0..cells.count()[1 - way]).map(|e| held(way, jump, e)).collect();
-                cells.jumps(way).iter().map(spans).collect()
-            })
-        };
-        let runs_on = |metric: &Metric, way: usize, jump: &Jump, e: usize| {
+        let exact = Metric::new(cells.surface(), 3, 1.0);
+        let smooth = |metric: &Metric, way: usize, jump: &Jump, e: usize| {
             let departs = |at: Crossing<'_>| {
                 metric.jumped(way, &at).map(|jumped| (jumped.departure(&at) * at.value(jumped.factors)).abs())
             };
-            !breaks.declared(way, jump.at, &cells.corners(way, jump, e))
-                && cells.crossings(way, jump, e).filter_map(departs).all(|departs| departs <= nil)
+            cells.crossings(way, jump, e).filter_map(departs).all(|departs| departs <= nil)
         };
+        let own = [0, 1].map(|way: usize| {
+            let lines = cells.jumps(way).iter().map(|jump| {
+                let spans = (0..cells.count()[1 - way]).map(|e| {
+                    !breaks.declared(way, jump.at, &cells.corners(way, jump, e)) && smooth(&exact, way, jump, e)
+                });
+                spans.collect::<Vec<bool>>()
+            });
+            lines.collect::<Vec<_>>()
+        });
+        // By the metric in which jumps are charged it may depart by more than by the exact one.
         let stays = |way: usize, jump: &Jump, e: usize| match breaks.runs_on {
             RunsOn::Nowhere => false,
             RunsOn::ButFlats => !breaks.flat(&cells.corners(way, jump, e)),
             RunsOn::Everywhere => true,
         };
-        let exact = Metric::new(cells.surface(), 3, 1.0);
-        Self {
-            spans: spans(&|way, jump, e| stays(way, jump, e) && runs_on(metric, way, jump, e)),
-            own: spans(&|way, jump, e| runs_on(&exact, way, jump, e)),
+        let mut spans = own.clone();
+        for (way, lines) in spans.iter_mut().enumerate() {
+            for (jump, line) in cells.jumps(way).iter().zip(lines) {
+                for (e, held) in line.iter_mut().enumerate() {
+                    *held = *held && stays(way, jump, e) && smooth(metric, way, jump, e);
+                }
+            }
         }
+        Self { spans, own }
     }
 
     /// Whether span e of a line is unbroken.

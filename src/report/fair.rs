@@ -88,13 +88,16 @@ fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options.
 pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJob, Failure> {
     let (mut inputs, mut files) = (Vec::new(), Vec::new());
-    let mut problems = Vec::new();
-    let mut said = JobFile::default();
-    if is_toml(path) {
+    let mut read = |path: &Path| -> Result<Vec<u8>, Failure> {
         let bytes = read_bytes(path)?;
         inputs.push(manifest_entry(path, &bytes));
         files.push(path.to_owned());
-        match config::read_job(&path.display().to_string(), &utf8(path, bytes)?) {
+        Ok(bytes)
+    };
+    let mut problems = Vec::new();
+    let mut said = JobFile::default();
+    if is_toml(path) {
+        match config::read_job(&path.display().to_string(), &utf8(path, read(path)?)?) {
             Ok(file) => said = file,
             Err(found) => problems.extend(found),
         }
@@ -109,15 +112,10 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
         return Err(Failure::Input(problems));
     }
     let table_file = table_of(path, &said)?;
-    let bytes = read_bytes(&table_file)?;
-    inputs.push(manifest_entry(&table_file, &bytes));
-    files.push(table_file.clone());
+    read(&table_file)?;
     let beside_file = table_file.with_extension("toml");
     let beside = if beside_file.is_file() && beside_file != path {
-        let bytes = read_bytes(&beside_file)?;
-        inputs.push(manifest_entry(&beside_file, &bytes));
-        files.push(beside_file.clone());
-        Some((beside_file.display().to_string(), utf8(&beside_file, bytes)?))
+        Some((beside_file.display().to_string(), utf8(&beside_file, read(&beside_file)?)?))
     } else {
         None
     };
@@ -135,16 +133,13 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let area_file =
         said.area_file().map(|(file, place)| (path.parent().unwrap_or(Path::new("")).join(file), place.clone()));
     if let Some((file, place)) = area_file {
-        let bytes = read_bytes(&file)?;
-        inputs.push(manifest_entry(&file, &bytes));
-        let curve = read_curve(&utf8(&file, bytes)?, Notation::Metres).map_err(|problems| {
+        let curve = read_curve(&utf8(&file, read(&file)?)?, Notation::Metres).map_err(|problems| {
             let of = |p: CurveProblem| Diagnostic { line: p.line, ..problem("E340", &file, p.message, p.remedy) };
             Failure::Input(problems.into_iter().map(of).collect())
         })?;
         let band = said.section_area_band;
         let rows = curve.points.iter().filter_map(|p| Some([p.x, p.y?, p.tolerance.unwrap_or(band)]));
         said.section_areas.extend(rows.map(|row| (row, place.clone())));
-        files.push(file);
     }
     let job = said.for_table(&table, length).map_err(Failure::Input)?;
     let density = said.density.unwrap_or(Conventions::default().density);

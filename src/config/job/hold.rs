@@ -4,7 +4,7 @@ use super::super::document::{Document, Raw};
 use super::super::keys::Kind;
 use super::super::value::{Scalar, expected};
 use super::super::wishes::position_along;
-use super::{AreaCurve, HOLD, JobFile, Place};
+use super::{AreaCurve, HOLD, JobFile, Place, allowed};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::Holding;
 use crate::units::Dimension;
@@ -229,13 +229,8 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
 /// The band about section areas that have none of their own \[m^2\].
 fn band(document: &mut Document<'_>) -> f64 {
     let path = "hold.section_area_band";
-    let Some(value) = document.number(path) else { return 0.0 };
-    if value < 0.0 {
-        let span = document.entry(path).map_or(0..0, |e| e.span.clone());
-        let help = "Expected an area of 0 or more, m2.".to_owned();
-        document.problem("E124", path, &span, format!("{path} is {value}"), help);
-    }
-    value.max(0.0)
+    let value = document.number(path);
+    value.and_then(|value| allowed(document, path, value, value >= 0.0, "an area of 0 or more, m2")).unwrap_or(0.0)
 }
 
 /// A section this near to midship, over L_PP, is the midship section.
