@@ -34,7 +34,7 @@ pub(super) fn expected(kind: Kind) -> String {
         Kind::Shell => "{ thickness = \"10 mm\" } or { factor = 1.006 }".into(),
         Kind::Numbers => "a list of numbers, as [0, 0, 1, 2, 2]".into(),
         Kind::Switch => "true or false".into(),
-        Kind::Area => "an area: a plain number of square metres".into(),
+        Kind::Area => "an area: square metres, or a text with a unit as \"1103 m2\"".into(),
         Kind::OrWord(inner, words) => format!("{}; or one of \"{}\"", expected(*inner), words.join("\", \"")),
         Kind::Names => "a list of names, as [\"5\", \"9 1/2\"]; a cell is \"station@waterline\"".into(),
         Kind::NamedLengths => "a table of names with lengths, as { \"5\" = \"2 mm\" }".into(),
@@ -61,6 +61,7 @@ fn accepts(kind: Kind, dimension: Dimension) -> bool {
             matches!(kind, Kind::Length | Kind::FractionOrLength | Kind::Positions | Kind::NamedLengths)
         }
         Dimension::Angle => matches!(kind, Kind::Angle | Kind::RawAngle | Kind::NamedAngles(_)),
+        Dimension::Area => kind == Kind::Area,
         Dimension::Mass | Dimension::Volume => kind == Kind::Displacement,
         Dimension::Density => kind == Kind::Density,
         Dimension::Speed => false,

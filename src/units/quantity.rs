@@ -1,7 +1,8 @@
 //! One quantity: a number, or numbers with units, or feet-inches-eighths.
 //!
 //! Grammar: `13.2`, `32250 mm`, `62 ft 3 in`, `3' 4 5/8"`, `3-4-5+` (3 ft 4 in and 5 eighths; the sign adds or takes one
-//! sixteenth of an inch), `12 deg`, `4050 t`, `2.5 %`, `14 kn`. A decimal comma is refused, with what to write instead.
+//! sixteenth of an inch), `12 deg`, `4050 t`, `1103 m2`, `2.5 %`, `14 kn`. A decimal comma is refused, with what to write
+//! instead.
 //! Factors are exact by definition: 1 in = 0.0254 m, 1 kn = 1852/3600 m/s, 1 long ton = 1.0160469088 t (NIST SP 811).
 
 /// What a number measures; plain numbers have none.
@@ -15,6 +16,8 @@ pub enum Dimension {
     Angle,
     /// Mass \[t\].
     Mass,
+    /// Area \[m^2\].
+    Area,
     /// Volume \[m^3\].
     Volume,
     /// Density \[t/m^3\].
@@ -34,6 +37,7 @@ impl Dimension {
             Self::Length => "a length",
             Self::Angle => "an angle",
             Self::Mass => "a mass",
+            Self::Area => "an area",
             Self::Volume => "a volume",
             Self::Density => "a density",
             Self::Speed => "a speed",
@@ -70,7 +74,7 @@ pub enum UnitError {
     },
     /// A unit that is not known.
     #[error(
-        "'{unit}' is not a unit; known are m, cm, mm, km, ft, in, deg, rad, t, kg, lt, m3, ft3, t/m3, kg/m3, kn, m/s, %"
+        "'{unit}' is not a unit; known are m, cm, mm, km, ft, in, deg, rad, t, kg, lt, m2, ft2, m3, ft3, t/m3, kg/m3, kn, m/s, %"
     )]
     Unit {
         /// As written.
@@ -114,7 +118,7 @@ fn quoted(text: &str) -> String {
 
 /// Factor to SI and dimension of a unit.
 fn unit(word: &str) -> Option<(f64, Dimension)> {
-    use Dimension::{Angle, Density, Length, Mass, Percent, Speed, Volume};
+    use Dimension::{Angle, Area, Density, Length, Mass, Percent, Speed, Volume};
     Some(match word.to_ascii_lowercase().as_str() {
         "m" | "metre" | "metres" | "meter" | "meters" => (1.0, Length),
         "km" => (1000.0, Length),
@@ -127,6 +131,8 @@ fn unit(word: &str) -> Option<(f64, Dimension)> {
         "t" | "tonne" | "tonnes" => (1.0, Mass),
         "kg" => (0.001, Mass),
         "lt" | "ton" | "tons" => (1.016_046_908_8, Mass),
+        "m2" | "m^2" | "m\u{b2}" => (1.0, Area),
+        "ft2" | "ft^2" | "ft\u{b2}" => (0.3048 * 0.3048, Area),
         "m3" | "m^3" | "m\u{b3}" => (1.0, Volume),
         "ft3" | "ft^3" | "ft\u{b3}" => (0.3048 * 0.3048 * 0.3048, Volume),
         "t/m3" | "t/m^3" | "t/m\u{b3}" => (1.0, Density),
@@ -217,9 +223,10 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, UnitError> {
     Ok(parts)
 }
 
-/// Whether the first `c` in `text` is the power in `m3`, `t/m3` or `m^3`.
+/// Whether the first `c` in `text` is the power in `m2`, `m3`, `t/m3` or `m^3`: nothing follows, as in `6 ft2 in`.
 fn after_unit(text: &str, c: char) -> bool {
-    c == '3' && text.find(c).is_some_and(|at| text[..at].ends_with(['m', 't', 'M', 'T', '^']))
+    let power = |at: usize| text[..at].ends_with(['m', 't', 'M', 'T', '^']) && text[at + 1..].trim().is_empty();
+    matches!(c, '2' | '3') && text.find(c).is_some_and(power)
 }
 
 /// A fraction `5/8` at the start of `text`: above, below, and what follows.
@@ -314,6 +321,8 @@ mod tests {
         close("62 ft 3 in", 62.25 * 0.3048, Dimension::Length);
         close("3' 4 5/8\"", (3.0 * 12.0 + 4.625) * 0.0254, Dimension::Length);
         close("3'4\"", 40.0 * 0.0254, Dimension::Length);
+        close("6ft2in", 74.0 * 0.0254, Dimension::Length);
+        close("6 ft3 in", 75.0 * 0.0254, Dimension::Length);
         close("5/8 in", 0.625 * 0.0254, Dimension::Length);
         close("3-4-5", (3.0 * 12.0 + 4.625) * 0.0254, Dimension::Length);
         close("3-4-5+", (3.0 * 12.0 + 4.6875) * 0.0254, Dimension::Length);
@@ -329,6 +338,8 @@ mod tests {
         close("0.13 rad", 0.13, Dimension::Angle);
         close("4050 t", 4050.0, Dimension::Mass);
         close("4050 m3", 4050.0, Dimension::Volume);
+        close("1103 m2", 1103.0, Dimension::Area);
+        close("100 ft^2", 9.290304, Dimension::Area);
         close("1025 kg/m3", 1.025, Dimension::Density);
         close("2.5 %", 0.025, Dimension::Percent);
         close("+0.8 %", 0.008, Dimension::Percent);
