@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     #[arg(value_name = "TABLE|JOB")]
     input: PathBuf,
     /// Displacement to hold, "4050 t" or "3951 m3"; "table" for that of the table, "free" for none [default: table]
-    #[arg(long, value_name = "MASS|VOLUME", conflicts_with = "cb")]
+    #[arg(long, value_name = "MASS|VOLUME")]
     displacement: Option<String>,
     /// Block coefficient to hold, instead of the displacement
     #[arg(long, value_name = "CB")]

@@ -18,6 +18,7 @@ mod place;
 mod shape;
 mod spot;
 
+use hold::MOST_TARGET;
 pub use hold::{Quantity, Wish};
 pub use place::Place;
 pub use shape::RuleMark;
@@ -381,7 +382,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         },
         density: density(document),
         order: document.integer("energy.order").map(|order| order as usize),
-        anisotropy: positive(document, "energy.anisotropy", "number"),
+        anisotropy: anisotropy(document),
         weight: weight(document),
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
@@ -424,6 +425,16 @@ fn density(document: &mut Document<'_>) -> Option<f64> {
     allowed(document, "water.density", value, DENSITIES.contains(&value), &expected)
 }
 
+/// Greatest anisotropy and the reciprocal of the least: beyond, one direction is not seen.
+const MOST_ANISOTROPY: f64 = 1e6;
+
+fn anisotropy(document: &mut Document<'_>) -> Option<f64> {
+    let value = document.number("energy.anisotropy")?;
+    let sensible = (1.0 / MOST_ANISOTROPY..=MOST_ANISOTROPY).contains(&value);
+    let expected = format!("a number from {:.0e} to {MOST_ANISOTROPY:.0e}", 1.0 / MOST_ANISOTROPY);
+    allowed(document, "energy.anisotropy", value, sensible, &expected)
+}
+
 /// Greatest price of a sign: no sign that the tolerances have is as dear.
 const MOST_PRICE: f64 = 1e6;
 
@@ -448,9 +459,16 @@ impl JobFile {
     /// This job with what `other` says over it; locks, tolerances of lines and section areas are added.
     #[must_use]
     pub fn with(mut self, other: Self) -> Self {
+        self.hold.retain(|(mine, _)| !other.hold.iter().any(|(quantity, _)| mine.twin() == Some(*quantity)));
+        self.and(other)
+    }
+
+    /// This job and what `other` says at the same place, as another option: of two quantities that say the same both stay.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
         self.stated = other.stated.over(&self.stated);
         for (quantity, wish) in other.hold {
-            self.hold.retain(|(mine, _)| *mine != quantity && mine.twin() != Some(quantity));
+            self.hold.retain(|(mine, _)| *mine != quantity);
             self.hold.push((quantity, wish));
         }
         self.tolerances.extend(other.tolerances);
@@ -543,9 +561,20 @@ impl JobFile {
                 problems.push(place.problem("E171", &text, "Give a position between them."));
             }
         }
+        for ([x, area, band], place) in &self.section_areas {
+            if !(0.0..=MOST_TARGET).contains(area) || !(0.0..=MOST_TARGET).contains(band) {
+                let text = format!("a section area of {area:?} m2 with a band of {band:?} m2 at x = {x:.3} m");
+                problems.push(place.problem("E171", &text, &format!("Expected 0 to {MOST_TARGET:?} m2.")));
+            }
+        }
         let metacentric =
             |(quantity, wish): &(Quantity, Wish)| *quantity == Quantity::MetacentricHeight && *wish != Wish::Free;
-        if let (None, Some(place), true) = (self.gravity, self.place("hold.GM"), self.hold.iter().any(metacentric)) {
+        let held = self.hold.iter().any(metacentric);
+        if let (Some(place), false) = (self.place("hold.KG"), held) {
+            let text = "the height of the centre of gravity is said, and no GM is held";
+            problems.push(place.problem("E179", text, "Give hold.GM (--gm), or leave it out."));
+        }
+        if let (None, Some(place), true) = (self.gravity, self.place("hold.GM"), held) {
             let text = "the height of the centre of gravity is not said";
             problems.push(place.problem("E179", text, "Give hold.KG (--kg), or hold KM instead."));
         }

@@ -173,7 +173,8 @@ pub fn read_curve(text: &str, unit: Notation) -> Result<CurveTable, Vec<CurvePro
         return Err(problems);
     }
     if points.is_empty() {
-        return Err(whole("no points".to_owned()));
+        let remedy = "Write one point a line: its x and its y.".to_owned();
+        return Err(vec![CurveProblem { line: None, message: "no points".to_owned(), remedy }]);
     }
     Ok(CurveTable {
         points: points.into_iter().map(|(point, _)| point).collect(),
@@ -209,7 +210,10 @@ fn point(
     let tolerance = match layout.tolerance {
         Some(column) if fields.get(column.0).is_some_and(|text| !text.is_empty()) => match read(column)?.entry {
             CellEntry::Length(value) if value >= 0.0 => Some(value),
-            CellEntry::Length(value) => return Err((format!("the tolerance is {value}"), String::new())),
+            CellEntry::Length(value) => {
+                let remedy = "Expected a length of 0 or more; leave it empty for that of the noise.";
+                return Err((format!("the tolerance is {value}"), remedy.to_owned()));
+            }
             _ => None,
         },
         _ => None,

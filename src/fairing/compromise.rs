@@ -14,7 +14,7 @@ use super::model::Model;
 use super::program::{Between, Program, Solved, Wishes};
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
-use crate::hull::{Hull, HullError};
+use crate::hull::Hull;
 use crate::qp::{Settings, Status};
 
 /// Room above the least widening, for an interior to solve in.
@@ -337,18 +337,15 @@ impl<'a> Basic<'a> {
 
 /// What may be asked for in the place of targets that are out of reach, in the order in which it is tried: the part of them
 /// that one smooth move has within the tolerances, where these would have to be `carried` times as wide for all; and what
-/// the hulls have on the way from the first of `ends`, the nearest that they can be had, to the second, the fairest. Nothing
-/// that is further from a target than the surface through the table, `before`.
-///
-/// # Errors
-/// [`HullError`] when a net on the way makes no hull.
+/// the hulls have on the way from the first of `ends`, the nearest that they can be had, to the second, the fairest; what
+/// the surface through the table, `before`, has, where there is neither. Nothing that is further from a target than that.
 pub(super) fn within_reach(
     asked: &[Constraint],
     before: &Hull,
     ends: &Ends,
     carried: Option<f64>,
     surface: &FairSurface,
-) -> Result<Vec<Vec<Constraint>>, HullError> {
+) -> Vec<Vec<Constraint>> {
     let start = &surface.hull;
     let eased = |constraint: &Constraint, value: f64| {
         let own = constraint.value(before);
@@ -360,7 +357,8 @@ pub(super) fn within_reach(
     for part in GONE_BACK {
         let [near, fair] = ends;
         let net: Vec<f64> = near.iter().zip(fair).map(|(near, fair)| near + part * (fair - near)).collect();
-        let had = surface.hull_of(&net)?;
+        // A linear program may leave control values far out where nothing holds them.
+        let Ok(had) = surface.hull_of(&net) else { continue };
         choices.push(asked.iter().map(|constraint| eased(constraint, constraint.value(&had))).collect());
     }
     if let Some(factor) = carried.filter(|factor| *factor > 1.0 && factor.is_finite()) {
@@ -384,5 +382,8 @@ pub(super) fn within_reach(
         Some(smooth) => choices.push(smooth),
         None => {}
     }
-    Ok(choices)
+    if choices.is_empty() {
+        choices.push(asked.iter().map(|constraint| constraint.eased(constraint.value(before), start)).collect());
+    }
+    choices
 }

@@ -13,6 +13,9 @@ use crate::qp::Settings;
 /// Least tolerance over the breadth: below it a difference is rounding.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 
+/// L_PP over the length of the stations, and the reverse, from which it is none of this hull.
+pub(super) const MOST_LENGTH: f64 = 10.0;
+
 /// Area of a section over B T below which it is none.
 const EMPTY: f64 = 1e-9;
 
@@ -33,14 +36,18 @@ pub enum Holding {
 }
 
 impl Holding {
-    /// The constraints, of the surface through the table where they are its own.
-    pub(super) fn constraints(&self, before: &Hull) -> Vec<Constraint> {
+    /// The constraints, of the surface through the table where they are its own. Where displacement and C_B say the same
+    /// to the digits in which C_B is written, the displacement is held.
+    ///
+    /// # Errors
+    /// [`JobError::Apart`] where they do not.
+    pub(super) fn constraints(&self, before: &Hull) -> Result<Vec<Constraint>, JobError> {
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(before));
-        match self {
+        let p = before.particulars();
+        let mut constraints: Vec<Constraint> = match self {
             Self::Given(list) => list.clone(),
             Self::Both { own: list, given } => {
                 // A section above the water has no area.
-                let p = before.particulars();
                 let least = EMPTY * p.breadth * p.draught;
                 let there = |c: &Constraint| !matches!(c, Constraint::SectionArea { area, .. } if *area <= least);
                 list.iter().map(valued).filter(there).chain(given.iter().copied()).collect()
@@ -51,7 +58,21 @@ impl Holding {
                     .map(valued)
                     .collect()
             }
+        };
+        let volume = constraints.iter().find_map(|c| if let Constraint::Displacement(v) = c { Some(*v) } else { None });
+        let block = constraints.iter().position(|c| matches!(c, Constraint::BlockCoefficient(_)));
+        if let (Some(volume), Some(at)) = (volume, block)
+            && let Constraint::BlockCoefficient(asked) = constraints[at]
+        {
+            let [length, breadth, draught] = [p.length_between_perpendiculars, p.breadth, p.draught];
+            let implied = volume / (length * breadth * draught);
+            let digits = format!("{asked}").split_once('.').map_or(0, |(_, digits)| digits.len());
+            if (implied - asked).abs() > 0.5 * 0.1f64.powi(i32::try_from(digits).unwrap_or(i32::MAX)) {
+                return Err(JobError::Apart { volume, implied, asked, length, breadth, draught });
+            }
+            constraints.remove(at);
         }
+        Ok(constraints)
     }
 }
 
@@ -153,6 +174,36 @@ pub enum JobError {
         draught: f64,
         /// Depth \[m\].
         depth: f64,
+    },
+    /// L_PP is no length of this hull.
+    #[error(
+        "L_PP of {length:?} m does not go with stations over {over:.3} m: state the length between the perpendiculars of this hull \
+         (Lpp under [dimensions])"
+    )]
+    Length {
+        /// L_PP \[m\].
+        length: f64,
+        /// From the first station to the last \[m\].
+        over: f64,
+    },
+    /// Displacement and block coefficient are both asked for and do not say the same.
+    #[error(
+        "a displacement of {volume:.2} m3 is C_B {implied:.4} with L_PP {length:.3} m, B {breadth:.3} m and T {draught:.3} m, and C_B \
+         {asked} is asked for"
+    )]
+    Apart {
+        /// Displaced volume \[m^3\].
+        volume: f64,
+        /// What it is as a block coefficient.
+        implied: f64,
+        /// The block coefficient that is asked for.
+        asked: f64,
+        /// L_PP \[m\].
+        length: f64,
+        /// B \[m\].
+        breadth: f64,
+        /// T \[m\].
+        draught: f64,
     },
     /// A line is declared along which the surface cannot break.
     #[error("the {} at {at} m cannot be a {}: the surface through the table has no line of its net there", course.as_str(), kind.as_str())]

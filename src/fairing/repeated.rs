@@ -88,7 +88,8 @@ impl Repeated<'_> {
                 oblique.push(cut);
             }
             let faired = fair_prepared(surface, settings, prepared, &mut RepeatedSolver::new(&settings.solver))?;
-            let after = surface.hull_of(&faired.net)?;
+            // Signs that nothing but far control values can keep make no hull.
+            let Ok(after) = surface.hull_of(&faired.net) else { break };
             let lines = watched.turns(&after);
             let next = Attempt { faired, after, lines };
             if next.is_optimal() && next.excess() < best.excess() {

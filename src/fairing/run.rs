@@ -9,7 +9,7 @@ use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, net_signs};
-use super::job::{Job, JobError, LEAST_TOLERANCE};
+use super::job::{Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lobes::Lobes;
@@ -133,7 +133,14 @@ impl<'a> Run<'a> {
         if draught > depth * (1.0 + 1e-9) {
             return Err(JobError::Draught { draught, depth });
         }
-        let asked = job.holding.constraints(&before);
+        let (length, stations) = (before.particulars().length_between_perpendiculars, &table.stations);
+        let places = stations.iter().map(|station| station.station.x);
+        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let over = ends[1] - ends[0];
+        if !(over / MOST_LENGTH..=over * MOST_LENGTH).contains(&length) {
+            return Err(JobError::Length { length, over });
+        }
+        let asked = job.holding.constraints(&before)?;
         let wished = job.rules(table, &surface, &excluded);
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
         let apart = 6.0 * gap;
@@ -322,7 +329,7 @@ impl<'a> Run<'a> {
     ) -> Result<Attempted, JobError> {
         let plain = self.settings.clone();
         let mut best: Option<(Attempted, FairSettings)> = None;
-        for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface)? {
+        for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
             self.settings = FairSettings { constraints, ..plain.clone() };
             self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
@@ -341,14 +348,21 @@ impl<'a> Run<'a> {
                 break;
             }
         }
-        let Some((attempted, settings)) = best else { unreachable!("there is a part") };
+        let Some((attempted, settings)) = best else { unreachable!("there is always one") };
         self.settings = settings;
         Ok(attempted)
     }
 
     /// The fair hull, after as many repetitions as lines that bend more often ask for.
-    fn attempt(&mut self, faired: Faired, counted: &Counted) -> Result<Attempted, JobError> {
-        let after = self.surface.hull_of(&faired.net)?;
+    fn attempt(&mut self, mut faired: Faired, counted: &Counted) -> Result<Attempted, JobError> {
+        let after = match self.surface.hull_of(&faired.net) {
+            // What a solver gives up need not be a hull: the one it began with is.
+            Err(_) if !faired.solved.is_optimal() => {
+                faired.net.clone_from(&self.surface.start);
+                self.surface.hull_of(&faired.net)?
+            }
+            after => after?,
+        };
         let Self { surface, settings, prepared, solver, before, wished, .. } = self;
         if surface.own {
             // Nothing is repeated on a net of its own: the prices are final.

@@ -102,12 +102,14 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
             Err(found) => problems.extend(found),
         }
     }
+    let mut asked = JobFile::default();
     for (option, key, value) in options {
         match config::read_option(option, key, value) {
-            Ok(option) => said = said.with(option),
+            Ok(option) => asked = asked.and(option),
             Err(found) => problems.extend(found),
         }
     }
+    said = said.with(asked);
     if !problems.is_empty() {
         return Err(Failure::Input(problems));
     }
@@ -269,6 +271,7 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
 fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
     match error {
         JobError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+        JobError::Length { .. } => &["dimensions.Lpp"],
         JobError::Fit(FitError::Hull(hull)) | JobError::Hull(hull) | JobError::Fair(FairError::Hull(hull)) => {
             match hull {
                 HullError::Draught { .. } => &["dimensions.T", "dimensions.D"],
@@ -298,6 +301,7 @@ fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &Jo
             let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
             ("E180", line.map(|line| &line.place), help)
         }
+        JobError::Apart { .. } => ("E170", first(&["hold.Cb", "hold.displacement"]), "Give one of them"),
         JobError::NoLine { .. } => {
             let help = "Run without it: the page and fairing.json list what is proposed";
             ("E180", first(&["lines.accept"]), help)

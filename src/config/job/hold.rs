@@ -125,6 +125,9 @@ impl Quantity {
 /// What is held of the table when nothing is said.
 const DEFAULT: [Quantity; 3] = [Quantity::Displacement, Quantity::CentreOfBuoyancy, Quantity::MidshipCoefficient];
 
+/// Greatest target and greatest band, in the unit of the quantity: no ship has more, and the programs overflow far above.
+pub(super) const MOST_TARGET: f64 = 1e9;
+
 /// Reads `[hold]`.
 pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     for quantity in Quantity::ALL {
@@ -133,8 +136,8 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
         }
     }
     let named = |quantity: Quantity| job.hold.iter().any(|(q, w)| *q == quantity && *w != Wish::Free);
+    // Displacement and C_B are compared when the dimensions are known.
     for (first, second) in [
-        (Quantity::Displacement, Quantity::BlockCoefficient),
         (Quantity::WaterplaneArea, Quantity::WaterplaneCoefficient),
         (Quantity::Metacentre, Quantity::MetacentricHeight),
     ] {
@@ -173,13 +176,14 @@ fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
         Scalar::Measure(measure) => measure,
     };
     let fraction = matches!(kind, Kind::OrWord(Kind::Number, _));
-    if measure.value > 0.0 && (!fraction || measure.value <= 1.0) {
+    let most = if fraction { 1.0 } else { MOST_TARGET };
+    let sign = if quantity == Quantity::MetacentricHeight { measure.value.abs() } else { measure.value };
+    if sign > 0.0 && sign <= most {
         let mass = quantity == Quantity::Displacement && measure.dimension != Dimension::Volume;
         return Some(if mass { Wish::Mass(measure.value) } else { Wish::Value(measure.value) });
     }
-    let help = if fraction { "Expected a number above 0, at most 1." } else { "Expected a positive number." };
-    document.problem("E124", &path, &span, format!("{path} is {}", measure.value), help.into());
-    None
+    let above = if quantity == Quantity::MetacentricHeight { "that is not 0" } else { "above 0" };
+    allowed(document, &path, measure.value, false, &format!("a number {above}, {most:?} at most")).map(Wish::Value)
 }
 
 fn word(word: &str) -> Wish {
@@ -216,21 +220,43 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
         };
         let place = Place::new(document, path, at.start);
         match numbers.as_deref() {
-            Some(&[x, area]) if area > 0.0 => job.section_areas.push(([x, area, job.section_area_band], place)),
-            Some(&[x, area, band]) if area > 0.0 && band >= 0.0 => job.section_areas.push(([x, area, band], place)),
+            Some(&[x, area]) if is_area(area) => job.section_areas.push(([x, area, job.section_area_band], place)),
+            Some(&[x, area, band]) if is_area(area) && (0.0..=MOST_TARGET).contains(&band) => {
+                job.section_areas.push(([x, area, band], place))
+            }
             _ => {
-                let message = format!("{path}: an item is {}", item.describe());
-                document.problem("E122", path, at, message, format!("Expected {}.", expected(kind)));
+                let found = match (numbers.as_deref(), item) {
+                    (Some(numbers), _) => format!("{numbers:?}"),
+                    (None, Raw::Array(_)) => "a list of something else than finite numbers".to_owned(),
+                    (None, _) => item.describe(),
+                };
+                let expected =
+                    format!("Expected {}; areas above 0, bands of 0 or more, {MOST_TARGET:?} at most.", expected(kind));
+                document.problem("E122", path, at, format!("{path}: an item is {found}"), expected);
             }
         }
     }
+}
+
+fn is_area(area: f64) -> bool {
+    area > 0.0 && area <= MOST_TARGET
 }
 
 /// The band about section areas that have none of their own \[m^2\].
 fn band(document: &mut Document<'_>) -> f64 {
     let path = "hold.section_area_band";
     let value = document.number(path);
-    value.and_then(|value| allowed(document, path, value, value >= 0.0, "an area of 0 or more, m2")).unwrap_or(0.0)
+    value
+        .and_then(|value| {
+            allowed(
+                document,
+                path,
+                value,
+                (0.0..=MOST_TARGET).contains(&value),
+                &format!("an area of 0 to {MOST_TARGET:?} m2"),
+            )
+        })
+        .unwrap_or(0.0)
 }
 
 /// A section this near to midship, over L_PP, is the midship section.

@@ -4,7 +4,7 @@ use super::super::infeasible::least_widening;
 use super::super::inflections::{Bands, BandsError, Inflections, minimum_inflections};
 use super::super::model::{Model, value};
 use super::super::pattern::{Pattern, SignForms};
-use super::super::program::{Program, RowName, Solved, Wishes};
+use super::super::program::{Between, Program, RowName, Solved, Wishes};
 use super::super::smoothing::{Smoothed, Smoother, Trial};
 use super::given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
 use super::result::{CurveLine, CurveMove, FairCurve, FairStatus, LineKind, inflections};
@@ -154,8 +154,7 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
     let knuckles: Vec<f64> = points.iter().filter(|p| p.knuckle).map(|p| p.x).collect();
     let starts = job.space.stretches(&knuckles);
 
-    let reference = job.smoother.reduced.expand(&smoothed.free);
-    let sites = between(&job.space, points, &tolerances, settings, &reference);
+    let (reference, sites) = kept_near(&mut job, points, &tolerances, &smoothed)?;
     let Within { free, mut status, diagnosis, nearest, mut contradictory } = job.within(&wished, &sites, &reference)?;
     let z = scores(&job.forms[0], &job.smoother, &smoothed, &free.net);
     let mut choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
@@ -226,6 +225,28 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
         curve,
         batten,
     })
+}
+
+/// The smoothed net, and the limits between the points about it. Where points are locked, about the fairest curve through
+/// them within the tolerances of the others: what they ask for is nothing that the curve must be kept from.
+fn kept_near(
+    job: &mut Job,
+    points: &[CurvePoint],
+    tolerances: &[Option<f64>],
+    smoothed: &Smoothed,
+) -> Result<(Vec<f64>, Vec<Between>), CurveError> {
+    let reference = job.smoother.reduced.expand(&smoothed.free);
+    let sites = between(&job.space, points, tolerances, job.settings, &reference);
+    if !points.iter().any(|point| point.locked && point.y.is_some()) {
+        return Ok((reference, sites));
+    }
+    let breadths = job.not_below(&sites).collect();
+    let through = job.solve(&Wishes { widening: 1.0, breadths, ..Wishes::default() }, None)?;
+    if !through.is_optimal() {
+        return Ok((reference, sites));
+    }
+    let sites = between(&job.space, points, tolerances, job.settings, &through.net);
+    Ok((through.net, sites))
 }
 
 /// The smoothing weight: given, or by cross-validation and not below what the rounding of the readings asks for.

@@ -103,7 +103,7 @@ pub enum CurveError {
     #[error("order {0} of the energy; it is 2, 3 or 4")]
     Order(usize),
     /// A setting that is not positive or not finite.
-    #[error("{what} is {value}")]
+    #[error("{what} is {value:?}; at most 1e12 are taken, and none below 0 but of slopes, area and centroid")]
     Setting {
         /// Which one.
         what: &'static str,

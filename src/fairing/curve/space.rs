@@ -200,6 +200,9 @@ impl CurveSpace {
     }
 }
 
+/// Greatest setting, in its unit: programs overflow far above.
+const MOST: f64 = 1e12;
+
 /// Points that the settings cannot use.
 pub(super) fn checked(points: &[CurvePoint], settings: &CurveSettings) -> Result<(), CurveError> {
     if !(2..=4).contains(&settings.order) {
@@ -215,14 +218,14 @@ pub(super) fn checked(points: &[CurvePoint], settings: &CurveSettings) -> Result
         ("the quantum", Some(settings.quantum), false),
     ];
     for (what, value, strict) in positive {
-        if let Some(value) = value.filter(|v| !v.is_finite() || *v < 0.0 || (strict && *v <= 0.0)) {
+        if let Some(value) = value.filter(|v| !(0.0..=MOST).contains(v) || (strict && *v <= 0.0)) {
             return Err(CurveError::Setting { what, value });
         }
     }
     let finite =
         [("the first slope", settings.slopes[0]), ("the last slope", settings.slopes[1]), ("the area", settings.area)];
     for (what, value) in finite.into_iter().chain([("the centroid", settings.centroid)]) {
-        if let Some(value) = value.filter(|v| !v.is_finite()) {
+        if let Some(value) = value.filter(|v| v.is_nan() || v.abs() > MOST) {
             return Err(CurveError::Setting { what, value });
         }
     }

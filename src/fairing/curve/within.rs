@@ -65,7 +65,7 @@ impl Job<'_> {
     }
 
     /// A curve of points that are nowhere below 0 does not go below either.
-    fn not_below<'s>(&self, sites: &'s [Between]) -> impl Iterator<Item = Limit> + use<'s> {
+    pub(super) fn not_below<'s>(&self, sites: &'s [Between]) -> impl Iterator<Item = Limit> + use<'s> {
         let positive = self.model.readings.iter().all(|reading| reading.value >= 0.0);
         let limit = |site: &Between| Limit { row: site.row.clone(), lower: 0.0, upper: f64::INFINITY };
         sites.iter().filter(move |_| positive).map(limit)

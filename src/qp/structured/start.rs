@@ -20,6 +20,11 @@ const SPREAD: f64 = 10.0;
 /// products s z equal.
 pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
     let m = scaled.rows.row_count();
+    // Numbers near the greatest there are overflow.
+    let is_number = |row: usize| scaled.lower[row] < f64::INFINITY && scaled.upper[row] > f64::NEG_INFINITY;
+    if !(0..m).all(is_number) {
+        return None;
+    }
     let bounded = |row: usize| scaled.upper[row].is_finite() || scaled.lower[row].is_finite();
     let weight = if scaled.quadratic.values().iter().all(|value| *value == 0.0) { SOFT_LINEAR } else { SOFT };
     let soft = |row: usize| if scaled.equal[row] || !bounded(row) { 0.0 } else { weight };
@@ -51,6 +56,9 @@ pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
     let steepest = curved.iter().zip(&scaled.linear).fold(0.0_f64, |most, (p, q)| most.max(p.abs()).max(q.abs()));
     let steepest = steepest.max(if weight == SOFT { rms(&step.x) } else { 0.0 });
     let pull = if steepest > 0.0 { PULL * steepest } else { PULL };
+    if !(size.is_finite() && pull.is_finite()) {
+        return None;
+    }
     Some(centred(scaled, step.x, &values, MARGIN * size, MARGIN * size * pull))
 }
 
