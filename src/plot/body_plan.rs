@@ -3,7 +3,7 @@
 use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::midship_of;
-use super::label::{LabelPlacer, Preference, length, places_over};
+use super::label::{FLAT, LabelPlacer, Preference, length, places_over};
 use super::lines_grid::{GridPlane, LinesGrid};
 use super::profile::name_assumed;
 use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
@@ -310,6 +310,9 @@ fn name_at_deck(
     text_size: f64,
 ) {
     let style = TextStyle::new(text_size, Anchor::Middle).halo();
-    let places = places_over(at, text_size, [4, 15]);
-    placer.name_off_curves(canvas, name, &style, &places, room, (at, &THREAD));
+    let places = places_over(at, text_size, [4, 15], 1.0);
+    if !placer.name_off_curves(canvas, name, &style, &places, room, (at, &THREAD)) {
+        let places = places_over(at, text_size, [4, 15], FLAT);
+        placer.name_off_curves(canvas, name, &style, &places, room, (at, &THREAD));
+    }
 }

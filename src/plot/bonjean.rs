@@ -7,7 +7,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::fairing::{BEYOND, draw_centreplane, is_guessed};
 use super::label::{LabelPlacer, Preference};
-use super::scale::{contracted_scale, drawing_scale, nice_step, sheet_scale};
+use super::scale::{drawing_scale, nice_step, rule_scale, sheet_scale};
 use super::sheet::{LETTERS, ROOM};
 use super::view::{DESIGN, GRID, OUTLINE};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
@@ -111,7 +111,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         .filter_map(|(area, x)| Some(x + WIDEST * spacing * (*area)? / largest));
     let end = reach.fold(high, f64::max) + 0.2 * spacing;
     let room = ROOM[0] - SIDES[0] - SIDES[1];
-    let contracted = contracted_scale(end - low, room);
+    let contracted = rule_scale(end - low, room);
     let across = 1000.0 / f64::from(contracted);
     let left = SIDES[0] + 0.5 * (room - across * (end - low));
     let at = |x: f64, z: f64| [left + across * (x - low), floor - upward * (z - bottom)];

@@ -103,6 +103,15 @@ impl Rectangle {
         self.left <= other.left && other.right <= self.right && self.top <= other.top && other.bottom <= self.bottom
     }
 
+    /// How far it is from a place in a direction of length 1 to its edges \[mm\]; nothing for a place outside.
+    pub(super) fn room(&self, from: [f64; 2], direction: [f64; 2]) -> f64 {
+        let to_edge = |d: usize, low: f64, high: f64| {
+            let end = if direction[d] > 0.0 { high } else { low };
+            if direction[d] == 0.0 { f64::INFINITY } else { (end - from[d]) / direction[d] }
+        };
+        to_edge(0, self.left, self.right).min(to_edge(1, self.top, self.bottom)).max(0.0)
+    }
+
     /// Place and size, as an element of SVG has them.
     fn attributes(&self) -> String {
         let [x, y, width, height] = [self.left, self.top, self.width(), self.height()].map(number);
@@ -306,15 +315,6 @@ fn write_element(out: &mut String, at: [f64; 2], pieces: &[(bool, &str)], style:
 }
 
 impl Canvas {
-    /// How far it is from a place in a direction of length 1 to [`EDGE`] millimetres before the edge of the sheet \[mm\].
-    pub(super) fn room(&self, from: [f64; 2], direction: [f64; 2]) -> f64 {
-        let to_edge = |d: usize, size: f64| {
-            let end = if direction[d] > 0.0 { size - EDGE } else { EDGE };
-            if direction[d] == 0.0 { f64::INFINITY } else { (end - from[d]) / direction[d] }
-        };
-        to_edge(0, self.width).min(to_edge(1, self.height)).max(0.0)
-    }
-
     /// An empty white sheet \[mm\].
     pub(super) fn new(width: f64, height: f64) -> Self {
         Self {
@@ -326,6 +326,11 @@ impl Canvas {
             clip: None,
             texts: Vec::new(),
         }
+    }
+
+    /// The sheet without what stays free at its edges.
+    pub(super) fn frame(&self) -> Rectangle {
+        self.sheet().grown(-EDGE)
     }
 
     /// The whole drawing.

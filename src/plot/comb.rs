@@ -1,9 +1,11 @@
 //! Curvature combs on a drawing: teeth at right angles to the drawn curve, on its convex side, their tips joined; all
 //! combs of one kind of line have one scale, which is printed. Teeth that are longer than there is room for are left
 //! out, the line of the tips is interrupted there, and an arrow in the direction of the longest of them says so; its
-//! curvature may be written beside it.
+//! curvature may be written beside it. Where arrows or rings would stand on each other the largest is drawn, and the sheet
+//! says how many are not.
 
-use super::canvas::{Canvas, Pen};
+use super::canvas::{Canvas, Pen, Rectangle};
+use super::label::meet;
 use super::scale::sheet_scale;
 use crate::fairing::inspect::Comb;
 
@@ -17,6 +19,14 @@ const DRAWN: usize = 3;
 const RING: f64 = 1.1;
 /// Sides of the head of an arrow \[mm\].
 const HEAD: f64 = 1.6;
+/// Shorter arrows tell no direction \[mm\].
+const LEAST_ARROW: f64 = 2.5;
+/// Least distance of the points of arrows, which have their curvature beside them, and of the centres of rings that can
+/// be told apart \[mm\].
+const ARROWS_APART: f64 = 4.0;
+const RINGS_APART: f64 = 1.8;
+/// Fewest teeth in a row whose tips are joined where neighbours are left out.
+const LEAST_RUN: usize = 4;
 
 /// The scale of the combs of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,9 +44,12 @@ pub(super) struct DrawnComb {
     pub(super) tips: Vec<Vec<[f64; 2]>>,
     /// The teeth, foot and tip.
     pub(super) teeth: Vec<[[f64; 2]; 2]>,
-    /// Arrows for teeth that had to be left out, foot and point, with the largest curvature of those \[1/m\].
-    pub(super) cut: Vec<([[f64; 2]; 2], f64)>,
+    /// Arrows for teeth that had to be left out, which are not drawn yet.
+    pub(super) cut: Vec<CutTeeth>,
 }
+
+/// Foot and point of the arrow for teeth that had to be left out, and the largest curvature of those \[1/m\].
+pub(super) type CutTeeth = ([[f64; 2]; 2], f64);
 
 /// How the comb of a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,21 +86,21 @@ impl CombScale {
         format!("{STATED:.0} mm = {:.*} 1/m", digits.unwrap_or(6) as usize, self.curvature)
     }
 
-    /// Draws a comb; `at` takes points of the ship to the sheet.
+    /// Draws a comb inside `bounds`; `at` takes points of the ship to the sheet.
     pub(super) fn draw(
         &self,
         canvas: &mut Canvas,
         comb: &Comb,
         at: impl Fn([f64; 3]) -> [f64; 2],
         pens: &CombPens,
+        bounds: &Rectangle,
     ) -> DrawnComb {
         let feet: Vec<[f64; 2]> = comb.teeth.iter().map(|tooth| at(tooth.at)).collect();
-        let mut tips: Vec<[f64; 2]> = Vec::with_capacity(feet.len());
         let mut longest: Option<(f64, [[f64; 2]; 2])> = None;
         let mut drawn = DrawnComb::default();
-        let end = |canvas: &mut Canvas, drawn: &mut DrawnComb, longest: &mut Option<(f64, [[f64; 2]; 2])>| {
+        let mut runs: Vec<Vec<(usize, [f64; 2])>> = vec![Vec::new()];
+        let end = |drawn: &mut DrawnComb, longest: &mut Option<(f64, [[f64; 2]; 2])>| {
             if let Some((size, ends)) = longest.take() {
-                arrow(canvas, ends, &pens.cut);
                 drawn.cut.push((ends, size * self.curvature / STATED));
             }
         };
@@ -104,40 +117,88 @@ impl CombScale {
             let outward = (far[0] - feet[k][0]) * normal[0] + (far[1] - feet[k][1]) * normal[1];
             let size = norm(tooth.tooth) / self.curvature * STATED;
             let tip = |size: f64| [0, 1].map(|d| feet[k][d] + size.copysign(outward) * normal[d]);
-            let longest_here = self.longest.min(canvas.room(feet[k], normal.map(|c| c * 1f64.copysign(outward))));
+            let longest_here = self.longest.min(bounds.room(feet[k], normal.map(|c| c * 1f64.copysign(outward))));
             if size > longest_here {
-                canvas.polyline(&tips, &pens.tips);
-                drawn.tips.push(std::mem::take(&mut tips));
+                runs.push(Vec::new());
                 if longest.is_none_or(|(most, _)| size > most) {
                     longest = Some((size, [feet[k], tip(longest_here)]));
                 }
                 continue;
             }
-            end(canvas, &mut drawn, &mut longest);
-            if k % DRAWN == 0 {
-                canvas.line(feet[k], tip(size), &pens.teeth);
-                drawn.teeth.push([feet[k], tip(size)]);
+            end(&mut drawn, &mut longest);
+            if let Some(run) = runs.last_mut() {
+                run.push((k, tip(size)));
             }
-            tips.push(tip(size));
         }
-        canvas.polyline(&tips, &pens.tips);
-        end(canvas, &mut drawn, &mut longest);
-        drawn.tips.push(tips);
-        drawn.tips.retain(|line| line.len() > 1);
+        end(&mut drawn, &mut longest);
+        // A few teeth between such as are left out tell nothing.
+        let whole = runs.len() == 1;
+        for run in runs.iter().filter(|run| run.len() > 1 && (whole || run.len() >= LEAST_RUN)) {
+            for &(k, tip) in run.iter().filter(|(k, _)| k % DRAWN == 0) {
+                canvas.line(feet[k], tip, &pens.teeth);
+                drawn.teeth.push([feet[k], tip]);
+            }
+            let tips: Vec<[f64; 2]> = run.iter().map(|(_, tip)| *tip).collect();
+            canvas.polyline(&tips, &pens.tips);
+            drawn.tips.push(tips);
+        }
         drawn
     }
 
     /// Draws the rings around the inflections of a comb.
     pub(super) fn rings(canvas: &mut Canvas, comb: &Comb, at: impl Fn([f64; 3]) -> [f64; 2], pens: &CombPens) {
-        for &place in &comb.inflections {
-            let [x, y] = at(place);
-            let circle: Vec<[f64; 2]> = (0..=24)
-                .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
-                .map(|(s, c)| [x + RING * c, y + RING * s])
-                .collect();
-            canvas.polyline(&circle, &pens.ring);
+        comb.inflections.iter().for_each(|&place| ring(canvas, at(place), &pens.ring));
+    }
+}
+
+fn ring(canvas: &mut Canvas, [x, y]: [f64; 2], pen: &Pen) {
+    let circle: Vec<[f64; 2]> = (0..=24)
+        .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
+        .map(|(s, c)| [x + RING * c, y + RING * s])
+        .collect();
+    canvas.polyline(&circle, pen);
+}
+
+/// Draws rings around those of `places` that keep apart, the first of several, and returns these and the others.
+pub(super) fn draw_rings(canvas: &mut Canvas, places: &[[f64; 2]], pen: &Pen) -> [Vec<[f64; 2]>; 2] {
+    let mut drawn: Vec<[f64; 2]> = Vec::new();
+    let mut left = Vec::new();
+    for &place in places {
+        if drawn.iter().any(|other| distance(*other, place) < RINGS_APART) {
+            left.push(place);
+        } else {
+            ring(canvas, place, pen);
+            drawn.push(place);
         }
     }
+    [drawn, left]
+}
+
+/// Of arrows for teeth that are left out, those that keep apart from each other and from `others`, the largest curvature
+/// first; they, and the feet of the others.
+pub(super) fn arrows_apart(cut: Vec<CutTeeth>, others: &[CutTeeth]) -> (Vec<CutTeeth>, Vec<[f64; 2]>) {
+    let mut sorted = cut;
+    sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let (mut kept, mut left): (Vec<CutTeeth>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
+    for (ends, curvature) in sorted {
+        let near = |other: &[[f64; 2]; 2]| distance(other[1], ends[1]) < ARROWS_APART || meet(*other, ends);
+        let short = distance(ends[0], ends[1]) < LEAST_ARROW;
+        if short || kept.iter().chain(others).any(|(other, _)| near(other)) {
+            left.push(ends[0]);
+        } else {
+            kept.push((ends, curvature));
+        }
+    }
+    (kept, left)
+}
+
+/// Draws arrows for teeth that are left out.
+pub(super) fn draw_arrows(canvas: &mut Canvas, cut: &[CutTeeth], pen: &Pen) {
+    cut.iter().for_each(|(ends, _)| arrow(canvas, *ends, pen));
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// An arrow for the teeth that are left out.
@@ -159,4 +220,54 @@ fn usual<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> f64 {
 
 fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fairing::inspect::Tooth;
+    use crate::hull::Cut;
+
+    #[test]
+    fn combs_stay_inside_their_bounds() {
+        // A line along x whose curvature rises to far more than there is room for, and falls again.
+        let tooth = |k: i32| {
+            let x = f64::from(k);
+            Tooth { at: [x, 0.0, 0.0], tooth: [0.0, 20.0 / (1.0 + 0.05 * (x - 40.0).powi(2)), 0.0] }
+        };
+        let comb = Comb { cut: Cut::Waterline { z: 0.0 }, teeth: (0..80).map(tooth).collect(), inflections: vec![] };
+        let scale = CombScale { curvature: 10.0, longest: LONGEST };
+        let bounds = Rectangle::new(0.0, 24.0, 90.0, 40.0);
+        let pen = Pen::new(0.1, "#000000");
+        let pens = CombPens { teeth: pen, tips: pen, ring: pen, cut: pen };
+        let at = |p: [f64; 3]| [p[0] + 5.0, 30.0 - p[1]];
+        let drawn = scale.draw(&mut Canvas::new(100.0, 60.0), &comb, at, &pens, &bounds);
+        assert_eq!((drawn.tips.len(), drawn.cut.len()), (2, 1));
+        let ends = drawn.cut.iter().map(|(ends, _)| ends[1]);
+        for [x, y] in drawn.tips.concat().into_iter().chain(ends) {
+            assert!(bounds.grown(1e-9).contains(&Rectangle::new(x, y, x, y)), "{x} {y}");
+        }
+        assert!((drawn.cut[0].1 - 20.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn arrows_and_rings_that_would_overlap_are_left_out() {
+        let arrow = |x: f64, y: f64| [[x, 0.0], [x, y]];
+        let cut = vec![
+            (arrow(0.0, 10.0), 1.0),
+            (arrow(1.0, 10.0), 3.0),
+            (arrow(9.0, 10.0), 2.0),
+            ([[5.0, 5.0], [12.0, 5.0]], 0.5),
+            (arrow(30.0, 1.0), 9.0),
+        ];
+        let (kept, left) = arrows_apart(cut, &[]);
+        assert_eq!(kept, [(arrow(1.0, 10.0), 3.0), (arrow(9.0, 10.0), 2.0)]);
+        assert_eq!(left, [[30.0, 0.0], [0.0, 0.0], [5.0, 5.0]]);
+        let (kept, left) = arrows_apart(kept, &[(arrow(9.5, 10.0), 1.0)]);
+        assert_eq!((kept.len(), left.len()), (1, 1));
+        let mut canvas = Canvas::new(50.0, 50.0);
+        let places = [[5.0, 5.0], [5.5, 5.0], [9.0, 5.0]];
+        let [drawn, left] = draw_rings(&mut canvas, &places, &Pen::new(0.1, "#000000"));
+        assert_eq!((drawn, left), (vec![[5.0, 5.0], [9.0, 5.0]], vec![[5.5, 5.0]]));
+    }
 }

@@ -1,35 +1,35 @@
-//! A hull before and after fairing: body plan and half-breadth plan with combs.
+//! A hull before and after fairing: the half-breadth plan with combs, and what other plans with combs share with it.
 //!
 //! Before is grey, after is black and blue; the combs of both have one scale, inflections are ringed. Stations and
 //! waterlines are those of the table. The half-breadth plan is stretched athwartships by a whole number, which is
 //! printed; curvatures are those of the ship.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::comb::{CombPens, CombScale, LONGEST};
+use super::comb::{CombPens, CombScale, CutTeeth, LONGEST, arrows_apart, draw_arrows, draw_rings};
 use super::fairing_combs::FairingCombs;
+use super::fairing_reach::{HALF_SIDE, Reach};
+use super::fairing_sections::whole_curves;
 use super::label::{LabelPlacer, Preference, length};
-use super::scale::{drawing_scale, figures};
+use super::scale::{drawing_scale, figures, rule_scale};
 use super::sheet::{LETTERS, Sheet};
-use super::station_names::{ROWS, name_stations, number_sections};
-use super::view::{BASE, DESIGN, GRID, OUTLINE, THREAD};
+use super::station_names::ROWS;
+use super::view::{BASE, GRID, OUTLINE, THREAD};
 use super::{FigureInputs, PlotError, Svg, caption, outline};
 use crate::fairing::inspect::Comb;
 use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Face, Hull, OffsetStation};
 use crate::qp::Status;
+use crate::units::counted;
 
-/// Room at the sides, above and below the drawing \[mm\].
-const SIDE: f64 = 38.0;
+/// Room above and below the drawing \[mm\].
 const HEAD: f64 = 40.0;
 const FOOT: f64 = 30.0;
 /// Room aft and forward of views along the ship \[mm\]: names and heights stand aft.
 pub(super) const LONG_SIDES: [f64; 2] = [19.5, 10.0];
-/// Room forward of half a ship \[mm\].
-const HALF_SIDE: f64 = 5.5;
 /// A row below all of [`ROWS`] for names of stations that combs leave no other place \[mm\].
 const LAST_ROW: f64 = 17.4;
 /// Deviation of drawn chords \[m\] a millimetre of the sheet.
-const CHORD: f64 = 0.01;
+pub(super) const CHORD: f64 = 0.01;
 
 pub(super) const BEFORE: Pen = Pen::new(0.2, "#7d7d7d");
 pub(super) const AFTER: Pen = Pen::new(0.22, "#000000");
@@ -62,14 +62,6 @@ pub(super) struct Plan<'a> {
     pub(super) longest: f64,
 }
 
-/// Body plan before and after, aft sections on the left.
-///
-/// # Errors
-/// [`PlotError::Chart`] for a table without stations.
-pub fn fairing_body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(body_plan(record, combs, sheet)?.finish("fairing-body-plan")))
-}
-
 /// Half-breadth plan before and after, bow on the right; of long ships a sheet for each half.
 ///
 /// # Errors
@@ -83,95 +75,6 @@ pub fn fairing_half_breadth_plan(
     Ok(sheets.into_iter().map(|canvas| Svg::new(canvas.finish("fairing-half-breadth-plan"))).collect())
 }
 
-/// Scale 1 : n of a view along the ship on A3 from which on its halves have a sheet each: rings and names have no room.
-const CROWDED: u32 = 1000;
-/// Distance of rings that can be told apart \[mm\].
-const RINGS_APART: f64 = 2.5;
-
-/// A part of a ship along its length.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Reach {
-    /// Aft and fore end \[m\].
-    pub(super) x: [f64; 2],
-    /// What it is called; nothing where it is the whole.
-    pub(super) name: String,
-    /// Whether its ends are those of the ship.
-    outer: [bool; 2],
-}
-
-impl Reach {
-    /// The whole ship.
-    pub(super) fn whole(x: [f64; 2]) -> Self {
-        Self { x, name: String::new(), outer: [true; 2] }
-    }
-
-    /// The whole ship from `x[0]` to `x[1]`; its halves where on A3 the places of
-    /// rings on each of its lines say that it is crowded, or its scale, and halves have a larger one. `scale` is the n of
-    /// the scale 1 : n of a part.
-    pub(super) fn sheets(x: [f64; 2], scale: impl Fn(&Self) -> u32, rings: &[Vec<[f64; 2]>]) -> Vec<Self> {
-        let near = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < RINGS_APART;
-        let touch = |line: &Vec<[f64; 2]>| (1..line.len()).any(|k| line[..k].iter().any(|other| near(other, &line[k])));
-        let whole = Self::whole(x);
-        let n = scale(&whole);
-        if n < CROWDED && !rings.iter().any(touch) {
-            return vec![whole];
-        }
-        let halves = Self::halves(x);
-        if halves.iter().all(|half| scale(half) < n) { halves } else { vec![whole] }
-    }
-
-    fn halves(x: [f64; 2]) -> Vec<Self> {
-        let at = 0.5 * (x[0] + x[1]);
-        let named = |half: &str, to: &str| format!(", {half} BODY {to} x = {at:.2} m");
-        vec![
-            Self { x: [x[0], at], name: named("AFT", "TO"), outer: [true, false] },
-            Self { x: [at, x[1]], name: named("FORE", "FROM"), outer: [false, true] },
-        ]
-    }
-
-    pub(super) fn length(&self) -> f64 {
-        self.x[1] - self.x[0]
-    }
-
-    pub(super) fn is_whole(&self) -> bool {
-        self.outer == [true; 2]
-    }
-
-    /// The longest of some.
-    pub(super) fn longest(reaches: &[Self]) -> Option<&Self> {
-        reaches.iter().max_by(|a, b| a.length().total_cmp(&b.length()))
-    }
-
-    /// The largest scale 1 : n at which it fits along `paper` \[mm\].
-    pub(super) fn scale(&self, paper: [f64; 2]) -> u32 {
-        let forward = if self.is_whole() { LONG_SIDES[1] } else { HALF_SIDE };
-        drawing_scale(self.length(), paper[0] - LONG_SIDES[0] - forward)
-    }
-
-    /// Whether a place along the ship belongs to it.
-    pub(super) fn has(&self, x: f64) -> bool {
-        let slack = 1e-9 * self.length();
-        (self.outer[0] || x >= self.x[0] - slack) && (self.outer[1] || x <= self.x[1] + slack)
-    }
-
-    /// What is drawn of a view with it from `sides[0]` to `sides[1]` on `paper` \[mm\]: all there is beyond the ends of the
-    /// ship, and nothing of the other half.
-    pub(super) fn window(&self, sides: [f64; 2], paper: [f64; 2]) -> Rectangle {
-        let left = if self.outer[0] { 0.0 } else { sides[0] };
-        let right = if self.outer[1] { paper[0] } else { sides[1] };
-        Rectangle::new(left, 0.0, right, paper[1])
-    }
-
-    /// Where the other half begins: at `sides` on a view from `top` to `bottom` \[mm\].
-    pub(super) fn draw_border(&self, canvas: &mut Canvas, sides: [f64; 2], [top, bottom]: [f64; 2]) {
-        for (outer, x) in self.outer.into_iter().zip(sides) {
-            if !outer {
-                canvas.line([x, top], [x, bottom], &DESIGN);
-            }
-        }
-    }
-}
-
 /// Places on a sheet of the inflections of fair lines, line by line.
 pub(super) fn rings_of(combs: &[&Comb], at: impl Fn(&Comb, [f64; 3]) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     combs.iter().map(|comb| comb.inflections.iter().map(|&place| at(comb, place)).collect()).collect()
@@ -182,88 +85,6 @@ pub(super) fn curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>
     let section = hull.section(cut, 1e-6);
     let side = section.branches.iter().filter(|branch| branch.face == Face::Side);
     side.map(|branch| branch.polyline(deviation)).collect()
-}
-
-/// The curves of a plane on the hull, in one piece where the hull is one: stations and diagonals run on over the flats,
-/// to the centre line; a station at an end of the hull that goes in and out of its side, or leaves it before the keel,
-/// is the edge there.
-pub(super) fn whole_curves(hull: &Hull, cut: Cut, deviation: f64) -> Vec<Vec<[f64; 3]>> {
-    let section = hull.section(cut, 1e-6);
-    let on = |faces: &[Face]| {
-        let branches = section.branches.iter().filter(|branch| faces.contains(&branch.face));
-        branches.map(|branch| branch.polyline(deviation)).collect::<Vec<_>>()
-    };
-    match cut {
-        Cut::Station { x } => {
-            // What lies in the plane of a transom or a flat bow is no line of the side.
-            let lines = on(&[Face::Side, Face::Bottom]);
-            let in_pieces = on(&[Face::Side]).len() > 1;
-            let foot = lines.iter().flatten().min_by(|a, b| a[2].total_cmp(&b[2]).then(a[1].total_cmp(&b[1])));
-            let is_open = foot.is_some_and(|foot| foot[1] > OPEN * hull.particulars().breadth);
-            // A bulb under a flare is in two pieces too, far wider than the stem beside it.
-            let edge = if in_pieces || is_open { end_curve(hull, x) } else { None };
-            let edge = edge.filter(|edge| widest(edge) >= 0.5 * widest(lines.iter().flatten()));
-            edge.map_or(lines, |edge| vec![edge])
-        }
-        Cut::Diagonal { .. } => on(&[Face::Side, Face::Bottom, Face::Transom, Face::Bow]),
-        _ => on(&[Face::Side]),
-    }
-}
-
-/// The greatest half-breadth of points \[m\].
-fn widest<'a>(points: impl IntoIterator<Item = &'a [f64; 3]>) -> f64 {
-    points.into_iter().map(|p| p[1]).fold(0.0, f64::max)
-}
-
-/// Half-breadth of the foot of a section that ends away from the centre line, in breadths of the hull.
-const OPEN: f64 = 1e-3;
-
-/// The end of the surface beside the station at `x`, from the centre line at the keel to the deck; none where no end is
-/// near.
-fn end_curve(hull: &Hull, x: f64) -> Option<Vec<[f64; 3]>> {
-    const POINTS: usize = 400;
-    let surface = hull.surface();
-    let (ends, (v0, v1)) = (surface.u().domain(), surface.v().domain());
-    let near = END * hull.particulars().length_between_perpendiculars;
-    let edge = |u: f64| {
-        let points = (0..=POINTS).map(|k| surface.eval(u, v0 + (v1 - v0) * k as f64 / POINTS as f64));
-        let all: Vec<[f64; 3]> = points.filter(|p| p[2] <= hull.deck_height(p[0])).collect();
-        let beside: Vec<[f64; 3]> = all.iter().copied().filter(|p| (p[0] - x).abs() <= near).collect();
-        // An upright end that is rounded off at its foot is drawn down to it.
-        if 2 * beside.len() >= all.len() { all } else { beside }
-    };
-    let xs = || surface.points().iter().map(|p| p[0]);
-    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
-    let end = if x - low <= near { ends.0 } else { Some(ends.1).filter(|_| high - x <= near)? };
-    let mut points = Some(edge(end)).filter(|points| points.len() > 1)?;
-    let [x, y, z] = points[0];
-    if y > 0.0 {
-        points.insert(0, [x, 0.0, z]);
-    }
-    Some(points)
-}
-
-/// Part of the length within which a station is at an end of the hull, and by which it stands inside when it is drawn
-/// there: an upright end that is a plane at the waterlines alone leaves that plane by less.
-const END: f64 = 0.01;
-const INSIDE: f64 = 1e-4;
-
-/// The plane of a station; at an end of the hull, where it may go in and out of the side, a hair inside if that is in
-/// fewer pieces.
-pub(super) fn station_cut(record: &FairRecord, x: f64) -> Cut {
-    let hull = &record.after;
-    let xs = || hull.surface().points().iter().map(|p| p[0]);
-    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
-    let length = high - low;
-    if x - low > END * length && high - x > END * length {
-        return Cut::Station { x };
-    }
-    let inward = Cut::Station { x: x + INSIDE * length * if x - low < high - x { 1.0 } else { -1.0 } };
-    let pieces = |cut: Cut| match curves(hull, cut, END * length).len() {
-        0 => usize::MAX,
-        count => count,
-    };
-    if pieces(inward) < pieces(Cut::Station { x }) { inward } else { Cut::Station { x } }
 }
 
 /// Largest half-breadth, lowest and highest height, aft and fore end of the offsets and of both hulls.
@@ -305,74 +126,6 @@ pub(super) fn midship(record: &FairRecord, x: [f64; 2]) -> f64 {
     if (half - middle).abs() <= 0.1 * (x[1] - x[0]) { half } else { middle }
 }
 
-pub(super) fn body_plan(record: &FairRecord, combs: &FairingCombs, sheet: Sheet) -> Result<Canvas, PlotError> {
-    let paper = sheet.room();
-    let Some((x, breadth, z)) = extent(record) else {
-        return Err(PlotError::Chart("the table has no offsets".to_owned()));
-    };
-    let room = [paper[0] - 2.0 * SIDE, paper[1] - HEAD - FOOT];
-    let n = drawing_scale(2.0 * breadth, room[0]).max(drawing_scale(z[1] - z[0], room[1]));
-    let millimetres = 1000.0 / f64::from(n);
-    let plan = Plan {
-        record,
-        combs,
-        title: "BODY PLAN",
-        part: String::new(),
-        scale: format!("1:{n}"),
-        heights: "waterlines by z [m] above the base line",
-        room: paper,
-        longest: LONGEST,
-    };
-    let floor = paper[1] - FOOT - 0.5 * (room[1] - millimetres * (z[1] - z[0])).max(0.0);
-    let midship = midship(record, x);
-    let side = move |x: f64| if x < midship { -1.0 } else { 1.0 };
-    let at = move |half: f64| {
-        move |p: [f64; 3]| [0.5 * paper[0] + half * millimetres * p[1], floor - millimetres * (p[2] - z[0])]
-    };
-    let mut canvas = Canvas::new(paper[0], paper[1]);
-    let frame = |half: f64, height: f64| at(half)([0.0, breadth, height]);
-    for &height in &record.lines.waterlines {
-        canvas.line(frame(-1.0, height), frame(1.0, height), &GRID);
-    }
-    canvas.line(frame(-1.0, base(z)), frame(1.0, base(z)), &BASE);
-    canvas.line(at(1.0)([0.0, 0.0, z[0]]), at(1.0)([0.0, 0.0, z[1]]), &BASE);
-    let cuts: Vec<Cut> = record.lines.stations.iter().map(|station| station_cut(record, station.x)).collect();
-    let place = |cut: &Cut| match *cut {
-        Cut::Station { x } => at(side(x)),
-        _ => at(1.0),
-    };
-    let drawn = draw(&mut canvas, &plan, &cuts, CHORD / millimetres, &place);
-    let mut placer = drawn.placer();
-    title(&mut canvas, &plan, &drawn);
-    let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
-    // Heights stand outside the reach of the combs, all in one column.
-    let style = TextStyle::new(LETTERS, Anchor::End);
-    let heights: Vec<([f64; 2], String)> = record
-        .lines
-        .waterlines
-        .iter()
-        .map(|&height| (frame(-1.0, height), format!("{height:.3}")))
-        .map(|([x, y], name)| ([x - 2.0, y], name))
-        .collect();
-    let places: Vec<Rectangle> =
-        heights.iter().map(|(at, name)| Canvas::text_place(*at, name, &style).grown(0.6)).collect();
-    let left = places.iter().map(|place| place.left).fold(f64::INFINITY, f64::min);
-    let shift = placer.clear_shift(&places, left - window.left);
-    for ([x, y], name) in heights {
-        if shift > 0.0 {
-            canvas.line([x - shift + 0.8, y], [x + 2.0, y], &GRID);
-        }
-        placer.name_point(&mut canvas, &name, &style, &[[x - shift, y]], &window);
-    }
-    drawn.name_cut(&mut canvas, &mut placer, &window);
-    name_stations(&mut canvas, record, &drawn.curves, &mut placer, &window, [0.5 * paper[0], midship]);
-    number_sections(&mut canvas, record, &drawn.curves, &mut placer, &window);
-    let words = TextStyle::new(3.2, Anchor::Middle);
-    canvas.text([0.5 * paper[0] - 60.0, paper[1] - 20.0], "AFT", &words);
-    canvas.text([0.5 * paper[0] + 60.0, paper[1] - 20.0], "FORWARD", &words);
-    Ok(canvas)
-}
-
 /// The largest scale at which a view along the ship from `x[0]` to `x[1]` \[m\] fits into `paper` \[mm\].
 pub(super) fn long_scale(x: [f64; 2], paper: [f64; 2]) -> u32 {
     drawing_scale(x[1] - x[0], paper[0] - LONG_SIDES.iter().sum::<f64>())
@@ -398,13 +151,19 @@ impl HalfBreadths {
     /// The part `reach` on `paper`, at the scale of the longest part.
     fn new(reach: &Reach, longest: &Reach, breadth: f64, paper: [f64; 2]) -> Self {
         let room = paper[1] - HEAD - FOOT - 20.0;
-        let n = longest.scale(paper).max(drawing_scale(breadth, room));
+        let n = longest.scale(paper).max(rule_scale(breadth, room));
         let millimetres = 1000.0 / f64::from(n);
         // A whole number of times wider than long, so that waterlines keep apart.
         let stretch = (room / (breadth * millimetres)).floor().clamp(1.0, 10.0);
         // What is left of the height stands above and below.
         let floor = paper[1] - FOOT - 4.0 - 0.5 * (room - stretch * breadth * millimetres).max(0.0);
-        let left = long_left(paper, millimetres * reach.length());
+        let width = millimetres * reach.length();
+        // Combs reach over the end of the ship, not over the border of a half.
+        let left = if reach.outer[0] {
+            long_left(paper, width)
+        } else {
+            (paper[0] - width - long_left(paper, width)).max(HALF_SIDE)
+        };
         Self { n, millimetres, stretch, origin: [left, floor], from: reach.x[0] }
     }
 
@@ -424,6 +183,10 @@ pub(super) fn half_breadth_plan(
         return Err(PlotError::Chart("the table has no waterlines".to_owned()));
     };
     let cuts: Vec<Cut> = record.lines.waterlines.iter().map(|&z| Cut::Waterline { z }).collect();
+    // Waterlines may run on beyond the outermost offsets: they stay on the sheet too.
+    let drawn = [&record.before, &record.after].into_iter().flat_map(|hull| cuts.iter().map(move |cut| (hull, *cut)));
+    let drawn = drawn.flat_map(|(hull, cut)| curves(hull, cut, 1e-3 * breadth)).flatten();
+    let x = drawn.fold(x, |[aft, fore], p| [aft.min(p[0]), fore.max(p[0])]);
     let small = |reach: &Reach| HalfBreadths::new(reach, reach, breadth, Sheet::A3.room());
     let whole = small(&Reach::whole(x));
     let rings = rings_of(&combs.on(&cuts)[1], |_, p| whole.at(p));
@@ -466,14 +229,18 @@ fn half_breadths(
     let ends = reach.x.map(|x| at([x, 0.0, 0.0]));
     let sides = ends.map(|end| end[0]);
     canvas.line(ends[0], ends[1], &BASE);
-    reach.draw_border(&mut canvas, sides, [at([0.0, breadth, 0.0])[1] - 6.0, ends[0][1] + 2.0]);
+    let border = reach.draw_border(&mut canvas, sides, [at([0.0, breadth, 0.0])[1] - 6.0, ends[0][1] + 2.0]);
     let shown = reach.window(sides, paper);
     canvas.begin_clip(&shown);
-    let drawn = draw(&mut canvas, &plan, cuts, CHORD / (stretch * view.millimetres), &|_| at).inside(&shown);
+    let window = Rectangle::new(4.0, 24.0, paper[0] - 4.0, paper[1] - 14.0);
+    let chord = CHORD / (stretch * view.millimetres);
+    let drawn = draw(&mut canvas, &plan, cuts, chord, &|_| at, &|_| window).inside(&shown);
     canvas.end_group();
     title(&mut canvas, &plan, &drawn);
     let mut placer = drawn.placer();
-    let window = Rectangle::new(4.0, 24.0, paper[0] - 4.0, paper[1] - 14.0);
+    // Nothing is written on the centre line and on the border, where there is another place.
+    placer.add_curve(&ends);
+    border.iter().for_each(|border| placer.add_curve(border));
     // Names of stations under the centreline, every one where there is room.
     let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     for station in stations {
@@ -482,7 +249,7 @@ fn half_breadths(
         let rows: Vec<[f64; 2]> = ROWS.into_iter().chain([LAST_ROW]).map(|down| [px, py + down]).collect();
         placer.name_point(&mut canvas, &name, &style, &rows, &window);
     }
-    drawn.name_cut(&mut canvas, &mut placer, &window);
+    drawn.name_cut(&mut canvas, &mut placer, &[window]);
     let style = TextStyle::new(LETTERS, Anchor::Middle);
     let count = record.lines.waterlines.len();
     for (k, z) in record.lines.waterlines.iter().enumerate() {
@@ -522,11 +289,13 @@ pub(super) struct Drawn {
     tips: Vec<Vec<[f64; 2]>>,
     teeth: Vec<[[f64; 2]; 2]>,
     /// Arrows for teeth of the fair curves that had to be left out, with their curvature \[1/m\].
-    cut: Vec<([[f64; 2]; 2], f64)>,
+    cut: Vec<CutTeeth>,
     /// The same of the curves before.
     cut_before: Vec<[[f64; 2]; 2]>,
     /// Whether curves run on beyond the offsets of their lines.
     beyond: bool,
+    /// Where arrows and rings are not drawn for want of room.
+    left: [Vec<[f64; 2]>; 2],
 }
 
 impl Drawn {
@@ -538,6 +307,9 @@ impl Drawn {
         self.teeth.extend(other.teeth);
         self.cut.extend(other.cut);
         self.cut_before.extend(other.cut_before);
+        for (own, more) in self.left.iter_mut().zip(other.left) {
+            own.extend(more);
+        }
         Self { words: self.words.or(other.words), beyond: self.beyond || other.beyond, ..self }
     }
 
@@ -554,6 +326,7 @@ impl Drawn {
             teeth: self.teeth.into_iter().filter(|[foot, _]| has(foot)).collect(),
             cut: self.cut.into_iter().filter(|([foot, _], _)| has(foot)).collect(),
             cut_before: self.cut_before.into_iter().filter(|[foot, _]| has(foot)).collect(),
+            left: self.left.map(|places| places.into_iter().filter(has).collect()),
             ..self
         }
     }
@@ -572,9 +345,16 @@ impl Drawn {
         placer
     }
 
-    /// Writes the curvature of teeth that had to be left out beside their arrows.
-    pub(super) fn name_cut(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, window: &Rectangle) {
-        name_curvatures(canvas, placer, &self.cut, window);
+    /// Writes the curvature of teeth that had to be left out beside their arrows, each in the one of `windows` that the
+    /// arrow is in.
+    pub(super) fn name_cut(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, windows: &[Rectangle]) {
+        let middle = |[a, b]: [[f64; 2]; 2]| [0, 1].map(|d| 0.5 * (a[d] + b[d]));
+        let has = |window: &Rectangle, [x, y]: [f64; 2]| window.contains(&Rectangle::new(x, y, x, y));
+        for cut in &self.cut {
+            if let Some(window) = windows.iter().find(|window| has(window, middle(cut.0))) {
+                name_curvatures(canvas, placer, std::slice::from_ref(cut), window);
+            }
+        }
     }
 }
 
@@ -692,29 +472,36 @@ pub(super) fn draw_centreplane(
     all
 }
 
-/// Draws combs and curves.
+/// Draws combs, which stay inside what `bounds` says of their planes, and curves.
 pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
     canvas: &mut Canvas,
     plan: &Plan<'_>,
     cuts: &[Cut],
     deviation: f64,
     at: &dyn Fn(&Cut) -> F,
+    bounds: &dyn Fn(&Cut) -> Rectangle,
 ) -> Drawn {
     let [before, after] = plan.combs.on(cuts);
-    let (mut tips, mut teeth, mut left, mut left_before) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
+    let (mut tips, mut teeth) = (Vec::new(), Vec::new());
+    let mut long: [Vec<CutTeeth>; 2] = [Vec::new(), Vec::new()];
+    for (k, (list, pens)) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)].into_iter().enumerate() {
         for comb in list {
-            let drawn = plan.combs.scale(&comb.cut).within(plan.longest).draw(canvas, comb, at(&comb.cut), pens);
+            let scale = plan.combs.scale(&comb.cut).within(plan.longest);
+            let drawn = scale.draw(canvas, comb, at(&comb.cut), pens, &bounds(&comb.cut));
             tips.extend(drawn.tips);
-            if fair {
-                left.extend(drawn.cut);
+            long[k].extend(drawn.cut);
+            if k == 1 {
                 teeth.extend(drawn.teeth);
-            } else {
-                left_before.extend(drawn.cut.into_iter().map(|(arrow, _)| arrow));
             }
         }
     }
-    let (mut drawn, mut beyond) = (Vec::new(), false);
+    let [long_before, long_after] = long;
+    let (cut, mut arrows_left) = arrows_apart(long_after, &[]);
+    let (cut_before, left_before) = arrows_apart(long_before, &cut);
+    arrows_left.extend(left_before);
+    draw_arrows(canvas, &cut_before, &BEFORE_COMB.cut);
+    draw_arrows(canvas, &cut, &AFTER_COMB.cut);
+    let (mut curves, mut beyond) = (Vec::new(), false);
     for (hull, pen, fair) in [(&plan.record.before, &BEFORE, false), (&plan.record.after, &AFTER, true)] {
         for (k, cut) in cuts.iter().enumerate() {
             for line in whole_curves(hull, *cut, deviation) {
@@ -726,18 +513,22 @@ pub(super) fn draw<F: Fn([f64; 3]) -> [f64; 2]>(
                 }
                 let line: Vec<[f64; 2]> = line.into_iter().map(at(cut)).collect();
                 if fair {
-                    drawn.push((k, line));
+                    curves.push((k, line));
                 }
             }
         }
     }
-    before.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &BEFORE_COMB));
-    after.iter().for_each(|comb| CombScale::rings(canvas, comb, at(&comb.cut), &AFTER_COMB));
-    let places = |comb: &Comb| comb.inflections.iter().map(|&place| at(&comb.cut)(place)).collect::<Vec<_>>();
-    let rings = before.iter().chain(&after).flat_map(|comb| places(comb)).collect();
+    let (mut rings, mut rings_left) = (Vec::new(), Vec::new());
+    for (list, pens) in [(&before, &BEFORE_COMB), (&after, &AFTER_COMB)] {
+        let places = rings_of(list, |comb, place| at(&comb.cut)(place)).concat();
+        let [drawn, left] = draw_rings(canvas, &places, &pens.ring);
+        rings.extend(drawn);
+        rings_left.extend(left);
+    }
     let bearing = cuts.iter().filter(|cut| after.iter().any(|comb| comb.cut == **cut)).count();
     let words = after.first().map(|comb| plan.combs.words(&comb.cut, [bearing, cuts.len()]));
-    Drawn { curves: drawn, rings, words, tips, teeth, cut: left, cut_before: left_before, beyond }
+    let cut_before = cut_before.into_iter().map(|(arrow, _)| arrow).collect();
+    Drawn { curves, rings, words, tips, teeth, cut, cut_before, beyond, left: [arrows_left, rings_left] }
 }
 
 /// What the names of the stations are: their x, or names of the table with the x of the first and the last.
@@ -761,6 +552,14 @@ pub(super) fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// How many arrows and rings are not drawn; nothing where all are.
+pub(super) fn left_out_words([arrows, rings]: [usize; 2]) -> Option<String> {
+    let counts = [(arrows, "arrow"), (rings, "ring")].into_iter().filter(|(count, _)| *count > 0);
+    let counts: Vec<String> = counts.map(|(count, word)| counted(count, word)).collect();
+    let verb = if arrows + rings == 1 { "is" } else { "are" };
+    (!counts.is_empty()).then(|| format!("{} {verb} not drawn, for want of room", counts.join(" and ")))
+}
+
 /// Title, scales and key.
 pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     let name: String = caption::plain(&plan.record.name).chars().take(60).collect();
@@ -778,6 +577,9 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     );
     canvas.text([0.5 * plan.room[0], 16.0], &second, &TextStyle::new(3.2, Anchor::Middle));
     let words = TextStyle::new(LETTERS, Anchor::Middle);
+    if let Some(left) = left_out_words(drawn.left.each_ref().map(Vec::len)) {
+        canvas.text([0.5 * plan.room[0], 21.3], &left, &words);
+    }
     canvas.text(
         [0.5 * plan.room[0], plan.room[1] - 12.5],
         &format!(

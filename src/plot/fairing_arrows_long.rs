@@ -10,7 +10,7 @@ use super::fairing::{
     BEYOND, LONG_SIDES, base, curves, extent, guessed, known, long_left, long_scale, parts, profile_parts, short,
     station_words,
 };
-use super::fairing_arrows::{AFTER, BEFORE, arrow, head, key, longest, ring};
+use super::fairing_arrows::{AFTER, BEFORE, Moves, head, key, longest};
 use super::label::{LabelPlacer, Preference, length};
 use super::scale::{drawing_scale, sheet_scale};
 use super::sheet::{LETTERS, Sheet};
@@ -26,6 +26,18 @@ use crate::hydrostatics::Conventions;
 const HEAD: f64 = 33.0;
 const BETWEEN: f64 = 26.0;
 const FOOT: f64 = 32.0;
+
+/// Pieces of buttocks as long as this, and as far from other pieces, bear names of their own \[mm\].
+const PIECE: f64 = 6.0;
+
+/// The middle of the rectangle around a line \[mm\].
+fn middle_of(line: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|d| {
+        let range = |(low, high): (f64, f64), p: &[f64; 2]| (low.min(p[d]), high.max(p[d]));
+        let (low, high) = line.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
+        0.5 * (low + high)
+    })
+}
 
 /// Draws both views; `conventions` say whether the draught was assumed.
 ///
@@ -58,10 +70,9 @@ impl LongView {
         ]
     }
 
-    fn arrow(&self, canvas: &mut Canvas, placer: &mut LabelPlacer, from: [f64; 3], by: f64) {
-        if let Some(drawn) = arrow(canvas, self.at(from), [0.0, -1000.0 * by / self.move_a_millimetre], by) {
-            placer.add_arrow(drawn);
-        }
+    /// Adds the move `by` of a point.
+    fn add(&self, moves: &mut Moves, from: [f64; 3], by: f64) {
+        moves.add(self.at(from), Some(([0.0, -1000.0 * by / self.move_a_millimetre], by)));
     }
 }
 
@@ -196,16 +207,18 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
             }
         }
     }
-    rises.iter().for_each(|(from, by)| profile.arrow(&mut canvas, &mut placer, *from, *by));
+    let mut moves = Moves::default();
+    rises.iter().for_each(|(from, by)| profile.add(&mut moves, *from, *by));
     for change in &record.changes {
         let from = [change.x, change.before, change.z];
         if change.suspect {
-            ring(&mut canvas, plan.at(from));
+            moves.add(plan.at(from), None);
         } else {
-            plan.arrow(&mut canvas, &mut placer, from, change.after - change.before);
+            plan.add(&mut moves, from, change.after - change.before);
         }
     }
     let window = Rectangle::new(8.0, 24.0, paper[0] - 8.0, paper[1] - 14.0);
+    let left_out = moves.draw(&mut canvas, &mut placer, &window);
     let small = TextStyle::new(3.2, Anchor::Start);
     let words = [
         format!(
@@ -225,6 +238,9 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
         placer.take(text.place);
     }
     drawn.iter().map(|(_, line)| line).chain(&outlines).for_each(|line| placer.add_curve(line));
+    for view in [&profile, &plan] {
+        placer.add_curve(&[view.at([x[0], 0.0, base(z)]), view.at([x[1], 0.0, base(z)])]);
+    }
     if (z[0]..=z[1]).contains(&draught) {
         // Over the line, where it meets fewest others.
         let words = format!("DWL {draught:.2} m{}", conventions.draught_mark());
@@ -238,17 +254,28 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     let names = buttocks.iter().map(|y| format!("y {y:.2} m"));
     let names = names.chain(record.lines.waterlines.iter().map(|z| short(*z)));
     for (k, name) in names.enumerate() {
-        // The longest piece bears the name.
-        let pieces = (0..drawn.len()).filter(|curve| drawn[*curve].0 == k);
-        let Some(curve) = pieces.max_by(|a, b| length(&drawn[*a].1).total_cmp(&length(&drawn[*b].1))) else { continue };
-        let preferred = Preference { part: 0.15 + 0.1 * (k % 3) as f64, crossings: 3, beside: false };
-        if !placer.name_curve(&mut canvas, curve, &name, &style, preferred, &window) {
-            placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
+        // Of a waterline the longest piece bears the name, of a buttock every piece that can be told from a dot.
+        let mut pieces: Vec<usize> = (0..drawn.len()).filter(|curve| drawn[*curve].0 == k).collect();
+        pieces.sort_by(|a, b| length(&drawn[*b].1).total_cmp(&length(&drawn[*a].1)));
+        // Before and after lie on each other.
+        let mut named: Vec<[f64; 2]> = Vec::new();
+        for curve in pieces {
+            let [x, y] = middle_of(&drawn[curve].1);
+            let further = !named.is_empty();
+            let seen = named.iter().any(|[a, b]| (a - x).hypot(b - y) < PIECE);
+            if further && (k >= buttocks.len() || seen || length(&drawn[curve].1) < PIECE) {
+                continue;
+            }
+            named.push([x, y]);
+            let preferred = Preference { part: 0.15 + 0.1 * (k % 3) as f64, crossings: 3, beside: false };
+            if !placer.name_curve(&mut canvas, curve, &name, &style, preferred, &window) {
+                placer.name_by_leader(&mut canvas, curve, &name, &style, &THREAD, &window);
+            }
         }
     }
     let stretched =
         if stretch > 1.0 { format!(", breadths and heights drawn {stretch:.0} times as large") } else { String::new() };
-    head(&mut canvas, record, paper, &format!("scale 1:{n}{stretched}"));
+    head(&mut canvas, record, paper, &format!("scale 1:{n}{stretched}"), left_out);
     let y = paper[1] - 14.0;
     canvas.text([14.0, y], "AFT", &small);
     let middle = TextStyle::new(LETTERS, Anchor::Middle);

@@ -53,7 +53,7 @@ impl CombLine {
     #[must_use]
     pub fn cut(self, record: &FairRecord) -> Cut {
         match self {
-            Self::Station(k) => super::fairing::station_cut(record, record.lines.stations[k].x),
+            Self::Station(k) => super::fairing_sections::station_cut(record, record.lines.stations[k].x),
             Self::Waterline(k) => Cut::Waterline { z: record.lines.waterlines[k] },
             Self::Buttock(y) => Cut::Buttock { y },
             Self::Diagonal(height) => {

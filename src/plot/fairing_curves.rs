@@ -5,9 +5,10 @@
 //! as far as the offset may be moved, the grey line is the surface through the table. The fair line leaves no bar.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::comb::CombScale;
-use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, name_curvatures, station_cut};
+use super::comb::{CombScale, draw_arrows};
+use super::fairing::{AFTER, AFTER_COMB, BEFORE, BEFORE_COMB, curves, name_curvatures};
 use super::fairing_combs::FairingCombs;
+use super::fairing_sections::station_cut;
 use super::label::LabelPlacer;
 use super::scale::{decimals, multiples, nice_step};
 use super::sheet::{LETTERS, Sheet};
@@ -249,7 +250,9 @@ fn panel(
     let (mut placer, mut cut) = (LabelPlacer::default(), Vec::new());
     for (list, pens, fair) in [(&before, &BEFORE_COMB, false), (&after, &AFTER_COMB, true)] {
         for comb in list {
-            let drawn = scale.draw(canvas, comb, on, pens);
+            let frame = canvas.frame();
+            let drawn = scale.draw(canvas, comb, on, pens, &frame);
+            draw_arrows(canvas, &drawn.cut, &pens.cut);
             drawn.tips.iter().for_each(|line| placer.add_faint(line));
             if fair {
                 placer.add_teeth(&drawn.teeth);

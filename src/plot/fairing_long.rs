@@ -5,10 +5,11 @@
 //! are those of the ship.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
-use super::fairing::{Drawn, Plan, Reach, curves, draw, extent, long_left, rings_of, title};
+use super::fairing::{Drawn, Plan, curves, draw, extent, long_left, rings_of, title};
 use super::fairing_combs::{FairingCombs, some};
 use super::fairing_curves::{Range, figures_clear, rules};
-use super::scale::drawing_scale;
+use super::fairing_reach::Reach;
+use super::scale::rule_scale;
 use super::sheet::{LETTERS, Sheet};
 use super::station_names::ROWS;
 use super::view::GRID;
@@ -18,7 +19,7 @@ use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, OffsetStation};
 
 /// Room above and below the strips \[mm\].
-const HEAD: f64 = 22.0;
+const HEAD: f64 = 24.5;
 const FOOT: f64 = 37.0;
 /// Most strips of a sheet, and room over each for its words \[mm\].
 const MOST: usize = 4;
@@ -118,7 +119,7 @@ impl Strip {
 /// Scale 1 : n along the ship for strips that show `longest` of it and reach `across` \[m\], and how many times larger
 /// what stands across is drawn.
 fn scales(longest: &Reach, across: f64, room: f64, paper: [f64; 2]) -> (u32, f64) {
-    let n = longest.scale(paper).max(drawing_scale(across, room));
+    let n = longest.scale(paper).max(rule_scale(across, room));
     (n, (room * f64::from(n) / (1000.0 * across)).floor().clamp(1.0, 10.0))
 }
 
@@ -217,14 +218,16 @@ impl Strips<'_> {
             for station in &stations {
                 canvas.line(strip.at([station.x, bottom]), strip.at([station.x, top]), &GRID);
             }
-            reach.draw_border(&mut canvas, [left, left + width], [frame.top - 3.0, frame.bottom + 3.0]);
+            let _ = reach.draw_border(&mut canvas, [left, left + width], [frame.top - 3.0, frame.bottom + 3.0]);
             let ruled = rules(&mut canvas, &strip.frame, &Range { low: bottom, high: top });
             let at = |cut: &Cut| {
                 let (cut, strip) = (*cut, &strip);
                 move |p: [f64; 3]| strip.at(Kind::project(&cut, p))
             };
             canvas.begin_clip(&window);
-            let one = draw(&mut canvas, &plan, std::slice::from_ref(cut), 0.01 / (stretch * millimetres), &at);
+            let whole = canvas.frame();
+            let own = std::slice::from_ref(cut);
+            let one = draw(&mut canvas, &plan, own, 0.01 / (stretch * millimetres), &at, &|_| whole);
             canvas.end_group();
             let one = one.inside(&window);
             figures_clear(&mut canvas, &mut one.placer(), &strip.frame, &ruled, axis);
@@ -258,7 +261,7 @@ impl Strips<'_> {
             let places = ROWS.map(|down| [px, paper[1] - FOOT + down]);
             placer.name_point(&mut canvas, &word, &style, &places, &window);
         }
-        drawn.name_cut(&mut canvas, &mut placer, &window);
+        drawn.name_cut(&mut canvas, &mut placer, &[window]);
         if shown < all.len() {
             let plural = if kind == Kind::Buttocks { "buttocks" } else { "diagonals" };
             let words = format!("{shown} of {} {plural}; the lines plan has all of them", all.len());

@@ -4,7 +4,8 @@
 //! stand the list of them and, of the worst, the section and the waterline through the offset.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
-use super::fairing::{base, extent, midship, station_cut, whole_curves};
+use super::fairing::{base, extent, midship};
+use super::fairing_sections::{station_cut, whole_curves};
 use super::label::LabelPlacer;
 use super::scale::drawing_scale;
 use super::sheet::{LETTERS, Sheet, fitted};

@@ -21,7 +21,7 @@ fn crosses(r: &Rectangle, a: [f64; 2], b: [f64; 2]) -> bool {
 }
 
 /// Whether two segments cross.
-fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+pub(super) fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
 }
@@ -35,13 +35,20 @@ fn bounds(points: &[[f64; 2]]) -> Rectangle {
 }
 
 /// Places for a name over the end `at` of a line, the nearest first: up to `columns` steps aside and `rows` steps up, of
-/// 0.9 and 0.5 of `unit` \[mm\].
-pub(super) fn places_over(at: [f64; 2], unit: f64, [columns, rows]: [i32; 2]) -> Vec<[f64; 2]> {
+/// 0.9 and 0.5 of `unit` \[mm\]. None is more than `slope` times as far aside as up: a flat thread lies on the deck line or on
+/// those of its neighbours.
+pub(super) fn places_over(at: [f64; 2], unit: f64, [columns, rows]: [i32; 2], slope: f64) -> Vec<[f64; 2]> {
     let aside = move |row: i32| (-columns..=columns).map(move |k| [0.9 * f64::from(k), 0.5 * f64::from(row)]);
-    let mut steps: Vec<[f64; 2]> = (0..rows).flat_map(aside).collect();
+    let mut steps: Vec<[f64; 2]> =
+        (0..rows).flat_map(aside).filter(|[dx, dy]| dx.abs() <= slope * (dy + THREAD_FOOT)).collect();
     steps.sort_by(|a, b| (a[0].abs() + a[1]).total_cmp(&(b[0].abs() + b[1])));
     steps.into_iter().map(|[dx, dy]| [at[0] + dx * unit, at[1] - (0.9 + dy) * unit]).collect()
 }
+
+/// How many times farther aside than up a name may stand that has no place over its end.
+pub(super) const FLAT: f64 = 4.0;
+/// Height of the foot of a thread over the end of its line, of the unit of [`places_over`].
+const THREAD_FOOT: f64 = 0.25;
 
 /// Where a name is wanted on its curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +82,8 @@ pub(super) struct LabelPlacer {
     teeth: Vec<[[f64; 2]; 2]>,
     taken: Vec<Rectangle>,
     leaders: Vec<[[f64; 2]; 2]>,
+    /// Ends of lines over which no other name stands.
+    ends: Vec<[f64; 2]>,
     /// Both sides of the heads of arrows.
     heads: Vec<[[f64; 2]; 2]>,
 }
@@ -106,6 +115,11 @@ impl LabelPlacer {
     /// A place that is taken.
     pub(super) fn take(&mut self, place: Rectangle) {
         self.taken.push(place);
+    }
+
+    /// The end of a line, over which only its own name stands: [`LabelPlacer::name_off_curves`].
+    pub(super) fn add_end(&mut self, end: [f64; 2]) {
+        self.ends.push(end);
     }
 
     /// An arrow, foot and tip, which no name crosses.
@@ -178,7 +192,7 @@ impl LabelPlacer {
             }) {
                 continue;
             }
-            let crossed = self.crossings(&place, None) + self.crossings_of(&place, None, true);
+            let crossed = self.crossings(&place, &[]) + self.crossings_of(&place, &[], true);
             let cost = price + crossed as f64 + 0.7 * self.teeth_in(&place) as f64;
             if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                 best = Some((cost, at, place, thread));
@@ -209,14 +223,14 @@ impl LabelPlacer {
         })
     }
 
-    fn crossings(&self, place: &Rectangle, own: Option<usize>) -> usize {
+    fn crossings(&self, place: &Rectangle, own: &[usize]) -> usize {
         self.crossings_of(place, own, false)
     }
 
     /// Crossings with curves that are faint, or with all others.
-    fn crossings_of(&self, place: &Rectangle, own: Option<usize>, faint: bool) -> usize {
+    fn crossings_of(&self, place: &Rectangle, own: &[usize], faint: bool) -> usize {
         (0..self.curves.len())
-            .filter(|k| Some(*k) != own && self.faint[*k] == faint)
+            .filter(|k| !own.contains(k) && self.faint[*k] == faint)
             .map(|k| self.chords(k, place).filter(|[a, b]| crosses(place, *a, *b)).take(3).count())
             .sum()
     }
@@ -234,7 +248,7 @@ impl LabelPlacer {
 
     /// Curves, tips and teeth of combs in a place.
     fn lines_in(&self, place: &Rectangle) -> usize {
-        self.crossings(place, None) + self.crossings_of(place, None, true) + self.teeth_in(place)
+        self.crossings(place, &[]) + self.crossings_of(place, &[], true) + self.teeth_in(place)
     }
 
     /// How far to the left `places` have to be moved, all by the same and at most by `farthest` \[mm\], to stand clear of
@@ -272,9 +286,23 @@ impl LabelPlacer {
         preferred: Preference,
         window: &Rectangle,
     ) -> bool {
+        self.name_curves(canvas, &[curve], name, style, preferred, window)
+    }
+
+    /// The same for curves that lie on each other: the name stands on the first of them, and may cover the others.
+    pub(super) fn name_curves(
+        &mut self,
+        canvas: &mut Canvas,
+        curves: &[usize],
+        name: &str,
+        style: &TextStyle,
+        preferred: Preference,
+        window: &Rectangle,
+    ) -> bool {
         const PLACES: usize = 160;
         let style = TextStyle { anchor: Anchor::Middle, ..*style };
-        let path = Path::new(&self.curves[curve]);
+        let Some(curve) = curves.first() else { return false };
+        let path = Path::new(&self.curves[*curve]);
         let width = Canvas::text_place([0.0, 0.0], name, &style).width();
         let aside = 0.5 * width + 0.8 * style.size;
         let offsets: &[f64] = if preferred.beside { &[0.0, -1.0, 1.0] } else { &[0.0] };
@@ -287,8 +315,8 @@ impl LabelPlacer {
             if !window.contains(&place) || !self.is_free(&place) {
                 continue;
             }
-            let crossings = self.crossings(&place, (offset.abs() < 0.5).then_some(curve));
-            let faint = 0.7 * self.crossings_of(&place, None, true) as f64 + 0.15 * self.teeth_in(&place) as f64;
+            let crossings = self.crossings(&place, if offset.abs() < 0.5 { curves } else { &[] });
+            let faint = 0.7 * self.crossings_of(&place, &[], true) as f64 + 0.15 * self.teeth_in(&place) as f64;
             let cost = faint + crossings as f64 + 0.9 * (part - preferred.part).abs() + 0.6 * offset.abs();
             if crossings <= preferred.crossings && best.is_none_or(|(least, _, _)| cost < least) {
                 best = Some((cost, at, place));
@@ -338,7 +366,7 @@ impl LabelPlacer {
                     if best.as_ref().is_some_and(|(least, ..)| *least <= length)
                         || !window.contains(&place)
                         || !self.is_free(&place)
-                        || self.crossings(&place, None) > 0
+                        || self.crossings(&place, &[]) > 0
                     {
                         continue;
                     }
@@ -352,7 +380,7 @@ impl LabelPlacer {
                     let crossed = (0..self.curves.len())
                         .filter(|&k| k != curve && self.chords(k, &around).any(|chord| meet(leader, chord)))
                         .count();
-                    let combs = self.crossings_of(&place, None, true) + self.teeth_in(&place);
+                    let combs = self.crossings_of(&place, &[], true) + self.teeth_in(&place);
                     let cost = length + CROSSING * crossed as f64 + combs as f64;
                     if best.as_ref().is_none_or(|(least, ..)| cost < *least) {
                         best = Some((cost, leader, at, place));
@@ -370,7 +398,7 @@ impl LabelPlacer {
     }
 
     /// Writes `name` at the first of `places` inside `window` that is off every text, leader and curve, or else at that
-    /// of them off text which meets fewest curves, a thread over other text counting as three; with a thread of `pen`
+    /// of them off text which meets fewest curves, a thread over other text counting as eight; with a thread of `pen`
     /// from `from` unless it is the first place. False when there is none.
     #[allow(clippy::too_many_arguments, reason = "all of them are the drawing in hand")]
     pub(super) fn name_off_curves(
@@ -383,13 +411,16 @@ impl LabelPlacer {
         (from, pen): ([f64; 2], &Pen),
     ) -> bool {
         let foot = |at: [f64; 2]| [at[0], at[1] + 0.5 * style.size];
+        let over = |[x, y]: [f64; 2]| Rectangle::new(x - 0.6, y - 0.6 * style.size, x + 0.6, y + 0.6);
+        let is_own = |end: [f64; 2]| (end[0] - from[0]).hypot(end[1] - from[1]) < 1e-6;
+        let others: Vec<Rectangle> = self.ends.iter().filter(|end| !is_own(**end)).map(|end| over(*end)).collect();
         type Found = ((usize, usize), [f64; 2], Rectangle);
         let mut best: Option<Found> = None;
         for (k, &at) in places.iter().enumerate() {
             let place = Canvas::text_place(at, name, style).grown(0.12 * style.size);
             let apart =
                 Rectangle { left: place.left - 0.3 * style.size, right: place.right + 0.3 * style.size, ..place };
-            if !window.contains(&place) || !self.is_free(&apart) {
+            if !window.contains(&place) || !self.is_free(&apart) || others.iter().any(|end| end.overlaps(&place)) {
                 continue;
             }
             let thread = [from, foot(at)];
@@ -397,7 +428,7 @@ impl LabelPlacer {
                 || !self.taken.iter().any(|taken| crosses(taken, thread[0], thread[1]))
                     && !self.leaders.iter().any(|&other| meet(thread, other));
             let crossed = self.lines_in(&place);
-            let order = (crossed + 3 * usize::from(!clear), k);
+            let order = (crossed + 8 * usize::from(!clear), k);
             if best.as_ref().is_none_or(|(least, ..)| order < *least) {
                 best = Some((order, at, apart));
             }
@@ -568,7 +599,7 @@ mod tests {
             assert!(placer.name_by_leader(&mut canvas, curve, "WL 1", &style, &Pen::new(0.1, "#000000"), &sheet));
         }
         for (k, text) in canvas.texts().iter().enumerate() {
-            assert_eq!(placer.crossings(&text.place, None), 0, "{text:?}");
+            assert_eq!(placer.crossings(&text.place, &[]), 0, "{text:?}");
             assert!(canvas.texts()[..k].iter().all(|other| !other.place.overlaps(&text.place)), "{text:?}");
         }
     }

@@ -1,14 +1,15 @@
 //! The figures of reports: text keeps apart and on the sheet, and they fit into the frame of A3.
 
 use super::canvas::Canvas;
+use super::fairing_body::BodyView;
 use super::fairing_combs::FairingCombs;
 use super::fairing_curves::Along;
 use super::fairing_long::Kind;
 use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
-    FigureInputs, PlotError, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_curves,
-    fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
+    FigureInputs, PlotError, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_body,
+    fairing_curves, fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
 };
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
@@ -40,6 +41,16 @@ fn faults_within(room: [f64; 2], name: &str, canvas: &Canvas) -> Vec<String> {
         }
     }
     faults
+}
+
+/// Lines and areas of a document in millimetres that leave its sheet.
+fn outside([width, height]: [f64; 2], document: &str) -> Vec<String> {
+    let points = document.split(" points=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    let has = |point: &str| {
+        let place: Vec<f64> = point.split(',').filter_map(|c| c.parse().ok()).collect();
+        matches!(place[..], [x, y] if (0.0..=width).contains(&x) && (0.0..=height).contains(&y))
+    };
+    points.flat_map(str::split_whitespace).filter(|point| !has(point)).map(str::to_owned).collect()
 }
 
 fn wigley() -> Hull {
@@ -126,10 +137,43 @@ fn long_ships_have_a_sheet_for_each_half() {
             // Diagonals are two to a sheet.
             let [aft, fore, ..] = &sheets[..] else { panic!("{name}: {} sheets", sheets.len()) };
             assert!(words(aft, ", AFT BODY TO x = 190.00 m") && words(fore, ", FORE BODY FROM x = 190.00 m"));
-            // On A3 the whole would be 1:2000.
-            assert!(sheet != Sheet::A3 || words(aft, "scale 1:1000") && words(fore, "scale 1:1000"));
+            // On A3 the whole would be 1:1250.
+            assert!(sheet != Sheet::A3 || words(aft, "scale 1:750") && words(fore, "scale 1:750"));
             let found: Vec<String> = sheets.iter().flat_map(|one| faults_within(sheet.room(), name, one)).collect();
             assert!(found.is_empty(), "{}", found.join("\n"));
+        }
+    }
+}
+
+#[test]
+fn body_plans_fill_their_sheet_and_name_every_station() {
+    // At 1:100 a plan of 9 m is half as wide as the sheet, at 1:50 it fits no more: 1:75.
+    for (breadth, depth, n) in [(10.0, 9.0, 50), (15.0, 7.0, 50), (20.0, 9.0, 75), (24.0, 9.0, 75), (25.0, 14.0, 100)] {
+        let view = BodyView::of([0.5 * breadth, 0.0, depth], 0.0, Sheet::A3.room());
+        assert_eq!(view.n, n, "{breadth} x {depth}");
+    }
+    let record = record();
+    let combs = FairingCombs::new(&record, &[]);
+    let plans = [
+        fairing_body::body_plan(&record, &combs, Sheet::A3).unwrap(),
+        fairing_arrows::compose(&record, Sheet::A3).unwrap(),
+    ];
+    for plan in plans {
+        let is_number = |text: &str| text.parse::<usize>().ok();
+        let named: Vec<usize> = plan
+            .texts()
+            .iter()
+            .flat_map(|text| match text.content.split_once(" – ") {
+                Some((first, last)) => match (is_number(first), is_number(last)) {
+                    (Some(first), Some(last)) => (first..=last).collect(),
+                    _ => Vec::new(),
+                },
+                None => is_number(&text.content).into_iter().collect(),
+            })
+            .collect();
+        // The ends of a Wigley hull have no section.
+        for station in 1..20 {
+            assert!(named.contains(&station), "station {station} bears no name: {named:?}");
         }
     }
 }
@@ -146,7 +190,7 @@ fn figures_of_faired_tables_keep_their_text_apart() {
         let figures = [
             ("arrows", one(fairing_arrows::compose(&record, sheet))),
             ("long arrows", one(fairing_arrows_long::compose(&record, &Conventions::default(), sheet))),
-            ("body plan", one(fairing::body_plan(&record, &combs, sheet))),
+            ("body plan", one(fairing_body::body_plan(&record, &combs, sheet))),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
             ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),
             ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals)),
@@ -164,6 +208,8 @@ fn figures_of_faired_tables_keep_their_text_apart() {
             let scale = |words: &str| words.split(' ').skip_while(|word| counted(word)).collect::<Vec<_>>().join(" ");
             scales.extend(words.filter_map(|words| Some(scale(&words[..words.find("1/m")?]))));
             found.extend(faults_within(sheet.room(), &name, &canvas));
+            let beyond = outside(sheet.room(), &canvas.finish(&name));
+            found.extend(beyond.first().map(|point| format!("{name}: {} points off the sheet, {point}", beyond.len())));
         }
         // One scale for each kind of line, whatever the sheet.
         assert_eq!(scales.len(), 4, "{scales:?}");

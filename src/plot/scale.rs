@@ -16,9 +16,10 @@ pub(super) fn drawing_scale(extent: f64, room: f64) -> u32 {
     drawing_scales().find(|&scale| f64::from(scale) >= needed * (1.0 - 1e-9)).unwrap_or(1_000_000)
 }
 
-/// The largest scale at which the lengths of a contracted profile fit: the scales of drawings, and those of rules with
-/// 1:75 and 1:125. It is no scale of a drawing, for heights have another one.
-pub(super) fn contracted_scale(extent: f64, room: f64) -> u32 {
+/// The largest scale of a rule at which `extent` \[m\] fits into `room` \[mm\]: the scales of drawings, and those of rules
+/// with 1:75 and 1:125. For the lengths of contracted profiles, whose heights have another scale, and for plans that are
+/// looked at and not built from, which fill their sheet better so.
+pub(super) fn rule_scale(extent: f64, room: f64) -> u32 {
     let between = [75, 125, 750, 1250, 7500, 12_500].into_iter();
     let fits = |scale: &u32| f64::from(*scale) >= 1000.0 * extent / room * (1.0 - 1e-9);
     between.filter(fits).chain([drawing_scale(extent, room)]).min().unwrap_or(1_000_000)
@@ -91,9 +92,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_of_contracted_profiles_have_more_scales() {
+    fn rules_have_more_scales_than_drawings() {
         for (extent, expected) in [(36.8, 100), (36.9, 125), (380.0, 1250), (500.0, 2000), (5000.0, 20_000), (1.0, 5)] {
-            assert_eq!(contracted_scale(extent, 368.0), expected, "{extent}");
+            assert_eq!(rule_scale(extent, 368.0), expected, "{extent}");
         }
     }
 
