@@ -49,6 +49,37 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
+/// C_B says the displacement again, in the digits in which it is written: L_PP 121.92 m, B 16.256 m, T 6.828 m.
+#[test]
+fn displacement_and_block_coefficient_may_both_be_asked_for() {
+    let options = |cb| {
+        let stated = [("--displacement", "hold.displacement", "8170 m3"), ("--cb", "hold.Cb", cb)];
+        stated.map(|(option, key, value): (&str, &str, &str)| (option, key, value.to_owned()))
+    };
+    let job = read_fair(&carried(TABLE), &options("0.60")).unwrap();
+    let outputs = fair_outputs(&job, false).unwrap();
+    let held = &outputs.outcome.held;
+    assert!(held.iter().any(|held| held.constraint.key() == "displacement" && (held.after - 8170.0).abs() < 1e-8));
+    assert!(held.iter().all(|held| held.constraint.key() != "block_coefficient"));
+    let apart = fair_outputs(&read_fair(&carried(TABLE), &options("0.62")).unwrap(), false).err().unwrap().to_string();
+    assert!(apart.starts_with("E170 --cb hold.Cb: a displacement of 8170.00 m3 is C_B 0.60"), "{apart}");
+}
+
+#[test]
+fn a_length_that_is_none_of_the_hull_is_refused() {
+    let path = folder("length");
+    fs::write(path.join("j.toml"), format!("table.file = {:?}\n[dimensions]\nLpp = 1e-30\n", carried(TABLE))).unwrap();
+    let refused = fair_outputs(&read_fair(&path.join("j.toml"), &[]).unwrap(), false).err().unwrap().to_string();
+    assert!(refused.contains("E175") && refused.contains("L_PP of 1e-30 m does not go with stations"), "{refused}");
+}
+
+/// At the end of what the tolerances allow some of the programs have answers that are no hulls: they are left alone.
+#[test]
+fn a_target_at_the_end_of_its_interval_is_no_fault_of_the_table() {
+    let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[("--lcb", "hold.LCB", "85.5395 m AP")]);
+    assert!(!outputs.outcome.held.is_empty());
+}
+
 #[test]
 fn a_table_becomes_a_fair_hull_with_its_files() {
     let path = folder("files");

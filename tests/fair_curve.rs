@@ -92,6 +92,45 @@ fn waterlines_come_back_with_their_inflections() {
     }
 }
 
+/// A corner that nobody declares, held by three locked points; points that jump and are held; every point held.
+#[test]
+fn locked_points_hold_where_the_smooth_curve_would_not_go() {
+    let corner = |x: f64| if x < 60.0 { 2.0 + 4.0 * x / 60.0 } else { 6.0 - 0.1 * (x - 60.0) };
+    let mut bent = points(corner, 0.0, 100.0, 21, 0.005, 3);
+    [11, 12, 13].iter().for_each(|&k| bent[k].locked = true);
+    let mut jumping: Vec<CurvePoint> = [1.0, 2.0, 3.0, 9.0, 5.0, 6.0, 7.0, 8.0]
+        .iter()
+        .zip(0u32..)
+        .map(|(&y, x)| CurvePoint::new(x.into(), y))
+        .collect();
+    jumping[2..5].iter_mut().for_each(|point| point.locked = true);
+    let mut all = points(corner, 0.0, 100.0, 21, 0.005, 3);
+    all.iter_mut().for_each(|point| point.locked = true);
+    for given in [bent, jumping, all] {
+        for order in [2, 3, 4] {
+            let fair = fair_curve(&given, &CurveSettings { order, ..CurveSettings::default() }).unwrap();
+            assert_eq!(fair.status, FairStatus::Optimal, "order {order}: {:?}", fair.diagnosis);
+            for (given, point) in given.iter().zip(&fair.points) {
+                let (moved, most) = (point.moved().unwrap().abs(), point.tolerance.unwrap());
+                assert!(moved <= if given.locked { 1e-9 } else { most * (1.0 + 1e-6) + 1e-9 }, "{order}: {point:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn settings_that_overflow_are_refused() {
+    let given = points(|x| 0.01 * x, 0.0, 100.0, 11, 0.0, 1);
+    for (settings, said) in [
+        (CurveSettings { area: Some(1e200), ..CurveSettings::default() }, "the area is 1e200"),
+        (CurveSettings { slopes: [Some(1e160), None], ..CurveSettings::default() }, "the first slope is 1e160"),
+        (CurveSettings { tolerance: Some(1e300), ..CurveSettings::default() }, "the tolerance is 1e300"),
+    ] {
+        let error = fair_curve(&given, &settings).unwrap_err().to_string();
+        assert!(error.starts_with(said), "{error}");
+    }
+}
+
 #[test]
 fn area_centroid_slopes_and_locks_are_held() {
     let line = |x: f64| waterline(-8.0, 3.0, x);

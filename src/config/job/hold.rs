@@ -183,7 +183,7 @@ fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
         return Some(if mass { Wish::Mass(measure.value) } else { Wish::Value(measure.value) });
     }
     let above = if quantity == Quantity::MetacentricHeight { "that is not 0" } else { "above 0" };
-    allowed(document, &path, measure.value, false, &format!("a number {above}, {most:?} at most")).map(Wish::Value)
+    allowed(document, &path, measure.value, false, &format!("a number {above}, at most {most}")).map(Wish::Value)
 }
 
 fn word(word: &str) -> Wish {
@@ -231,7 +231,7 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
                     (None, _) => item.describe(),
                 };
                 let expected =
-                    format!("Expected {}; areas above 0, bands of 0 or more, {MOST_TARGET:?} at most.", expected(kind));
+                    format!("Expected {}; areas above 0, bands of 0 or more, {MOST_TARGET} at most.", expected(kind));
                 document.problem("E122", path, at, format!("{path}: an item is {found}"), expected);
             }
         }
@@ -253,7 +253,7 @@ fn band(document: &mut Document<'_>) -> f64 {
                 path,
                 value,
                 (0.0..=MOST_TARGET).contains(&value),
-                &format!("an area of 0 to {MOST_TARGET:?} m2"),
+                &format!("an area of 0 to {MOST_TARGET} m2"),
             )
         })
         .unwrap_or(0.0)

@@ -149,7 +149,7 @@ fn all_problems_of_a_file_at_once() {
         "E124 j.toml:10:6 hold.Cb is 1.2. Expected a number above 0, at most 1.",
         "E123 j.toml:11:7 hold.LCB is 3, and its unit is not said.",
         "E123 j.toml:13:19 hold.waterplane_area: \"5 %\" is a percentage, expected an area",
-        "E122 j.toml:14:18 hold.section_areas: an item is a list of 1. Expected a list of [x, area]",
+        "E122 j.toml:14:18 hold.section_areas: an item is [1.0]. Expected a list of [x, area]",
         "E126 j.toml:15:1 hold.cm is written a second time",
         "E122 j.toml:17:10 signs.impose is 1, expected true or false",
         "E122 j.toml:19:9 energy.order is 7, expected a whole number from 2 to 4",
@@ -159,8 +159,20 @@ fn all_problems_of_a_file_at_once() {
     for (found, expected) in found.iter().zip(expected) {
         assert!(found.starts_with(expected), "{found}\n{expected}");
     }
-    let found = messages("[hold]\ndisplacement = 4000\nCb = 0.6");
-    assert_eq!(found, ["E170 j.toml:3:1 displacement and Cb say the same. Give one of them."]);
+    let found = messages(
+        "[hold]\nKM = 1e300\nwetted_surface = \"1e10 m2\"\nsection_areas = [[50, 1e155], [50, 20, -1]]\n[energy]\nanisotropy = 1e300",
+    );
+    let expected = [
+        "E124 j.toml:6:14 energy.anisotropy is 1e300. Expected a number from 1e-6 to 1e6.",
+        "E124 j.toml:2:6 hold.KM is 1e300. Expected a number above 0, at most 1000000000.",
+        "E124 j.toml:3:18 hold.wetted_surface is 10000000000. Expected a number above 0, at most 1000000000.",
+        "E122 j.toml:4:18 hold.section_areas: an item is [50.0, 1e155]. Expected a list of [x, area]",
+        "E122 j.toml:4:31 hold.section_areas: an item is [50.0, 20.0, -1.0]. Expected a list of [x, area]",
+    ];
+    assert_eq!(found.len(), expected.len(), "{found:#?}");
+    for expected in expected {
+        assert!(found.iter().any(|found| found.starts_with(expected)), "{found:#?}\n{expected}");
+    }
 }
 
 #[test]
@@ -240,6 +252,11 @@ fn metacentre_and_wetted_surface_are_read() {
     let gm = vec![Constraint::Metacentre { height: 0.5, gravity: 6.0 }, Constraint::WettedSurface(900.0)];
     assert_eq!(given("[hold]\nGM = \"500 mm\"\nKG = 6\nwetted_surface = 900"), (3, gm));
     assert_eq!(given("hold.KM = \"table\"").0, 4);
+    // A ship may be unstable as she stands.
+    let less = vec![Constraint::Metacentre { height: -0.2, gravity: 7.0 }];
+    assert_eq!(given("[hold]\nGM = -0.2\nKG = 7"), (3, less));
+    let both = vec![Constraint::Displacement(4000.0), Constraint::BlockCoefficient(0.6)];
+    assert_eq!(given("[hold]\ndisplacement = \"4000 m3\"\nCb = 0.6"), (2, both));
     let refused = |text: &str| -> Vec<String> {
         let file = read_job("j.toml", text).unwrap();
         file.for_table(&table(), 100.0).unwrap_err().iter().map(ToString::to_string).collect()
@@ -256,6 +273,19 @@ fn metacentre_and_wetted_surface_are_read() {
     assert!(job.for_table(&table(), 100.0).is_ok());
     let alone = JobFile::default().with(option("--gm", "hold.GM", "0.5")).for_table(&table(), 100.0).unwrap_err();
     assert!(alone[0].to_string().starts_with("E179 --gm hold.GM: the height"), "{}", alone[0]);
+    let gravity = JobFile::default().with(option("--kg", "hold.KG", "6")).for_table(&table(), 100.0).unwrap_err();
+    assert!(gravity[0].to_string().starts_with("E179 --kg hold.KG: "), "{}", gravity[0]);
+    // Options stand over the job of the file, and beside each other.
+    let file = read_job("j.toml", "hold.Cb = 0.7").unwrap();
+    let two = option("--displacement", "hold.displacement", "4000 m3").and(option("--cb", "hold.Cb", "0.6"));
+    let held = |job: JobFile| match job.for_table(&table(), 100.0).unwrap().holding {
+        Holding::Both { given, .. } => given,
+        holding => panic!("{holding:?}"),
+    };
+    let both = vec![Constraint::Displacement(4000.0), Constraint::BlockCoefficient(0.6)];
+    assert_eq!(held(file.clone().with(two)), both);
+    let one = option("--displacement", "hold.displacement", "4000 m3");
+    assert_eq!(held(file.with(one)), both[..1]);
 }
 
 #[test]
