@@ -361,15 +361,16 @@ fn absurd_numbers_are_not_taken_for_an_answer() {
         let out = folder.join(name).display().to_string();
         program(&["fair", &table, "-o", &out, option, value, "--no-figures"])
     };
-    for value in ["1e15", "1e300"] {
-        let output = run(value, "--displacement", value);
-        assert_eq!(output.status.code(), Some(4), "{value}: {}", stderr(&output));
-    }
+    let output = run("1e9", "--displacement", "1e9");
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let output = run("wide", "--tolerance", "1e9");
     assert!(output.status.success(), "{}", stderr(&output));
-    for (option, value, code) in
-        [("--weight", "1e300", "E124"), ("--tolerance", "0", "E124"), ("--draught", "100 m", "E175")]
-    {
+    for (option, value, code) in [
+        ("--weight", "1e300", "E124"),
+        ("--tolerance", "0", "E124"),
+        ("--displacement", "1e15", "E124"),
+        ("--draught", "100 m", "E175"),
+    ] {
         let output = run("refused", option, value);
         assert_eq!(output.status.code(), Some(3), "{option}: {}", stderr(&output));
         assert!(stderr(&output).contains(code), "{option}: {}", stderr(&output));
