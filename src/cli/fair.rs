@@ -7,7 +7,9 @@ use clap::Args;
 
 use super::run_files::RunFiles;
 use super::stream;
-use crate::report::{Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs, fair_page, read_fair};
+use crate::report::{
+    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_telling, fair_page, read_fair,
+};
 use crate::units::counted;
 
 #[derive(Debug, Args)]
@@ -185,7 +187,8 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         counted(waterlines, "waterline"),
         counted(offsets, "offset")
     ));
-    let outputs = match fair_outputs(&job, !arguments.files.no_figures) {
+    let told = |text: &str| progress(format!("{:6.1} s  {text}", start.elapsed().as_secs_f64()));
+    let outputs = match fair_outputs_telling(&job, !arguments.files.no_figures, &told) {
         Ok(outputs) => outputs,
         Err(failure) => return (Some(job), Err(failure)),
     };

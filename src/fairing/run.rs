@@ -18,7 +18,7 @@ use super::outcome::{Outcome, Turns, more_often};
 use super::proposals::{Accepted, Proposal};
 use super::record::resolution;
 use super::relinearise::ON_TARGET;
-use super::repeated::{Attempt, Repeated};
+use super::repeated::{Attempt, Repeated, excess};
 use super::rules::guarded_lines;
 use super::start::Started;
 use super::surface::{FairSurface, Origin};
@@ -27,6 +27,7 @@ use super::told::{Counted, Watched, changes, written};
 use crate::hull::{Hull, OffsetTable};
 use crate::numeric::at_once;
 use crate::qp::{RepeatedSolver, Status};
+use crate::units::counted;
 
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
@@ -43,17 +44,22 @@ const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
 
 /// On which net a job is done, and how far off a target may be, over its scale, before it is one smooth move.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Way {
+#[derive(Clone, Copy)]
+pub(super) struct Way<'t> {
     /// Whether the net may be one of its own, where that follows the table.
     pub(super) own: bool,
     /// What a target may be off.
     pub(super) another: f64,
+    /// Is told what is being done.
+    pub(super) progress: Progress<'t>,
 }
+
+/// Is told in a few words what is being done.
+pub type Progress<'t> = &'t (dyn Fn(&str) + Sync);
 
 impl Job {
     /// Fairs a table in one way.
-    pub(super) fn run_on(&self, table: &OffsetTable, way: Way) -> Result<Outcome, JobError> {
+    pub(super) fn run_on(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
         let (run, watched) = Run::new(self, table, way)?;
         run.outcome(watched)
     }
@@ -74,6 +80,7 @@ impl Job {
 struct Run<'a> {
     job: &'a Job,
     table: &'a OffsetTable,
+    progress: Progress<'a>,
     found: Suspects,
     /// The surface through the table.
     before: Hull,
@@ -114,7 +121,7 @@ type Attempted = (Attempt, Option<Vec<Held>>);
 
 impl<'a> Run<'a> {
     /// The model with the wishes as they are asked for.
-    fn new(job: &'a Job, table: &'a OffsetTable, way: Way) -> Result<(Self, Watched), JobError> {
+    fn new(job: &'a Job, table: &'a OffsetTable, way: Way<'a>) -> Result<(Self, Watched), JobError> {
         let Started {
             found,
             before,
@@ -129,6 +136,11 @@ impl<'a> Run<'a> {
             excluded,
             watched,
         } = Started::new(job, table, way.own)?;
+        (way.progress)(&format!(
+            "{}; {}",
+            if surface.own { "a net of its own follows the table" } else { "the net of the surface through the table" },
+            counted(surface.start.len(), "control value")
+        ));
         let (draught, depth) = (before.particulars().draught, before.particulars().depth);
         if draught > depth * (1.0 + 1e-9) {
             return Err(JobError::Draught { draught, depth });
@@ -190,6 +202,7 @@ impl<'a> Run<'a> {
         let run = Self {
             job,
             table,
+            progress: way.progress,
             found,
             before,
             surface,
@@ -211,12 +224,21 @@ impl<'a> Run<'a> {
 
     /// All of it.
     fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
-        let (counted, faired) = {
+        let (lines_before, faired) = {
             let Self { surface, settings, prepared, solver, .. } = &mut self;
             let seen = settings.seen;
             at_once(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
         };
-        let faired = self.widened(faired?)?;
+        let faired = faired?;
+        (self.progress)(&format!(
+            "{} solved: {}",
+            counted(faired.programs, "program"),
+            match (&faired.instead, &faired.diagnosis) {
+                (None, None) => "what is wished can be had",
+                _ => "what is wished cannot all be had",
+            }
+        ));
+        let faired = self.widened(faired)?;
         let carried = faired.carried;
         let mut given = Given::default();
         let mut faired = self.without_rules(faired, &mut given)?;
@@ -224,9 +246,9 @@ impl<'a> Run<'a> {
             Some(Instead::Targets(ends)) => {
                 given.nearest = true;
                 given.refused = given.refused.take().or(faired.diagnosis.take());
-                self.nearest(&faired, &ends, carried, &counted)?
+                self.nearest(&faired, &ends, carried, &lines_before)?
             }
-            _ => self.attempt(faired, &counted)?,
+            _ => self.attempt(faired, &lines_before)?,
         };
         let Attempt { mut faired, after, mut lines } = attempt;
         self.least(&mut lines, &faired);
@@ -308,6 +330,7 @@ impl<'a> Run<'a> {
     fn without_rules(&mut self, mut faired: Faired, given: &mut Given) -> Result<Faired, JobError> {
         let mut kept: Vec<usize> = (0..self.wished.len()).collect();
         while let Some(Instead::WithoutRules(rules)) = &faired.instead {
+            (self.progress)(&format!("again without {}", counted(rules.len(), "rule")));
             given.rules.extend(rules.iter().map(|&rule| kept[rule]));
             kept.retain(|rule| !given.rules.contains(rule));
             self.settings.rules = kept.iter().map(|&rule| self.wished[rule].clone()).collect();
@@ -325,18 +348,19 @@ impl<'a> Run<'a> {
         faired: &Faired,
         ends: &Ends,
         carried: Option<f64>,
-        counted: &Counted,
+        lines: &Counted,
     ) -> Result<Attempted, JobError> {
         let plain = self.settings.clone();
         let mut best: Option<(Attempted, FairSettings)> = None;
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
+            (self.progress)("the nearest targets that can be had");
             self.settings = FairSettings { constraints, ..plain.clone() };
             self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
             if !again.solved.is_optimal() && best.is_some() {
                 continue;
             }
-            let attempted = self.attempt(again.after(faired), counted)?;
+            let attempted = self.attempt(again.after(faired), lines)?;
             let sum = |attempt: &Attempt, count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum::<usize>();
             let after = sum(&attempted.0, |turns| turns.after);
             let done = after <= sum(&attempted.0, |turns| turns.before);
@@ -354,7 +378,7 @@ impl<'a> Run<'a> {
     }
 
     /// The fair hull, after as many repetitions as lines that bend more often ask for.
-    fn attempt(&mut self, mut faired: Faired, counted: &Counted) -> Result<Attempted, JobError> {
+    fn attempt(&mut self, mut faired: Faired, watched: &Counted) -> Result<Attempted, JobError> {
         let after = match self.surface.hull_of(&faired.net) {
             // What a solver gives up need not be a hull: the one it began with is.
             Err(_) if !faired.solved.is_optimal() => {
@@ -367,21 +391,26 @@ impl<'a> Run<'a> {
         if surface.own {
             // Nothing is repeated on a net of its own: the prices are final.
             let (lines, held) = at_once(
-                || counted.turns(&after),
+                || watched.turns(&after),
                 || held::constraints(surface, settings, &faired, [before, &after], solver),
             );
             return Ok((Attempt { faired, after, lines }, Some(held)));
         }
-        let lines = counted.turns(&after);
+        let lines = watched.turns(&after);
         let mut attempt = Attempt { faired, after, lines };
         if self.job.signs {
+            let worse = excess(&attempt.lines);
+            (self.progress)(&format!(
+                "{} more than before on single lines; lobes of the surface",
+                counted(worse, "inflection")
+            ));
             let seen = settings.seen;
             // What a rule says of the inflections of a line stands over the guard of them.
             let ruled: Vec<Line> = wished.iter().filter_map(Rule::counted_line).collect();
-            let repeated = Repeated { surface, settings, prepared, watched: counted };
+            let repeated = Repeated { surface, settings, prepared, watched };
             attempt = repeated.until_none_is_worse(attempt, seen, |line| !ruled.contains(line))?;
             let lines = &guarded_lines(&prepared.lines, &settings.rules);
-            attempt = Lobes { surface, settings, lines, watched: counted, seen }.fewer(attempt)?;
+            attempt = Lobes { surface, settings, lines, watched, seen }.fewer(attempt)?;
         }
         Ok((attempt, None))
     }

@@ -7,7 +7,7 @@ use super::infeasible::Diagnosis;
 use super::job::{Job, JobError};
 use super::outcome::Outcome;
 use super::relinearise::ON_TARGET;
-use super::run::Way;
+use super::run::{Progress, Way};
 use super::unbroken::RunsOn;
 use crate::hull::OffsetTable;
 use crate::qp::Status;
@@ -81,13 +81,23 @@ impl Job {
     /// # Errors
     /// [`JobError`] when the table makes no surface; wishes that cannot be had are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
-        let mut outcome = self.run_within(table, ANOTHER)?;
+        self.run_telling(table, &|_| ())
+    }
+
+    /// Fairs a table and tells what is being done, which takes seconds for a large table or wishes that cannot be had.
+    ///
+    /// # Errors
+    /// As [`Job::run`].
+    pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
+        let way = Way { own: true, another: ANOTHER, progress };
+        let mut outcome = self.run_within(table, way)?;
         if !self.signs || !outcome.is_proved_on_the_fit() {
             return Ok(outcome);
         }
         // What is near enough to be an error of the table may be a wish all the same.
         if outcome.excess() > 0 && outcome.targets_off(ON_TARGET) > outcome.targets_off(ANOTHER) {
-            let other = self.run_within(table, ON_TARGET)?;
+            progress("lines bend more often: targets as one smooth move");
+            let other = self.run_within(table, Way { another: ON_TARGET, ..way })?;
             let [before, after] = other.all();
             if other.is_proved_on_the_fit() && other.excess() < outcome.excess() && after <= before {
                 outcome = other;
@@ -98,7 +108,8 @@ impl Job {
         }
         // What the smoothing bends more often and no signs could hold, less of it bends less.
         let weight = REDUCED_WEIGHT * outcome.faired.chosen.lambda;
-        let mut other = Self { weight: Some(weight), ..self.clone() }.run_within(table, ANOTHER)?;
+        progress("lines bend more often: a hundredth of the smoothing weight");
+        let mut other = Self { weight: Some(weight), ..self.clone() }.run_within(table, way)?;
         other.faired.trials.clone_from(&outcome.faired.trials);
         let fewer = other.more() < outcome.more() && other.all()[1] < outcome.all()[1];
         let better = other.is_proved_on_the_fit() && fewer;
@@ -110,18 +121,18 @@ impl Job {
         ))
     }
 
-    /// Fairs a table; a target that is off by more than `another`, over its scale, is one smooth move.
-    fn run_within(&self, table: &OffsetTable, another: f64) -> Result<Outcome, JobError> {
-        let first = self.run_on(table, Way { own: true, another })?;
-        let on_the_fit = Way { own: false, another };
+    /// Fairs a table.
+    fn run_within(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
+        let first = self.run_on(table, way)?;
+        let on_the_fit = Way { own: false, ..way };
         let outcome = self.or_with_jumps(table, on_the_fit, first)?;
         let outcome = self.or_on_the_fit(table, on_the_fit, outcome)?;
-        self.or_without_the_flat(table, another, outcome)
+        self.or_without_the_flat(table, way, outcome)
     }
 
     /// Where the flat of side, or what is wished, takes all the room there is, curvature that must run on bends lines
     /// more often and raises the energy.
-    fn or_with_jumps(&self, table: &OffsetTable, way: Way, mut outcome: Outcome) -> Result<Outcome, JobError> {
+    fn or_with_jumps(&self, table: &OffsetTable, way: Way<'_>, mut outcome: Outcome) -> Result<Outcome, JobError> {
         if self.runs_on != RunsOn::Everywhere || outcome.own || outcome.status == Status::Infeasible {
             return Ok(outcome);
         }
@@ -131,6 +142,7 @@ impl Job {
             if outcome.trouble() <= (false, 0, 1.0) {
                 break;
             }
+            (way.progress)(&format!("again, and {place} the curvature may jump"));
             let other = Self { runs_on, ..self.clone() }.run_on(table, way)?;
             let better = other.trouble() < outcome.trouble();
             let why = format!(
@@ -144,12 +156,13 @@ impl Job {
 
     /// What a net of its own cannot have, that of the fit may, which meets every offset; and one that bends more often
     /// than the surface through the table, and more, does not follow it after all.
-    fn or_on_the_fit(&self, table: &OffsetTable, way: Way, outcome: Outcome) -> Result<Outcome, JobError> {
+    fn or_on_the_fit(&self, table: &OffsetTable, way: Way<'_>, outcome: Outcome) -> Result<Outcome, JobError> {
         let refused = outcome.status != Status::Optimal;
         let bends = outcome.more() > 0 && outcome.energy[1] > outcome.energy[0];
         if !outcome.own || !refused && !bends {
             return Ok(outcome);
         }
+        (way.progress)("again, on the net of the surface through the table");
         let other = self.run_on(table, way)?;
         if refused {
             let moves_less = outcome.moved_though_locked() > other.moved_though_locked().max(LOCKED);
@@ -165,7 +178,7 @@ impl Job {
     }
 
     /// A flat that the table shows and nobody asked for stands in the way of nothing.
-    fn or_without_the_flat(&self, table: &OffsetTable, another: f64, outcome: Outcome) -> Result<Outcome, JobError> {
+    fn or_without_the_flat(&self, table: &OffsetTable, way: Way<'_>, outcome: Outcome) -> Result<Outcome, JobError> {
         let flat = outcome.rules.iter().position(|rule| matches!(rule.rule, Rule::FlatShown { .. }));
         let Some(flat) = flat else { return Ok(outcome) };
         let gives = |found: &Diagnosis| {
@@ -175,7 +188,8 @@ impl Job {
         if !hinders && outcome.excess() == 0 {
             return Ok(outcome);
         }
-        let other = Self { keep_flat: false, ..self.clone() }.run_within(table, another)?;
+        (way.progress)("again, without the flat of side that the table shows");
+        let other = Self { keep_flat: false, ..self.clone() }.run_within(table, way)?;
         let proved = other.status == Status::Optimal && outcome.status != Status::Optimal;
         let told = |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
         let nearer = (other.missed() < outcome.missed() || told(&other) && !told(&outcome))

@@ -17,6 +17,7 @@ use crate::exchange::{
     changes_csv, control_polygon_csv, conventions_json, fairing_json, read_curve, read_table_with, row_json,
     status_word, write_hull, write_table,
 };
+use crate::fairing::Progress;
 use crate::fairing::ProposedLine;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
@@ -332,8 +333,18 @@ fn placed(words: String, place: Option<&Place>) -> String {
 /// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made.
 /// Wishes that cannot be had are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
-    let mut outcome =
-        job.job.run(&job.table).map_err(|error| refusal(&job.said, &job.job.lines, &job.table_file, &error))?;
+    fair_outputs_telling(job, figures, &|_| ())
+}
+
+/// The same, telling what is being done.
+///
+/// # Errors
+/// As [`fair_outputs`].
+pub fn fair_outputs_telling(job: &FairJob, figures: bool, progress: Progress<'_>) -> Result<FairOutputs, Failure> {
+    let mut outcome = job
+        .job
+        .run_telling(&job.table, progress)
+        .map_err(|error| refusal(&job.said, &job.job.lines, &job.table_file, &error))?;
     // What reading the table had to guess decides the hull as much.
     let guessed = job.reading.iter().filter(|problem| problem.severity == Severity::Warning);
     outcome.notes.splice(0..0, guessed.map(remark));
@@ -371,6 +382,7 @@ pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure
         files.push(OutputFile::text("offsets.toml", text));
     }
     if figures {
+        progress("figures");
         let mut record = FairRecord::new(&job.table, &outcome);
         record.name = marked_name(&record.name, compromise);
         files.extend(super::fair_figures::fair_figures(&record)?);

@@ -32,7 +32,7 @@ pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, 
 pub use convert::{Converted, convert_file, convert_table};
 pub use export::{ExportFormat, ExportSettings, Exported, export};
 pub use failure::Failure;
-pub use fair::{FairJob, FairOutputs, fair_outputs, read_fair};
+pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_telling, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};
 pub use fair_page::{fair_line, fair_page};
 pub use files::{Destination, OutputFile, same_path};

@@ -258,8 +258,8 @@ pub fn page(seeds: u64) -> String {
          of the S-175: 71 changes of sign in the truth), is up to 5.0 mm further from the truth than interpolation in the median, and 13 mm on one table of which \
          a right offset was left out. Column \"worse\" counts them. Of the \
          same hulls made fair first, fairing is nearer than interpolation in the median, for changes of sign that come down to those of the truth; but for the \
-         S-175 rounded to eighths: 0.2 mm further away; with 2 mm it is nearer on 18 tables of 30. Where the user says how noisy the table is (rows \"tolerance named\": three standard deviations) it is nearer on 29 tables of 30, and within 10 % of interpolation on the published surfaces, which interpolation has no bias on: they are its own. Price 2 (`signs.price`) keeps more of their changes of sign. Swapped digits are not all found on one of thirty tables of \
-         the middle body and on two of the bilge: their worst cases. \
+         S-175 rounded to eighths: 0.2 mm further away; with 2 mm it is nearer on 18 tables of 30. Where the user says how noisy the table is (rows \"tolerance named\": three standard deviations) it is nearer on 29 tables of 30, and within 10 % of interpolation on the published surfaces, which interpolation has no bias on: they are its own. Price 2 (`signs.price`) keeps more of their changes of sign. Swapped digits are not all found on every table of \
+         the middle body and of the bilge: their worst cases. \
          The bilge of the bulk carrier lies between its lowest waterlines, which is the error that remains. Container ship and frigate, \
          fair hulls with raked ends whose turns the offsets do not resolve, are nowhere further off than by interpolation in the mean; with 48 mm of noise the offsets of seven frigates of thirty contradict each \
          other beyond three times their tolerances, which the program says.\n\n"
