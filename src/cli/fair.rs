@@ -194,6 +194,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     let seconds = start.elapsed().as_secs_f64();
     progress(format!("faired in {seconds:.2} s"));
+    outputs.warning().iter().for_each(|warning| stream::message(warning));
     let written = destination.write_run(&outputs.files).map(|()| (outputs, seconds));
     (Some(job), written)
 }

@@ -78,7 +78,8 @@ pub struct Outcome {
     pub faired: Faired,
     /// Order of the energy.
     pub order: usize,
-    /// Energy of the start net and of the fair net.
+    /// Energy of the start net, which on a net of its own has the half-breadths of the surface through the table for
+    /// control values and is evener than that, and of the fair net.
     pub energy: [f64; 2],
     /// The greatest jump of curvature of the fair hull across lines of its net where the surface through the table has
     /// none and none is declared \[1/m\]; none on a net of its own.
@@ -97,6 +98,7 @@ pub struct Outcome {
     /// What the job came to in words, and then what the surface through the table had to assume.
     pub notes: Vec<String>,
 }
+
 /// Curves that bend more often after than before, in words; `wished` says whether anything is asked for besides what the
 /// table has, `carried` is the factor on the tolerances from which targets are had by one smooth move.
 pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) -> Option<String> {

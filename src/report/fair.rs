@@ -23,7 +23,7 @@ use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
 use crate::fairing::infeasible::{Diagnosis, Reach};
 use crate::fairing::job::{Job, JobError};
-use crate::fairing::outcome::Outcome;
+use crate::fairing::outcome::{Outcome, Turns};
 use crate::fairing::record::FairRecord;
 use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
@@ -448,7 +448,33 @@ fn unit(constraint: &Constraint) -> String {
     if constraint.unit() == "-" { String::new() } else { format!(" {}{from}", constraint.unit()) }
 }
 
+/// A length \[mm\] to four digits, upward: with less it would not do.
+fn rounded_up(length: f64) -> String {
+    let decimals = (3 - length.max(1e-3).log10().floor() as i32).clamp(0, 6);
+    let step = 0.1f64.powi(decimals);
+    format!("{:.*}", decimals as usize, step * (length / step - 1e-9).ceil())
+}
+
 impl FairOutputs {
+    /// What was had and is no fairer than the table for that, in words for the one who reads nothing else.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let outcome = &self.outcome;
+        let [before, after] = [|turns: &Turns| turns.before, |turns: &Turns| turns.after]
+            .map(|count: fn(&Turns) -> usize| outcome.turns.iter().map(count).sum::<usize>());
+        let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
+            format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", factor)
+        });
+        (outcome.status == Status::Optimal && after > before).then(|| {
+            let message =
+                format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
+            let help = format!("Ask for nearer targets{wider}");
+            let warning =
+                Diagnostic { severity: config::Severity::Warning, ..problem("W401", &self.table_file, message, &help) };
+            warning.to_string()
+        })
+    }
+
     /// The failure that ends the program when the wishes cannot all be had.
     ///
     /// # Errors
@@ -459,22 +485,20 @@ impl FairOutputs {
         let wide = |factor: f64| {
             // Upward: with less it would not do.
             let factor = (1e3 * factor).ceil() / 1e3;
-            let mut shown = [factor * typical, typical].map(millimetres);
-            if shown[0] == shown[1] {
-                shown = [factor * typical, typical].map(|length| format!("{:.3}", 1e3 * length));
-            }
-            let [wide, now] = shown;
-            format!("{factor:.3} times as wide ({wide} mm where it is widest now {now} mm)")
+            let wide = rounded_up(1e3 * factor * typical);
+            format!("{factor:.3} times as wide ({wide} mm where it is widest now {} mm)", millimetres(typical))
         };
+        let fair = self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some());
+        // What the least is does by waves: as much of every tolerance as there is.
         let least = found.map(|found| match found.widening {
+            Some(factor) if fair.is_some_and(|fair| fair > factor) => {
+                format!(" {} would do, by waves that the table does not have;", wide(factor))
+            }
             Some(factor) => format!(" {} would do;", wide(factor)),
             None => " no tolerances were found that would do;".to_owned(),
         });
-        // What the least is does by waves: as much of every tolerance as there is.
-        let fair =
-            self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some()).map(|factor| {
-                format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor))
-            });
+        let fair = fair
+            .map(|factor| format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor)));
         let reached = |reach: &Reach| {
             let held = self.outcome.held.get(reach.constraint)?;
             let [low, high] = reach.values?;

@@ -289,9 +289,11 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     }
     for smaller in &fair.least.smaller {
         line(match smaller.factor {
+            // Upward: with less there is none.
             Some(factor) => format!(
-                "              {} need {factor:.3} times the tolerances at least, whatever the curve",
-                smaller.count
+                "              {} need {:.3} times the tolerances at least, whatever the curve",
+                smaller.count,
+                (1e3 * factor).ceil() / 1e3
             ),
             None => format!("              {} cannot be had at any tolerance: locked points forbid it", smaller.count),
         });

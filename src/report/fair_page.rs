@@ -347,12 +347,14 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let energy = outcome.energy[1] / outcome.energy[0];
     let proof = format!(
         "Proof: duality gap {:.0e}, stationarity {:.0e}, largest violation of a row {:.0e}, computed without the solver. Energy \
-         of order {}: {:.4} of that before. Smoothing weight {:.2e}, {:.1} degrees of freedom; {}, {} iterations.",
+         of order {}: {} of that {}. Smoothing weight {:.2e}, {:.1} degrees of freedom; {}, {} iterations.",
         certificate.gap.abs(),
         certificate.stationarity,
         certificate.max_violation.max(0.0),
         outcome.order,
-        energy,
+        if energy >= 1e-3 { format!("{energy:.4}") } else { format!("{energy:.1e}") },
+        // Its own net takes the half-breadths of that surface for control values, which evens them out.
+        if outcome.own { "of its net laid evenly through the surface before" } else { "before" },
         faired.lambda,
         faired.edf,
         counted(faired.programs, "program", "programs"),
