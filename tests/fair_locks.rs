@@ -4,7 +4,7 @@ use loftsman::fairing::bends::Line;
 use loftsman::fairing::constraint::{FixedLine, Rule};
 use loftsman::fairing::job::{Job, Tolerance};
 use loftsman::fairing::outcome::Outcome;
-use loftsman::hull::{Cell, Entry, OffsetTable, StatedParticulars, StationOffsets};
+use loftsman::hull::{Cell, Entry, Hull, OffsetTable, StatedParticulars, StationOffsets};
 use loftsman::qp::Status;
 
 /// 21 stations and 11 waterlines of a Wigley hull of 100 by 10 by 6.25 m in millimetres, with noise of this standard
@@ -58,6 +58,38 @@ fn inflections(outcome: &Outcome) -> [usize; 2] {
 fn largest(outcome: &Outcome, locked: bool) -> f64 {
     let changes = outcome.changes.iter().filter(|change| change.locked == locked);
     changes.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max)
+}
+
+/// Root mean square \[m\] of the distance of a surface from the Wigley hull, in and between its offsets.
+fn off_the_truth(hull: &Hull) -> f64 {
+    let places = (1..100).flat_map(|i| (1..50).map(move |j| [f64::from(i), 0.125 * f64::from(j)]));
+    let squares: Vec<f64> = places
+        .filter_map(|[x, z]| {
+            let y = 5.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - (1.0 - z / 6.25).powi(2));
+            Some((hull.half_breadth(x, z)? - y).powi(2))
+        })
+        .collect();
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}
+
+/// A right station, or the deck, that does not move keeps the net of the fit; that a net of its own follows the table
+/// tells all the same how much of it is errors.
+#[test]
+fn what_is_locked_right_leaves_the_rest_to_be_smoothed() {
+    for noise in [0.002, 0.01, 0.025] {
+        let mut table = wigley(noise);
+        let exact = wigley(0.0);
+        table.stations[10] = exact.stations[10].clone();
+        (0..21).for_each(|i| table.stations[i].half_breadths[10] = exact.stations[i].half_breadths[10].clone());
+        let station = Job { locked: (0..11).map(|j| (10, j)).collect(), ..Job::default() };
+        let deck = Job { rules: vec![Rule::Fixed(FixedLine::Deck)], ..Job::default() };
+        for job in [station, deck] {
+            let outcome = run(&job, &table);
+            assert!(!outcome.own);
+            let [before, after] = [&outcome.before, &outcome.after].map(off_the_truth);
+            assert!(after < 0.8 * before, "{noise}: {before} > {after}");
+        }
+    }
 }
 
 /// A whole station or waterline of locked cells is more than a net of its own with fewer control values can meet.

@@ -50,6 +50,8 @@ pub(super) struct Way<'t> {
     pub(super) own: bool,
     /// What a target may be off.
     pub(super) another: f64,
+    /// The noise of the table \[m\] where a net of its own follows it, and cannot have what is wished: it is all errors.
+    pub(super) followed: Option<f64>,
     /// Is told what is being done.
     pub(super) progress: Progress<'t>,
 }
@@ -159,19 +161,21 @@ impl<'a> Run<'a> {
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         // A net of its own is searched without them.
-        let left = (!surface.own).then(|| left_by_differences(table, &excluded)).flatten();
+        let left = (!surface.own && way.followed.is_none()).then(|| left_by_differences(table, &excluded)).flatten();
         let differences = left.map(|left| Differences { left, noise: found.noise });
         let readings = surface.model.readings.iter().map(|reading| reading.value);
         let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
+        let known = way.followed.unwrap_or(found.noise);
+        let roughness = (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0;
         let mut settings = FairSettings {
             others: asked.iter().map(|c| c.missed(c.value(&before), &before) > way.another).collect(),
             constraints: asked.clone(),
             rules: wished.clone(),
             weight: job.weight,
             // Whoever names a tolerance for the table says how noisy it is.
-            table_noise: Some(job.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
+            table_noise: Some(job.tolerance.table.map_or(known, |named| known.min(named / 3.0))),
             differences,
-            most_noise: (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0,
+            most_noise: way.followed.map_or(roughness, |followed| roughness.max(followed)),
             least_noise: quantum / 12f64.sqrt(),
             tolerance_levels: Some(3.0),
             least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),

@@ -155,6 +155,13 @@ impl Started {
     }
 }
 
+impl Started {
+    /// The noise of the offsets \[m\] on a net of their own; none where none follows them.
+    pub(super) fn noise_of_its_own_net(&self) -> Option<f64> {
+        self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()))
+    }
+}
+
 impl Modelled {
     fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64, own: bool) -> Result<Self, JobError> {
         let Cleaned { clean, charted, .. } = table;

@@ -8,6 +8,7 @@ use super::job::{Job, JobError};
 use super::outcome::Outcome;
 use super::relinearise::ON_TARGET;
 use super::run::{Progress, Way};
+use super::start::Started;
 use super::unbroken::RunsOn;
 use crate::hull::OffsetTable;
 use crate::qp::Status;
@@ -89,7 +90,7 @@ impl Job {
     /// # Errors
     /// As [`Job::run`].
     pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
-        let way = Way { own: true, another: ANOTHER, progress };
+        let way = Way { own: true, another: ANOTHER, followed: self.followed(table)?, progress };
         let mut outcome = self.run_within(table, way)?;
         if !self.signs || !outcome.is_proved_on_the_fit() {
             return Ok(outcome);
@@ -119,6 +120,16 @@ impl Job {
             "the smoothing weight is a hundredth of that for the errors of the table, with which lines bent more often than \
              before",
         ))
+    }
+
+    /// The noise of a table \[m\] that a net of its own follows where rules keep the net of the fit; none elsewhere.
+    fn followed(&self, table: &OffsetTable) -> Result<Option<f64>, JobError> {
+        let kept = |rule: &Rule| matches!(rule, Rule::Fixed(_) | Rule::FlatOfSide { .. } | Rule::FlatOfBottom { .. });
+        if self.weight.is_some() || !self.rules.iter().any(kept) {
+            return Ok(None);
+        }
+        let without = Self { rules: self.rules.iter().filter(|rule| !kept(rule)).cloned().collect(), ..self.clone() };
+        Ok(Started::new(&without, table, true)?.noise_of_its_own_net())
     }
 
     /// Fairs a table.
@@ -163,7 +174,7 @@ impl Job {
             return Ok(outcome);
         }
         (way.progress)("again, on the net of the surface through the table");
-        let other = self.run_on(table, way)?;
+        let other = self.run_on(table, Way { followed: Some(outcome.faired.sigma), ..way })?;
         if refused {
             let moves_less = outcome.moved_though_locked() > other.moved_though_locked().max(LOCKED);
             let better = other.status == Status::Optimal || moves_less;
