@@ -564,7 +564,7 @@ impl JobFile {
         for ([x, area, band], place) in &self.section_areas {
             if !(0.0..=MOST_TARGET).contains(area) || !(0.0..=MOST_TARGET).contains(band) {
                 let text = format!("a section area of {area:?} m2 with a band of {band:?} m2 at x = {x:.3} m");
-                problems.push(place.problem("E171", &text, &format!("Expected 0 to {MOST_TARGET} m2.")));
+                problems.push(place.problem("E171", &text, format!("Expected 0 to {MOST_TARGET} m2.")));
             }
         }
         let metacentric =
