@@ -565,7 +565,7 @@ fn messages_name_the_file_the_key_or_the_option() {
         (&["hydro", &mesh, "--draughts", "1", "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
         (&["inspect", &mesh, "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
         (&["convert", &mesh, "-f", "obj", "--up", "w"], 3, &["E311 command line 'up': up is \"w\""]),
-        (&["fair", &dense], 3, &["E124", "dense.toml:4:", "water.density is 10 t/m3. Expected 0.9 to 1.3 t/m3"]),
+        (&["fair", &dense], 3, &["E124", "dense.toml:4:", "water.density is 10. Expected 0.9 to 1.3 t/m3"]),
         (&["fair-curve", &curve, "--first-slope", "nan"], 2, &["--first-slope", "expected a number"]),
         (&["fair-curve", &curve, "--last-slope", "inf"], 2, &["--last-slope", "expected a number"]),
         (&["fair-curve", &curve, "--weight", "-1"], 2, &["--weight", "expected a number above 0"]),

@@ -16,6 +16,9 @@ pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 /// L_PP over the length of the stations, and the reverse, from which it is none of this hull.
 pub(super) const MOST_LENGTH: f64 = 10.0;
 
+/// A section this near to midship, over L_PP, is the midship section.
+const AMIDSHIPS: f64 = 1e-6;
+
 /// Area of a section over B T below which it is none.
 const EMPTY: f64 = 1e-9;
 
@@ -36,8 +39,8 @@ pub enum Holding {
 }
 
 impl Holding {
-    /// The constraints, of the surface through the table where they are its own. Where displacement and C_B say the same
-    /// to the digits in which C_B is written, the displacement is held.
+    /// The constraints, of the surface through the table where they are its own. Where displacement and C_B, or the area
+    /// amidships and C_M, say the same to the digits in which the coefficient is written, the coefficient is left out.
     ///
     /// # Errors
     /// [`JobError::Apart`] where they do not.
@@ -59,16 +62,31 @@ impl Holding {
                     .collect()
             }
         };
-        let volume = constraints.iter().find_map(|c| if let Constraint::Displacement(v) = c { Some(*v) } else { None });
-        let block = constraints.iter().position(|c| matches!(c, Constraint::BlockCoefficient(_)));
-        if let (Some(volume), Some(at)) = (volume, block)
-            && let Constraint::BlockCoefficient(asked) = constraints[at]
-        {
-            let [length, breadth, draught] = [p.length_between_perpendiculars, p.breadth, p.draught];
-            let implied = volume / (length * breadth * draught);
+        let [length, breadth, draught] = [p.length_between_perpendiculars, p.breadth, p.draught];
+        // What says a coefficient again: the coefficient that it is, and itself in words.
+        let said = |coefficient: &Constraint, other: &Constraint| match (coefficient, other) {
+            (Constraint::BlockCoefficient(asked), Constraint::Displacement(volume)) => {
+                let words = format!("a displacement of {volume:.2} m3 is C_B");
+                Some((*asked, volume / (length * breadth * draught), words))
+            }
+            (Constraint::MidshipCoefficient(asked), Constraint::SectionArea { x, area, band })
+                if *band <= 0.0 && (x - 0.5 * length).abs() <= AMIDSHIPS * length =>
+            {
+                let words = format!("a section area of {area:.3} m2 at x = {x:.3} m is C_M");
+                Some((*asked, area / (breadth * draught), words))
+            }
+            _ => None,
+        };
+        let twice = |constraints: &[Constraint]| {
+            let mut coefficients = constraints.iter().enumerate();
+            coefficients.find_map(|(at, own)| Some((at, constraints.iter().find_map(|other| said(own, other))?)))
+        };
+        while let Some((at, (asked, implied, words))) = twice(&constraints) {
             let digits = format!("{asked}").split_once('.').map_or(0, |(_, digits)| digits.len());
             if (implied - asked).abs() > 0.5 * 0.1f64.powi(i32::try_from(digits).unwrap_or(i32::MAX)) {
-                return Err(JobError::Apart { volume, implied, asked, length, breadth, draught });
+                let words =
+                    format!("{words} {implied:.4} with L_PP {length:.3} m, B {breadth:.3} m and T {draught:.3} m");
+                return Err(JobError::Apart { coefficient: constraints[at].key(), words, asked });
             }
             constraints.remove(at);
         }
@@ -186,24 +204,15 @@ pub enum JobError {
         /// From the first station to the last \[m\].
         over: f64,
     },
-    /// Displacement and block coefficient are both asked for and do not say the same.
-    #[error(
-        "a displacement of {volume:.2} m3 is C_B {implied:.4} with L_PP {length:.3} m, B {breadth:.3} m and T {draught:.3} m, and C_B \
-         {asked} is asked for"
-    )]
+    /// A coefficient is asked for, and what says it again, and they are not the same.
+    #[error("{words}, and {asked} is asked for")]
     Apart {
-        /// Displaced volume \[m^3\].
-        volume: f64,
-        /// What it is as a block coefficient.
-        implied: f64,
-        /// The block coefficient that is asked for.
+        /// Name of the coefficient in files.
+        coefficient: &'static str,
+        /// What says it again, and the coefficient that it is.
+        words: String,
+        /// What is asked for.
         asked: f64,
-        /// L_PP \[m\].
-        length: f64,
-        /// B \[m\].
-        breadth: f64,
-        /// T \[m\].
-        draught: f64,
     },
     /// A line is declared along which the surface cannot break.
     #[error("the {} at {at} m cannot be a {}: the surface through the table has no line of its net there", course.as_str(), kind.as_str())]

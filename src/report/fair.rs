@@ -302,7 +302,10 @@ fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &Jo
             let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
             ("E180", line.map(|line| &line.place), help)
         }
-        JobError::Apart { .. } => ("E170", first(&["hold.Cb", "hold.displacement"]), "Give one of them"),
+        JobError::Apart { coefficient, .. } => {
+            let key = if *coefficient == "block_coefficient" { "hold.Cb" } else { "hold.Cm" };
+            ("E170", first(&[key]), "Give one of them")
+        }
         JobError::NoLine { .. } => {
             let help = "Run without it: the page and fairing.json list what is proposed";
             ("E180", first(&["lines.accept"]), help)
