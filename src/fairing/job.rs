@@ -17,7 +17,10 @@ pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 pub(super) const MOST_LENGTH: f64 = 10.0;
 
 /// A section this near to midship, over L_PP, is the midship section.
-const AMIDSHIPS: f64 = 1e-6;
+pub const AMIDSHIPS: f64 = 1e-6;
+
+/// Coefficients that differ by less are one.
+const SAME: f64 = 1e-9;
 
 /// Area of a section over B T below which it is none.
 const EMPTY: f64 = 1e-9;
@@ -83,7 +86,8 @@ impl Holding {
         };
         while let Some((at, (asked, implied, words))) = twice(&constraints) {
             let digits = format!("{asked}").split_once('.').map_or(0, |(_, digits)| digits.len());
-            if (implied - asked).abs() > 0.5 * 0.1f64.powi(i32::try_from(digits).unwrap_or(i32::MAX)) {
+            let written = 0.5 * 0.1f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
+            if (implied - asked).abs() > written.max(SAME) {
                 let words =
                     format!("{words} {implied:.4} with L_PP {length:.3} m, B {breadth:.3} m and T {draught:.3} m");
                 return Err(JobError::Apart { coefficient: constraints[at].key(), words, asked });

@@ -174,7 +174,9 @@ impl Job {
             return Ok(outcome);
         }
         (way.progress)("again, on the net of the surface through the table");
-        let other = self.run_on(table, Way { followed: Some(outcome.faired.sigma), ..way })?;
+        // What is locked is no reason to doubt what that net says of the errors.
+        let followed = (refused && !self.locked.is_empty()).then_some(outcome.faired.sigma);
+        let other = self.run_on(table, Way { followed, ..way })?;
         if refused {
             let moves_less = outcome.moved_though_locked() > other.moved_though_locked().max(LOCKED);
             let better = other.status == Status::Optimal || moves_less;

@@ -6,7 +6,7 @@ use super::super::value::{Scalar, expected};
 use super::super::wishes::position_along;
 use super::{AreaCurve, HOLD, JobFile, Place, allowed};
 use crate::fairing::constraint::Constraint;
-use crate::fairing::job::Holding;
+use crate::fairing::job::{AMIDSHIPS, Holding};
 use crate::units::Dimension;
 
 /// A quantity of the hull that a job can hold.
@@ -258,9 +258,6 @@ fn band(document: &mut Document<'_>) -> f64 {
         })
         .unwrap_or(0.0)
 }
-
-/// A section this near to midship, over L_PP, is the midship section.
-const AMIDSHIPS: f64 = 1e-6;
 
 /// The constraints; what is said stands over the default. The table's own areas are held at `places` \[m\] within the
 /// band \[m^2\].
