@@ -486,13 +486,13 @@ impl<'a> Run<'a> {
         );
         let suspects = self.excluded.len();
         when(suspects > 0, &format!("{suspects} suspects were left out of the fairing"));
-        let takeable = |proposal: &Proposal| !proposal.accepted;
+        let left_alone = |proposal: &Proposal| !proposal.accepted;
         when(
-            job.accepted == Accepted::All && self.proposals.iter().all(takeable),
+            job.accepted == Accepted::All && self.proposals.iter().all(left_alone),
             "all proposed lines were to be taken, and there is none that could be",
         );
         when(
-            self.noise > ALARM * self.quantum && self.proposals.iter().any(takeable),
+            self.noise > ALARM * self.quantum && self.proposals.iter().any(left_alone),
             "the noise is far above the rounding of the table, and lines are proposed that it does not declare",
         );
         self.notes.append(&mut self.assumed);

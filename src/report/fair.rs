@@ -7,11 +7,10 @@ use serde_json::{Value, json};
 
 use super::check::suspect_json;
 use super::failure::{Failure, problem};
-use super::fair_page::millimetres;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
-use crate::config::{self, Diagnostic, JobFile, Place};
+use crate::config::{self, Diagnostic, JobFile};
 use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting,
     changes_csv, control_polygon_csv, conventions_json, fairing_json, read_curve, read_table_with, row_json,
@@ -19,11 +18,9 @@ use crate::exchange::{
 };
 use crate::fairing::Progress;
 use crate::fairing::ProposedLine;
-use crate::fairing::constraint::Constraint;
 use crate::fairing::fair::FairError;
-use crate::fairing::infeasible::{Diagnosis, Reach};
 use crate::fairing::job::{Job, JobError};
-use crate::fairing::outcome::{Outcome, Turns};
+use crate::fairing::outcome::Outcome;
 use crate::fairing::record::FairRecord;
 use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
@@ -64,8 +61,9 @@ pub struct FairOutputs {
     pub certificate: Value,
     /// The files, in the order of their names; the manifest is the last.
     pub files: Vec<OutputFile>,
-    table_file: PathBuf,
-    said: JobFile,
+    pub(super) table_file: PathBuf,
+    /// What file and options say, with its places.
+    pub(super) said: JobFile,
 }
 
 /// The table file of a job file.
@@ -322,14 +320,6 @@ fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &Jo
     }])
 }
 
-/// What is wished in words, with the place where a job wishes it.
-fn placed(words: String, place: Option<&Place>) -> String {
-    match place {
-        Some(place) => format!("{words} ({place})"),
-        None => words,
-    }
-}
-
 /// Fairs the table and makes every file about it.
 ///
 /// # Errors
@@ -437,145 +427,4 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
         "notes": outcome.notes,
         "reading": job.reading.iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
-}
-
-/// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
-const NEAR: f64 = 1e-6;
-
-/// The unit of what is held after a number, and where it is counted from.
-fn unit(constraint: &Constraint) -> String {
-    let from = match constraint {
-        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => " from AP",
-        _ => "",
-    };
-    if constraint.unit() == "-" { String::new() } else { format!(" {}{from}", constraint.unit()) }
-}
-
-/// A length \[mm\] to four digits, upward: with less it would not do.
-fn rounded_up(length: f64) -> String {
-    let decimals = (3 - length.max(1e-3).log10().floor() as i32).clamp(0, 6);
-    let step = 0.1f64.powi(decimals);
-    format!("{:.*}", decimals as usize, step * (length / step - 1e-9).ceil())
-}
-
-impl FairOutputs {
-    /// What was had and is no fairer than the table for that, in words for the one who reads nothing else.
-    #[must_use]
-    pub fn warning(&self) -> Option<String> {
-        let outcome = &self.outcome;
-        let [before, after] = [|turns: &Turns| turns.before, |turns: &Turns| turns.after]
-            .map(|count: fn(&Turns) -> usize| outcome.turns.iter().map(count).sum::<usize>());
-        let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
-            format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", factor)
-        });
-        (outcome.status == Status::Optimal && after > before).then(|| {
-            let message =
-                format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
-            let help = format!("Ask for nearer targets{wider}");
-            let warning =
-                Diagnostic { severity: config::Severity::Warning, ..problem("W401", &self.table_file, message, &help) };
-            warning.to_string()
-        })
-    }
-
-    /// The failure that ends the program when the wishes cannot all be had.
-    ///
-    /// # Errors
-    /// [`Failure::Infeasible`].
-    pub fn verdict(&self) -> Result<(), Failure> {
-        let found = self.outcome.faired.diagnosis.as_ref();
-        let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
-        let wide = |factor: f64| {
-            // Upward: with less it would not do.
-            let factor = (1e3 * factor).ceil() / 1e3;
-            let wide = rounded_up(1e3 * factor * typical);
-            format!("{factor:.3} times as wide ({wide} mm where it is widest now {} mm)", millimetres(typical))
-        };
-        let fair = self.outcome.faired.carried.filter(|factor| *factor > 1.0 && found.is_some());
-        // What the least is does by waves: as much of every tolerance as there is.
-        let least = found.map(|found| match found.widening {
-            Some(factor) if fair.is_some_and(|fair| fair > factor) => {
-                format!(" {} would do, by waves that the table does not have;", wide(factor))
-            }
-            Some(factor) => format!(" {} would do;", wide(factor)),
-            None => " no tolerances were found that would do;".to_owned(),
-        });
-        let fair = fair
-            .map(|factor| format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor)));
-        let reached = |reach: &Reach| {
-            let held = self.outcome.held.get(reach.constraint)?;
-            let [low, high] = reach.values?;
-            let (target, unit) = (held.constraint.target(), unit(&held.constraint));
-            Some(format!("it could be {low:.6} to {high:.6}{unit} where {target:.6}{unit} is asked for"))
-        };
-        let held_words = |constraint: &Constraint| placed(constraint.words(), self.said.place_of(constraint));
-        let cheapest = found.and_then(|found| found.cheapest()).and_then(|reach| {
-            let constraint = self.outcome.held.get(reach.constraint)?.constraint;
-            let (words, of, missing) = (held_words(&constraint), constraint.relative_to(), 100.0 * reach.missing?);
-            Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", reached(reach)?))
-        });
-        // Displacement and LCB, and what is out of reach where no single one would do: as far as the tolerances reach.
-        let each = found.into_iter().flat_map(|found| &found.reaches).filter_map(|reach| {
-            let held = self.outcome.held.get(reach.constraint)?;
-            let off = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
-            let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
-            let told = cheapest.is_some() && found.and_then(Diagnosis::cheapest) == Some(reach);
-            ((off && cheapest.is_none() || always) && !told).then_some(())?;
-            let given = if reach.missing.is_some() { "with" } else { "without" };
-            Some(format!(" {} {given} the other targets: {};", held_words(&held.constraint), reached(reach)?))
-        });
-        let each: String = each.collect();
-        let none = found.is_some_and(|found| found.reaches.iter().any(|reach| reach.values.is_some()));
-        let none = none && cheapest.is_none();
-        let none = if none { " no single target would do;" } else { "" };
-        let rule_words = |rule: usize| {
-            let words = self.outcome.rules.get(rule)?.rule.words();
-            Some(placed(words, self.said.rules.get(rule).map(|rule| &rule.place)))
-        };
-        // Rules whose giving alone would do, the nearest first.
-        let rule = found.into_iter().flat_map(|found| &found.rules).filter_map(|(rule, give)| Some((*rule, (*give)?)));
-        let breadth = self.outcome.after.particulars().breadth;
-        let rule =
-            rule.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, give)| *give < breadth).and_then(|(rule, give)| {
-                let unit = self.outcome.rules.get(rule)?.rule.unit();
-                Some(format!(" {} would have to give by {give:.1e}{unit};", rule_words(rule)?))
-            });
-        let given_up = (0..self.outcome.rules.len()).filter(|&rule| self.outcome.rules[rule].given_up);
-        let given_up = given_up.filter_map(rule_words).collect::<Vec<_>>().join(", ");
-        let given_up = if given_up.is_empty() { String::new() } else { format!(" given up was {given_up};") };
-        let (code, message, help) = match self.outcome.status {
-            Status::Optimal => return Ok(()),
-            Status::Infeasible => (
-                "E401",
-                "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
-                match [least, fair, rule, cheapest, Some(none.to_owned()), Some(each), Some(given_up)]
-                    .map(Option::unwrap_or_default)
-                    .concat()
-                {
-                    none if none.is_empty() => {
-                        "Widen the tolerance, unlock cells, drop a rule or free one of the targets; no single one of \
-                                                them would do, or none was found that would"
-                            .to_owned()
-                    }
-                    which => {
-                        let which = which.trim_end_matches(';');
-                        let widen = found.is_none_or(|found| found.widening.is_some());
-                        let first = if widen { "Widen the tolerance, unlock" } else { "Unlock" };
-                        format!("{first} cells, drop a rule or free one of the targets:{which}")
-                    }
-                },
-            ),
-            Status::Limit if self.outcome.faired.stalled() => (
-                "E403",
-                "what is held of metacentre or wetted surface did not come to its target; what was written is the nearest",
-                "Look at constraints and settled in fairing.json, widen the tolerance or move the target".to_owned(),
-            ),
-            Status::Unbounded | Status::Limit => (
-                "E402",
-                "the solver stopped before the optimum was proved; what was written is its best point",
-                "Widen the tolerances, wish for less, or leave the signs of curvature alone (signs.impose = false); the residuals are in fairing.json".to_owned(),
-            ),
-        };
-        Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))
-    }
 }

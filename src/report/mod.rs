@@ -9,6 +9,7 @@ mod fair;
 mod fair_curve;
 mod fair_figures;
 mod fair_page;
+mod fair_refused;
 mod files;
 mod fit;
 mod floating;

@@ -1,0 +1,207 @@
+//! What a fairing could not have, and what it had at the price of fairness, in the words of messages.
+
+use super::failure::{Failure, problem};
+use super::fair::FairOutputs;
+use super::fair_page::millimetres;
+use crate::config::{Diagnostic, JobFile, Place, Severity};
+use crate::fairing::constraint::Constraint;
+use crate::fairing::infeasible::{Diagnosis, Reach};
+use crate::fairing::outcome::{Outcome, Turns};
+use crate::qp::Status;
+
+/// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
+const NEAR: f64 = 1e-6;
+
+impl FairOutputs {
+    /// What was had and is no fairer than the table for that, in words for the one who reads nothing else.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let outcome = &self.outcome;
+        let [before, after] = [|turns: &Turns| turns.before, |turns: &Turns| turns.after]
+            .map(|count: fn(&Turns) -> usize| outcome.turns.iter().map(count).sum::<usize>());
+        if outcome.status != Status::Optimal || after <= before {
+            return None;
+        }
+        let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
+            format!(", or tolerances {factor:.3} times as wide, with which the targets are one smooth move")
+        });
+        let message =
+            format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
+        let told = problem("W401", &self.table_file, message, format!("Ask for nearer targets{wider}"));
+        Some(Diagnostic { severity: Severity::Warning, ..told }.to_string())
+    }
+
+    /// The failure that ends the program when the wishes cannot all be had.
+    ///
+    /// # Errors
+    /// [`Failure::Infeasible`].
+    pub fn verdict(&self) -> Result<(), Failure> {
+        let (code, message, help) = match self.outcome.status {
+            Status::Optimal => return Ok(()),
+            Status::Infeasible => (
+                "E401",
+                "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
+                Refused { outcome: &self.outcome, said: &self.said, found: self.outcome.faired.diagnosis.as_ref() }
+                    .remedy(),
+            ),
+            Status::Limit if self.outcome.faired.stalled() => (
+                "E403",
+                "what is held of metacentre or wetted surface did not come to its target; what was written is the nearest",
+                "Look at constraints and settled in fairing.json, widen the tolerance or move the target".to_owned(),
+            ),
+            Status::Unbounded | Status::Limit => (
+                "E402",
+                "the solver stopped before the optimum was proved; what was written is its best point",
+                "Widen the tolerances, wish for less, or leave the signs of curvature alone (signs.impose = false); the residuals are in fairing.json".to_owned(),
+            ),
+        };
+        Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))
+    }
+}
+
+/// What was refused, and why as far as that is known.
+struct Refused<'a> {
+    outcome: &'a Outcome,
+    said: &'a JobFile,
+    found: Option<&'a Diagnosis>,
+}
+
+impl Refused<'_> {
+    /// Everything that would do instead.
+    fn remedy(&self) -> String {
+        let which =
+            [self.tolerances(), self.nearest_rule(), self.nearest_target(), self.intervals(), self.given_up()].concat();
+        if which.is_empty() {
+            return "Widen the tolerance, unlock cells, drop a rule or free one of the targets; no single one of them would \
+                    do, or none was found that would"
+                .to_owned();
+        }
+        let widen = self.found.is_none_or(|found| found.widening.is_some());
+        let first = if widen { "Widen the tolerance, unlock" } else { "Unlock" };
+        format!("{first} cells, drop a rule or free one of the targets:{}", which.trim_end_matches(';'))
+    }
+
+    /// How wide the tolerances would have to be: by waves, which take as much of every tolerance as there is, and by one
+    /// smooth move.
+    fn tolerances(&self) -> String {
+        let Some(found) = self.found else { return String::new() };
+        let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
+        let wide = |factor: f64| {
+            // Upward: with less it would not do.
+            let factor = (1e3 * factor).ceil() / 1e3;
+            let wide = rounded_up(1e3 * factor * typical);
+            format!("{factor:.3} times as wide ({wide} mm where it is widest now {} mm)", millimetres(typical))
+        };
+        let smooth = self.outcome.faired.carried.filter(|factor| *factor > 1.0);
+        let least = match found.widening {
+            Some(factor) if smooth.is_some_and(|smooth| smooth > factor) => {
+                format!(" {} would do, by waves that the table does not have;", wide(factor))
+            }
+            Some(factor) => format!(" {} would do;", wide(factor)),
+            None => " no tolerances were found that would do;".to_owned(),
+        };
+        let smooth = smooth.map_or(String::new(), |factor| {
+            format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor))
+        });
+        least + &smooth
+    }
+
+    /// The rule that would have to give least, where its giving alone would do.
+    fn nearest_rule(&self) -> String {
+        let rules = self.found.into_iter().flat_map(|found| &found.rules);
+        let able = rules.filter_map(|(rule, give)| Some((*rule, (*give)?)));
+        let breadth = self.outcome.after.particulars().breadth;
+        let nearest = able.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, give)| *give < breadth);
+        let words = nearest.and_then(|(rule, give)| {
+            let unit = self.outcome.rules.get(rule)?.rule.unit();
+            Some(format!(" {} would have to give by {give:.1e}{unit};", self.rule_words(rule)?))
+        });
+        words.unwrap_or_default()
+    }
+
+    /// The target that would have to give least, where its giving alone would do.
+    fn nearest_target(&self) -> String {
+        let words = self.found.and_then(Diagnosis::cheapest).and_then(|reach| {
+            let constraint = self.outcome.held.get(reach.constraint)?.constraint;
+            let (words, of, missing) = (self.words(&constraint), constraint.relative_to(), 100.0 * reach.missing?);
+            Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", self.reached(reach)?))
+        });
+        words.unwrap_or_default()
+    }
+
+    /// How far displacement and LCB can be had, and what is out of reach where no single target would do.
+    fn intervals(&self) -> String {
+        let Some(found) = self.found else { return String::new() };
+        let cheapest = found.cheapest();
+        let each = found.reaches.iter().filter_map(|reach| {
+            let held = self.outcome.held.get(reach.constraint)?;
+            let off = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
+            let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
+            let told = cheapest == Some(reach);
+            ((off && cheapest.is_none() || always) && !told).then_some(())?;
+            let given = if reach.missing.is_some() { "with" } else { "without" };
+            Some(format!(" {} {given} the other targets: {};", self.words(&held.constraint), self.reached(reach)?))
+        });
+        let none = cheapest.is_none() && found.reaches.iter().any(|reach| reach.values.is_some());
+        let none = if none { " no single target would do;" } else { "" };
+        none.to_owned() + &each.collect::<String>()
+    }
+
+    /// The rules that were given up.
+    fn given_up(&self) -> String {
+        let rules = (0..self.outcome.rules.len()).filter(|&rule| self.outcome.rules[rule].given_up);
+        let words = rules.filter_map(|rule| self.rule_words(rule)).collect::<Vec<_>>().join(", ");
+        if words.is_empty() { words } else { format!(" given up was {words};") }
+    }
+
+    fn words(&self, constraint: &Constraint) -> String {
+        placed(constraint.words(), self.said.place_of(constraint))
+    }
+
+    fn rule_words(&self, rule: usize) -> Option<String> {
+        let words = self.outcome.rules.get(rule)?.rule.words();
+        Some(placed(words, self.said.rules.get(rule).map(|rule| &rule.place)))
+    }
+
+    fn reached(&self, reach: &Reach) -> Option<String> {
+        let constraint = &self.outcome.held.get(reach.constraint)?.constraint;
+        let [low, high] = reach.values?;
+        let (target, unit) = (constraint.target(), unit(constraint));
+        Some(format!("it could be {low:.6} to {high:.6}{unit} where {target:.6}{unit} is asked for"))
+    }
+}
+
+/// What is wished in words, with the place where a job wishes it.
+fn placed(words: String, place: Option<&Place>) -> String {
+    match place {
+        Some(place) => format!("{words} ({place})"),
+        None => words,
+    }
+}
+
+/// The unit of what is held after a number, and where it is counted from.
+fn unit(constraint: &Constraint) -> String {
+    let from = match constraint {
+        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => " from AP",
+        _ => "",
+    };
+    if constraint.unit() == "-" { String::new() } else { format!(" {}{from}", constraint.unit()) }
+}
+
+/// A length \[mm\] to four digits, upward: with less it would not do.
+fn rounded_up(length: f64) -> String {
+    let decimals = (3.0 - length.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize;
+    let step = 0.1f64.powf(decimals as f64);
+    format!("{:.decimals$}", step * (length / step - 1e-9).ceil())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_up;
+
+    #[test]
+    fn lengths_are_rounded_upward() {
+        let told = [17.038, 17.0, 263.81, 0.041_231, 4123.4, 99.999].map(rounded_up);
+        assert_eq!(told, ["17.04", "17.00", "263.9", "0.04124", "4124", "100.00"]);
+    }
+}
