@@ -50,11 +50,6 @@ fn run(job: &Job, table: &OffsetTable) -> Outcome {
     outcome
 }
 
-/// Inflections of all curves before and after.
-fn inflections(outcome: &Outcome) -> [usize; 2] {
-    outcome.turns.iter().fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
-}
-
 fn largest(outcome: &Outcome, locked: bool) -> f64 {
     let changes = outcome.changes.iter().filter(|change| change.locked == locked);
     changes.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max)
@@ -102,7 +97,7 @@ fn a_line_whose_cells_are_all_locked_stays() {
         assert_eq!(outcome.changes.iter().filter(|change| change.locked).count(), count);
         assert!(largest(&outcome, true) < 1e-12, "{:e}", largest(&outcome, true));
         assert!(largest(&outcome, false) < 0.05, "{}", largest(&outcome, false));
-        let [before, after] = inflections(&outcome);
+        let [before, after] = outcome.all_inflections();
         assert!(after <= before, "{before} > {after}");
         assert!(outcome.notes.iter().any(|note| note.contains("on a net of its own")), "{:?}", outcome.notes);
     }
@@ -149,7 +144,7 @@ fn edges_on_the_centreplane_are_locked_on_any_net() {
     for edge in [FixedLine::Keel, FixedLine::Stem, FixedLine::Stern] {
         let outcome = run(&Job { rules: vec![Rule::Fixed(edge)], ..Job::default() }, &table);
         assert!(outcome.own && outcome.rules[0].violation < 1e-12);
-        assert_eq!(inflections(&outcome), inflections(&free));
+        assert_eq!(outcome.all_inflections(), free.all_inflections());
         let net = outcome.after.surface();
         let [rows, columns] = net.shape();
         let edge = (0..columns).chain((rows - 1) * columns..rows * columns).chain((0..rows).map(|i| i * columns));
@@ -166,7 +161,7 @@ fn the_noise_is_that_of_the_table_at_any_weight() {
         let outcome = run(&Job { weight: Some(weight), ..Job::default() }, &table);
         let ratio = outcome.faired.sigma / free.faired.sigma;
         assert!((0.9..1.1).contains(&ratio), "{ratio} at {weight:e}");
-        assert_eq!(inflections(&outcome)[0], inflections(&free)[0]);
+        assert_eq!(outcome.all_inflections()[0], free.all_inflections()[0]);
     }
 }
 
@@ -183,7 +178,7 @@ fn any_waterline_may_be_locked() {
             let outcome = run(&Job { locked, ..Job::default() }, &table);
             let [stay, move_most] = [true, false].map(|locked| largest(&outcome, locked));
             assert!(stay < 1e-9 && move_most > 1e-3, "{name} {waterline}: {stay} {move_most}");
-            let [before, after] = inflections(&outcome);
+            let [before, after] = outcome.all_inflections();
             assert!(20 * after < 19 * before, "{name} {waterline}: {before} > {after}");
             let worse: Vec<_> = outcome.turns.iter().filter(|turns| turns.after > turns.before).collect();
             // The locked line itself may swing elsewhere between its offsets.

@@ -18,7 +18,7 @@ mod place;
 mod shape;
 mod spot;
 
-use hold::MOST_TARGET;
+use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Wish};
 pub use place::Place;
 pub use shape::RuleMark;
@@ -562,7 +562,7 @@ impl JobFile {
             }
         }
         for ([x, area, band], place) in &self.section_areas {
-            if !(0.0..=MOST_TARGET).contains(area) || !(0.0..=MOST_TARGET).contains(band) {
+            if !is_area(*area) || !is_area(*band) {
                 let text = format!("a section area of {area:?} m2 with a band of {band:?} m2 at x = {x:.3} m");
                 problems.push(place.problem("E171", &text, format!("Expected 0 to {MOST_TARGET} m2.")));
             }

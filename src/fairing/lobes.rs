@@ -19,7 +19,7 @@ use super::choice::{charges, trial, worth_it};
 use super::fair::{FairError, FairSettings, Faired};
 use super::least::TableLine;
 use super::model::Limit;
-use super::outcome::Turns;
+use super::outcome::total;
 use super::repeated::{Attempt, excess};
 use super::surface::FairSurface;
 use super::told::Counted;
@@ -145,8 +145,7 @@ impl Lobes<'_> {
         }
         let after = self.surface.hull_of(&solved.net)?;
         let lines = self.watched.turns(&after);
-        let sum = |lines: &[Turns]| lines.iter().map(|turns| turns.after).sum::<usize>();
-        if excess(&lines) > excess(&best.lines) || sum(&lines) >= sum(&best.lines) {
+        if excess(&lines) > excess(&best.lines) || total(&lines)[1] >= total(&best.lines)[1] {
             return Ok(false);
         }
         let dearer = (solved.objective - before.objective) / unit;

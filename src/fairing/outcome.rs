@@ -99,6 +99,11 @@ pub struct Outcome {
     pub notes: Vec<String>,
 }
 
+/// Inflections of curves together, before and after.
+pub(super) fn total(lines: &[Turns]) -> [usize; 2] {
+    lines.iter().fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
+}
+
 /// Curves that bend more often after than before, in words; `wished` says whether anything is asked for besides what the
 /// table has, `carried` is the factor on the tolerances from which targets are had by one smooth move.
 pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) -> Option<String> {
@@ -155,6 +160,12 @@ impl Outcome {
     #[must_use]
     pub fn targets_off(&self, part: f64) -> usize {
         self.held.iter().filter(|held| held.constraint.missed(held.before, &self.before) > part).count()
+    }
+
+    /// Inflections of all curves before and after.
+    #[must_use]
+    pub fn all_inflections(&self) -> [usize; 2] {
+        total(&self.turns)
     }
 
     /// Inflections more than before, all curves together that have more.

@@ -14,7 +14,7 @@ use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lobes::Lobes;
 use super::noise::{Differences, left_by_differences};
-use super::outcome::{Outcome, Turns, more_often};
+use super::outcome::{Outcome, Turns, more_often, total};
 use super::proposals::{Accepted, Proposal};
 use super::record::resolution;
 use super::relinearise::ON_TARGET;
@@ -365,10 +365,9 @@ impl<'a> Run<'a> {
                 continue;
             }
             let attempted = self.attempt(again.after(faired), lines)?;
-            let sum = |attempt: &Attempt, count: fn(&Turns) -> usize| attempt.lines.iter().map(count).sum::<usize>();
-            let after = sum(&attempted.0, |turns| turns.after);
-            let done = after <= sum(&attempted.0, |turns| turns.before);
-            let fewest = best.as_ref().is_none_or(|((best, _), _)| after < sum(best, |turns| turns.after));
+            let [before, after] = total(&attempted.0.lines);
+            let done = after <= before;
+            let fewest = best.as_ref().is_none_or(|((best, _), _)| after < total(&best.lines)[1]);
             if done || fewest {
                 best = Some((attempted, self.settings.clone()));
             }

@@ -49,14 +49,9 @@ impl Outcome {
         ["station", "waterline"].map(|kind| more(self.inflections(kind))).iter().sum()
     }
 
-    /// Inflections of all curves before and after.
-    fn all(&self) -> [usize; 2] {
-        self.turns.iter().fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
-    }
-
     /// Inflections of all curves where one more than before on a line counts as several elsewhere.
     fn counted(&self) -> usize {
-        self.all()[1] + WORSE * self.excess()
+        self.all_inflections()[1] + WORSE * self.excess()
     }
 
     /// What all targets are missed by together, over their scales.
@@ -99,7 +94,7 @@ impl Job {
         if outcome.excess() > 0 && outcome.targets_off(ON_TARGET) > outcome.targets_off(ANOTHER) {
             progress("lines bend more often: targets as one smooth move");
             let other = self.run_within(table, Way { another: ON_TARGET, ..way })?;
-            let [before, after] = other.all();
+            let [before, after] = other.all_inflections();
             if other.is_proved_on_the_fit() && other.excess() < outcome.excess() && after <= before {
                 outcome = other;
             }
@@ -112,7 +107,7 @@ impl Job {
         progress("lines bend more often: a hundredth of the smoothing weight");
         let mut other = Self { weight: Some(weight), ..self.clone() }.run_within(table, way)?;
         other.faired.trials.clone_from(&outcome.faired.trials);
-        let fewer = other.more() < outcome.more() && other.all()[1] < outcome.all()[1];
+        let fewer = other.more() < outcome.more() && other.all_inflections()[1] < outcome.all_inflections()[1];
         let better = other.is_proved_on_the_fit() && fewer;
         Ok(outcome.or(
             other,

@@ -362,6 +362,15 @@ impl Canvas {
         self.polyline(&[from, to], pen);
     }
 
+    /// A ring of 24 straight pieces.
+    pub(super) fn ring(&mut self, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
+        let circle: Vec<[f64; 2]> = (0..=24)
+            .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
+            .map(|(s, c)| [x + radius * c, y + radius * s])
+            .collect();
+        self.polyline(&circle, pen);
+    }
+
     pub(super) fn polyline(&mut self, points: &[[f64; 2]], pen: &Pen) {
         match self.clip {
             Some(window) => inside(points, &window).iter().for_each(|piece| self.stroked(piece, pen)),

@@ -147,16 +147,8 @@ impl CombScale {
 
     /// Draws the rings around the inflections of a comb.
     pub(super) fn rings(canvas: &mut Canvas, comb: &Comb, at: impl Fn([f64; 3]) -> [f64; 2], pens: &CombPens) {
-        comb.inflections.iter().for_each(|&place| ring(canvas, at(place), &pens.ring));
+        comb.inflections.iter().for_each(|&place| canvas.ring(at(place), RING, &pens.ring));
     }
-}
-
-fn ring(canvas: &mut Canvas, [x, y]: [f64; 2], pen: &Pen) {
-    let circle: Vec<[f64; 2]> = (0..=24)
-        .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
-        .map(|(s, c)| [x + RING * c, y + RING * s])
-        .collect();
-    canvas.polyline(&circle, pen);
 }
 
 /// Draws rings around those of `places` that keep apart, the first of several, and returns these and the others.
@@ -167,7 +159,7 @@ pub(super) fn draw_rings(canvas: &mut Canvas, places: &[[f64; 2]], pen: &Pen) ->
         if drawn.iter().any(|other| distance(*other, place) < RINGS_APART) {
             left.push(place);
         } else {
-            ring(canvas, place, pen);
+            canvas.ring(place, RING, pen);
             drawn.push(place);
         }
     }

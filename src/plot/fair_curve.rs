@@ -100,11 +100,11 @@ pub fn fair_curve_figure(fair: &FairCurve) -> Result<Svg, PlotError> {
                 _ if point.suspect => cross(&mut canvas, at),
                 Some(t) if t <= 0.0 => square(&mut canvas, at),
                 _ if point.active => triangle(&mut canvas, at),
-                _ => ring(&mut canvas, at, 0.5, &Pen::new(0.35, RED)),
+                _ => canvas.ring(at, 0.5, &Pen::new(0.35, RED)),
             }
         }
         for &x in inflections {
-            ring(&mut canvas, place(x, curve.eval(x)[0]), RING, &Pen::new(0.4, RED));
+            canvas.ring(place(x, curve.eval(x)[0]), RING, &Pen::new(0.4, RED));
         }
         canvas.end_group();
         canvas.rectangle(&window, &Pen::new(0.2, GREY));
@@ -150,15 +150,6 @@ fn scale_marks(canvas: &mut Canvas, [low, high]: [f64; 2], place: impl Fn(f64) -
         let text = format!("{y:.*}", decimals(step));
         canvas.text([SIDES[0] - 2.0, at], &text, &TextStyle::new(2.6, Anchor::End));
     }
-}
-
-fn ring(canvas: &mut Canvas, at: [f64; 2], radius: f64, pen: &Pen) {
-    let point = |k: i32| {
-        let angle = std::f64::consts::TAU * f64::from(k) / 24.0;
-        [at[0] + radius * angle.cos(), at[1] + radius * angle.sin()]
-    };
-    let points: Vec<[f64; 2]> = (0..=24).map(point).collect();
-    canvas.polyline(&points, pen);
 }
 
 fn square(canvas: &mut Canvas, [x, y]: [f64; 2]) {

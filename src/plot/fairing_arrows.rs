@@ -132,7 +132,7 @@ impl Moves {
         for [x, y] in self.rings {
             let place = Rectangle::new(x, y, x, y).grown(RING);
             if free(&taken, &place.grown(-0.2 * RING)) {
-                ring(canvas, [x, y]);
+                canvas.ring([x, y], RING, &SUSPECT);
                 placer.take(place.grown(0.2));
                 taken.push(place);
             } else {
@@ -173,14 +173,6 @@ fn arrow(canvas: &mut Canvas, from: [f64; 2], by: [f64; 2], sign: f64) {
 }
 
 /// A ring around an offset that was left out.
-fn ring(canvas: &mut Canvas, at: [f64; 2]) {
-    let points: Vec<[f64; 2]> = (0..=24)
-        .map(|k| (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos())
-        .map(|(s, c)| [at[0] + RING * c, at[1] + RING * s])
-        .collect();
-    canvas.polyline(&points, &SUSPECT);
-}
-
 /// The key at the foot of the sheet; `signs` are the words for the two colours of arrows.
 pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspects: bool) {
     let y = paper[1] - 7.0;
@@ -204,7 +196,7 @@ pub(super) fn key(canvas: &mut Canvas, paper: [f64; 2], signs: [&str; 2], suspec
     }
     if suspects {
         let from = add(canvas, "left out as a suspect");
-        ring(canvas, [from + 8.0, y]);
+        canvas.ring([from + 8.0, y], RING, &SUSPECT);
     }
     canvas.text([paper[0] - 8.0, y], &caption::program(), &TextStyle::new(LETTERS, Anchor::End));
 }

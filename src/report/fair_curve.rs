@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
+use super::page::upward;
 use crate::config::Diagnostic;
 use crate::exchange::{NO_MOVE, curve_csv, curve_json, read_curve};
 use crate::fairing::curve::{
@@ -289,11 +290,10 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     }
     for smaller in &fair.least.smaller {
         line(match smaller.factor {
-            // Upward: with less there is none.
             Some(factor) => format!(
                 "              {} need {:.3} times the tolerances at least, whatever the curve",
                 smaller.count,
-                (1e3 * factor).ceil() / 1e3
+                upward(factor)
             ),
             None => format!("              {} cannot be had at any tolerance: locked points forbid it", smaller.count),
         });

@@ -3,10 +3,10 @@
 use super::failure::{Failure, problem};
 use super::fair::FairOutputs;
 use super::fair_page::millimetres;
-use crate::config::{Diagnostic, JobFile, Place, Severity};
+use super::page::upward;
+use crate::config::{Diagnostic, Place, Severity};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::infeasible::{Diagnosis, Reach};
-use crate::fairing::outcome::{Outcome, Turns};
 use crate::qp::Status;
 
 /// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
@@ -17,13 +17,12 @@ impl FairOutputs {
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let outcome = &self.outcome;
-        let [before, after] = [|turns: &Turns| turns.before, |turns: &Turns| turns.after]
-            .map(|count: fn(&Turns) -> usize| outcome.turns.iter().map(count).sum::<usize>());
+        let [before, after] = outcome.all_inflections();
         if outcome.status != Status::Optimal || after <= before {
             return None;
         }
         let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
-            format!(", or tolerances {factor:.3} times as wide, with which the targets are one smooth move")
+            format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", upward(factor))
         });
         let message =
             format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
@@ -41,8 +40,7 @@ impl FairOutputs {
             Status::Infeasible => (
                 "E401",
                 "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
-                Refused { outcome: &self.outcome, said: &self.said, found: self.outcome.faired.diagnosis.as_ref() }
-                    .remedy(),
+                Refused { outputs: self, found: self.outcome.faired.diagnosis.as_ref() }.remedy(),
             ),
             Status::Limit if self.outcome.faired.stalled() => (
                 "E403",
@@ -61,8 +59,7 @@ impl FairOutputs {
 
 /// What was refused, and why as far as that is known.
 struct Refused<'a> {
-    outcome: &'a Outcome,
-    said: &'a JobFile,
+    outputs: &'a FairOutputs,
     found: Option<&'a Diagnosis>,
 }
 
@@ -85,14 +82,13 @@ impl Refused<'_> {
     /// smooth move.
     fn tolerances(&self) -> String {
         let Some(found) = self.found else { return String::new() };
-        let typical = self.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
+        let typical = self.outputs.outcome.changes.iter().filter_map(|change| change.tolerance).fold(0.0, f64::max);
         let wide = |factor: f64| {
-            // Upward: with less it would not do.
-            let factor = (1e3 * factor).ceil() / 1e3;
+            let factor = upward(factor);
             let wide = rounded_up(1e3 * factor * typical);
             format!("{factor:.3} times as wide ({wide} mm where it is widest now {} mm)", millimetres(typical))
         };
-        let smooth = self.outcome.faired.carried.filter(|factor| *factor > 1.0);
+        let smooth = self.outputs.outcome.faired.carried.filter(|factor| *factor > 1.0);
         let least = match found.widening {
             Some(factor) if smooth.is_some_and(|smooth| smooth > factor) => {
                 format!(" {} would do, by waves that the table does not have;", wide(factor))
@@ -110,10 +106,10 @@ impl Refused<'_> {
     fn nearest_rule(&self) -> String {
         let rules = self.found.into_iter().flat_map(|found| &found.rules);
         let able = rules.filter_map(|(rule, give)| Some((*rule, (*give)?)));
-        let breadth = self.outcome.after.particulars().breadth;
+        let breadth = self.outputs.outcome.after.particulars().breadth;
         let nearest = able.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, give)| *give < breadth);
         let words = nearest.and_then(|(rule, give)| {
-            let unit = self.outcome.rules.get(rule)?.rule.unit();
+            let unit = self.outputs.outcome.rules.get(rule)?.rule.unit();
             Some(format!(" {} would have to give by {give:.1e}{unit};", self.rule_words(rule)?))
         });
         words.unwrap_or_default()
@@ -122,7 +118,7 @@ impl Refused<'_> {
     /// The target that would have to give least, where its giving alone would do.
     fn nearest_target(&self) -> String {
         let words = self.found.and_then(Diagnosis::cheapest).and_then(|reach| {
-            let constraint = self.outcome.held.get(reach.constraint)?.constraint;
+            let constraint = self.outputs.outcome.held.get(reach.constraint)?.constraint;
             let (words, of, missing) = (self.words(&constraint), constraint.relative_to(), 100.0 * reach.missing?);
             Some(format!(" {words} alone would have to give by {missing:.3} % of {of}: {};", self.reached(reach)?))
         });
@@ -134,7 +130,7 @@ impl Refused<'_> {
         let Some(found) = self.found else { return String::new() };
         let cheapest = found.cheapest();
         let each = found.reaches.iter().filter_map(|reach| {
-            let held = self.outcome.held.get(reach.constraint)?;
+            let held = self.outputs.outcome.held.get(reach.constraint)?;
             let off = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
             let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
             let told = cheapest == Some(reach);
@@ -149,22 +145,22 @@ impl Refused<'_> {
 
     /// The rules that were given up.
     fn given_up(&self) -> String {
-        let rules = (0..self.outcome.rules.len()).filter(|&rule| self.outcome.rules[rule].given_up);
+        let rules = (0..self.outputs.outcome.rules.len()).filter(|&rule| self.outputs.outcome.rules[rule].given_up);
         let words = rules.filter_map(|rule| self.rule_words(rule)).collect::<Vec<_>>().join(", ");
         if words.is_empty() { words } else { format!(" given up was {words};") }
     }
 
     fn words(&self, constraint: &Constraint) -> String {
-        placed(constraint.words(), self.said.place_of(constraint))
+        placed(constraint.words(), self.outputs.said.place_of(constraint))
     }
 
     fn rule_words(&self, rule: usize) -> Option<String> {
-        let words = self.outcome.rules.get(rule)?.rule.words();
-        Some(placed(words, self.said.rules.get(rule).map(|rule| &rule.place)))
+        let words = self.outputs.outcome.rules.get(rule)?.rule.words();
+        Some(placed(words, self.outputs.said.rules.get(rule).map(|rule| &rule.place)))
     }
 
     fn reached(&self, reach: &Reach) -> Option<String> {
-        let constraint = &self.outcome.held.get(reach.constraint)?.constraint;
+        let constraint = &self.outputs.outcome.held.get(reach.constraint)?.constraint;
         let [low, high] = reach.values?;
         let (target, unit) = (constraint.target(), unit(constraint));
         Some(format!("it could be {low:.6} to {high:.6}{unit} where {target:.6}{unit} is asked for"))

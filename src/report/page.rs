@@ -24,6 +24,11 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A factor that is needed, to three decimals, upward: with less it would not do.
+pub(super) fn upward(factor: f64) -> f64 {
+    (1e3 * factor).ceil() / 1e3
+}
+
 /// The same with its sign, + as well.
 pub(super) fn signed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);

@@ -177,13 +177,15 @@ fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
     };
     let fraction = matches!(kind, Kind::OrWord(Kind::Number, _));
     let most = if fraction { 1.0 } else { MOST_TARGET };
-    let sign = if quantity == Quantity::MetacentricHeight { measure.value.abs() } else { measure.value };
-    if sign > 0.0 && sign <= most {
-        let mass = quantity == Quantity::Displacement && measure.dimension != Dimension::Volume;
-        return Some(if mass { Wish::Mass(measure.value) } else { Wish::Value(measure.value) });
-    }
-    let above = if quantity == Quantity::MetacentricHeight { "that is not 0" } else { "above 0" };
-    allowed(document, &path, measure.value, false, &format!("a number {above}, at most {most}")).map(Wish::Value)
+    // A ship may be unstable as she stands.
+    let (size, numbers) = match quantity {
+        Quantity::MetacentricHeight => (measure.value.abs(), "that is not 0"),
+        _ => (measure.value, "above 0"),
+    };
+    let expected = format!("a number {numbers}, at most {most}");
+    let value = allowed(document, &path, measure.value, size > 0.0 && size <= most, &expected)?;
+    let mass = quantity == Quantity::Displacement && measure.dimension != Dimension::Volume;
+    Some(if mass { Wish::Mass(value) } else { Wish::Value(value) })
 }
 
 fn word(word: &str) -> Wish {
@@ -220,8 +222,10 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
         };
         let place = Place::new(document, path, at.start);
         match numbers.as_deref() {
-            Some(&[x, area]) if is_area(area) => job.section_areas.push(([x, area, job.section_area_band], place)),
-            Some(&[x, area, band]) if is_area(area) && (0.0..=MOST_TARGET).contains(&band) => {
+            Some(&[x, area]) if area > 0.0 && is_area(area) => {
+                job.section_areas.push(([x, area, job.section_area_band], place))
+            }
+            Some(&[x, area, band]) if area > 0.0 && is_area(area) && is_area(band) => {
                 job.section_areas.push(([x, area, band], place))
             }
             _ => {
@@ -238,25 +242,17 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
     }
 }
 
-fn is_area(area: f64) -> bool {
-    area > 0.0 && area <= MOST_TARGET
+/// Whether a section may have this area, or a band this half width \[m^2\].
+pub(super) fn is_area(area: f64) -> bool {
+    (0.0..=MOST_TARGET).contains(&area)
 }
 
 /// The band about section areas that have none of their own \[m^2\].
 fn band(document: &mut Document<'_>) -> f64 {
     let path = "hold.section_area_band";
-    let value = document.number(path);
-    value
-        .and_then(|value| {
-            allowed(
-                document,
-                path,
-                value,
-                (0.0..=MOST_TARGET).contains(&value),
-                &format!("an area of 0 to {MOST_TARGET} m2"),
-            )
-        })
-        .unwrap_or(0.0)
+    let Some(value) = document.number(path) else { return 0.0 };
+    let expected = format!("an area of 0 to {MOST_TARGET} m2");
+    allowed(document, path, value, is_area(value), &expected).unwrap_or(0.0)
 }
 
 /// The constraints; what is said stands over the default. The table's own areas are held at `places` \[m\] within the
