@@ -287,9 +287,9 @@ fn metacentre_and_wetted_surface_are_held() {
     }
 }
 
-/// 25 stations and 21 waterlines of a hull with a chine at 6 m from end to end, which the table does not declare; noise
-/// of 2 mm from a sequence of its own (Weyl).
-fn chined() -> OffsetTable {
+/// 25 stations and 21 waterlines of a hull with a chine at 6 m, which the table does not declare and which turns the
+/// stations by `turn` of x; noise of 2 mm from a sequence of its own (Weyl).
+fn chined(turn: impl Fn(f64) -> f64) -> OffsetTable {
     let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
     let mut count = 0;
     let mut noise = || {
@@ -300,7 +300,7 @@ fn chined() -> OffsetTable {
             * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
     };
     let mut half = |x: f64, z: f64| {
-        let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + 0.35 * (z - 6.0).max(0.0);
+        let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + turn(x) * (z - 6.0).max(0.0);
         Cell::from(Some(((y + noise()) * 1e4).round() / 1e4))
     };
     let stations = (0..25)
@@ -317,9 +317,35 @@ fn chined() -> OffsetTable {
     table
 }
 
+/// By how much the slope of a station is more above a height than below.
+fn bend(hull: &Hull, x: f64, z: f64) -> f64 {
+    let y = |z: f64| hull.half_breadth(x, z).unwrap();
+    let (h, away) = (0.02, 0.005);
+    (y(z + away + h) - y(z + away)) / h - (y(z - away) - y(z - away - h)) / h
+}
+
+/// A chine of the after body that has run out at 50 m: declared as far as that, the stations forward of it stay smooth.
+#[test]
+fn a_chine_ends_where_it_is_said_to_end() {
+    let table = chined(|x| 0.35 * (1.0 - x / 50.0).max(0.0).sqrt());
+    let line =
+        ProposedLine { kind: LineKind::Knuckle, course: LineCourse::Waterline, at: 6.0, reach: [2.0, 50.0], gain: 1.0 };
+    let outcome = Job { lines: vec![line], ..Job::default() }.run(&table).unwrap();
+    assert_eq!(outcome.status, Status::Optimal);
+    for x in [6.0, 18.0, 30.0] {
+        let (own, truth) = (bend(&outcome.after, x, 6.0), 0.35 * (1.0 - x / 50.0).sqrt());
+        assert!((own - truth).abs() < 0.25 * truth, "{x} {own} for {truth}");
+    }
+    // The curve itself bends by 0.001 over the 0.03 m.
+    for x in [62.0, 70.0, 78.0, 86.0, 94.0] {
+        let own = bend(&outcome.after, x, 6.0);
+        assert!(own.abs() < 5e-3, "{x} {own}");
+    }
+}
+
 #[test]
 fn an_undeclared_chine_is_proposed_and_taken() {
-    let table = chined();
+    let table = chined(|_| 0.35);
     let run = |accepted: Accepted| Job { accepted, ..Job::default() }.run(&table);
     let without = run(Accepted::None).unwrap();
     let [line] = &without.proposals[..] else { panic!("{:?}", without.proposals) };
@@ -331,11 +357,7 @@ fn an_undeclared_chine_is_proposed_and_taken() {
     assert!(taken.proposals[0].accepted && taken.status == Status::Optimal);
     // The slope of a station breaks at the chine; half of the 0.35 of the truth, since the surface that the line is put
     // into is one that runs through it as a curve.
-    let bend = |outcome: &Outcome| {
-        let y = |z: f64| outcome.after.half_breadth(50.0, z).unwrap();
-        let (h, away) = (0.02, 0.005);
-        (y(6.0 + away + h) - y(6.0 + away)) / h - (y(6.0 - away) - y(6.0 - away - h)) / h
-    };
+    let bend = |outcome: &Outcome| bend(&outcome.after, 50.0, 6.0);
     assert!(bend(&taken) > 0.12 && bend(&taken) > 3.0 * bend(&without), "{} {}", bend(&taken), bend(&without));
     // Whoever says that it is there has the same hull.
     let lines = vec![ProposedLine { gain: 1.0, ..line.line }];

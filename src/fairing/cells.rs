@@ -57,6 +57,18 @@ pub(super) struct Jump {
     length: f64,
 }
 
+/// A line of a net inside its domain that leaves no continuous derivative.
+pub(super) struct Fold {
+    /// Its parameter, of the domain.
+    pub(super) at: f64,
+    /// Index of the span above it.
+    pub(super) above: usize,
+    /// At the line from below and from above, of weight 1.
+    sides: [Node; 2],
+    /// Lengths of the spans beside it.
+    pub(super) lengths: [f64; 2],
+}
+
 /// One direction of the net.
 struct Spans {
     /// Gauss nodes of each span.
@@ -65,6 +77,7 @@ struct Spans {
     /// First basis function on each span.
     first: Vec<usize>,
     jumps: Vec<Jump>,
+    folds: Vec<Fold>,
     degree: usize,
 }
 
@@ -103,12 +116,20 @@ impl Spans {
             }
         });
         let jumps = jumps.collect();
-        Self { nodes, jumps, first: spans.iter().map(|span| span - degree).collect(), lengths, degree }
+        let folds = (1..spans.len()).filter(|&f| knots.multiplicity(breaks[f]) >= degree).map(|above| Fold {
+            at: (breaks[above] - from) / (to - from),
+            above,
+            sides: [spans[above - 1], spans[above]].map(|span| Node::new(knots, span, breaks[above], to - from)),
+            lengths: [lengths[above - 1], lengths[above]],
+        });
+        let folds = folds.collect();
+        Self { nodes, jumps, folds, first: spans.iter().map(|span| span - degree).collect(), lengths, degree }
     }
 
     /// How far apart control values of one row may be.
     fn reach(&self) -> usize {
-        self.jumps.iter().map(|jump| jump.rows[0].len() - 1).fold(self.degree, usize::max)
+        let least = if self.folds.is_empty() { self.degree } else { 2 * self.degree };
+        self.jumps.iter().map(|jump| jump.rows[0].len() - 1).fold(least, usize::max)
     }
 }
 
@@ -236,12 +257,13 @@ impl<'a> Cells<'a> {
         self.spans[0].lengths[e] * self.spans[1].lengths[f]
     }
 
-    /// Points of span e of a line of [`Self::jumps`] and of the far edges of the cells beside it, at its ends \[m\].
-    pub(super) fn corners(&self, way: usize, jump: &Jump, e: usize) -> [[f64; 3]; 6] {
+    /// Points of span e of a line of the net, below the span `above` across it, and of the far edges of the cells beside
+    /// it, at its ends \[m\].
+    pub(super) fn corners(&self, way: usize, above: usize, e: usize) -> [[f64; 3]; 6] {
         let knots = [self.surface.u(), self.surface.v()];
         let (across, along) = (knots[way].breakpoints(), knots[1 - way].breakpoints());
         let at = |t: f64, s: f64| if way == 0 { self.surface.eval(t, s) } else { self.surface.eval(s, t) };
-        std::array::from_fn(|k| at(across[jump.above - 1 + k / 2], along[e + k % 2]))
+        std::array::from_fn(|k| at(across[above - 1 + k / 2], along[e + k % 2]))
     }
 
     /// The greatest half-breadth of the net \[m\].
@@ -290,6 +312,22 @@ impl<'a> Cells<'a> {
         &self.spans[way].jumps
     }
 
+    /// The lines across which the slope along the ship (`way` 0) or up (1) may jump.
+    pub(super) fn folds(&self, way: usize) -> &[Fold] {
+        &self.spans[way].folds
+    }
+
+    /// The Gauss nodes of span e of a line of [`Self::folds`], from below and from above.
+    pub(super) fn sides<'c>(&'c self, way: usize, fold: &'c Fold, e: usize) -> impl Iterator<Item = [Place<'c>; 2]> {
+        let other = &self.spans[1 - way];
+        other.nodes[e].iter().map(move |node| {
+            [0, 1].map(|side: usize| {
+                let (across, end) = (fold.above - 1 + side, &fold.sides[side]);
+                if way == 0 { self.place([across, e], [end, node]) } else { self.place([e, across], [node, end]) }
+            })
+        })
+    }
+
     /// The Gauss nodes of span e of a line of [`Self::jumps`].
     pub(super) fn crossings<'c>(&'c self, way: usize, jump: &'c Jump, e: usize) -> impl Iterator<Item = Crossing<'c>> {
         let other = &self.spans[1 - way];
@@ -319,6 +357,23 @@ impl<'a> Cells<'a> {
             found
         })
     }
+}
+
+/// The sum of a combination on one side of a line and one on the other as a form of the control values.
+pub(super) fn both(factors: &[Combination; 2], sides: &[Place<'_>; 2]) -> Row {
+    let (mut all, mut other) = (Row::new(), Row::new());
+    sides[0].form(&factors[0], &mut all);
+    sides[1].form(&factors[1], &mut other);
+    all.append(&mut other);
+    all.sort_unstable_by_key(|entry| entry.0);
+    all.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
+    all
 }
 
 /// Adds weight times the square of a form; the indices of the row rise.

@@ -38,6 +38,9 @@ const SKEW: f64 = 1e-9;
 /// Part of the derivatives of the held coordinate below which a line does not cross those of the net.
 const STEEP: f64 = 1e-9;
 
+/// What a line runs on along the ship or up, over its length, below which it runs across the ship.
+const ATHWART: f64 = 1e-3;
+
 /// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; the fourth only along
 /// lines of the net.
 fn terms(order: usize, [a, b, c]: [f64; 3]) -> [(f64, usize, usize); 7] {
@@ -275,6 +278,34 @@ impl Metric {
         let turned = at.jumped[run] + b * at.by_s[run];
         let factors = [g * (x * b - turned * a), -g * turned, g * x];
         Some(Jumped { factors, speed, steep: steep.abs() })
+    }
+}
+
+/// A waterline (`way` 0) or station (1) where it crosses a line of the net across which its slope may jump.
+pub(super) struct Folded {
+    /// Sine of the angle that it turns by, the part of either side.
+    pub(super) turn: [Combination; 2],
+    /// What its curvature above is more than that below \[1/m\], the part of either side.
+    pub(super) curvature: [Combination; 2],
+    /// Mean of its lengths over the spans beside the line \[m\].
+    pub(super) length: f64,
+}
+
+impl Folded {
+    /// None where the chart has no such line, or it stands still or runs across the ship. `lengths` are those of the spans beside it.
+    pub(super) fn new(way: usize, sides: &[Place<'_>; 2], lengths: [f64; 2]) -> Option<Self> {
+        let [below, above] = [&sides[0], &sides[1]].map(|place| Line::new(place, way == 1));
+        let (below, above) = (below?, above?);
+        let curvature = [below.curvature(2)?.0.map(|row| row.map(|factor| -factor)), above.curvature(2)?.0];
+        let speeds = [&below, &above].map(|line| line.square_of_speed()[0].sqrt());
+        let both = speeds[0] * speeds[1];
+        let turn = [below.combination(&[-above.run[0] / both], 0), above.combination(&[below.run[0] / both], 0)];
+        // Half-breadths say nothing of the direction of what runs across the ship.
+        if [&below, &above].iter().zip(speeds).any(|(line, speed)| line.run[0].abs() <= ATHWART * speed) {
+            return None;
+        }
+        let length = 0.5 * (speeds[0] * lengths[0] + speeds[1] * lengths[1]);
+        Some(Self { turn, curvature, length })
     }
 }
 

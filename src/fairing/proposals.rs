@@ -11,7 +11,7 @@ use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
 use super::surface::{EnergySettings, FairSurface, energy as plain_energy};
-use super::unbroken::{AT_KNOT, Breaks, Tangent, runs_on};
+use super::unbroken::{AT_KNOT, Along, Breaks, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
 use crate::spline::KnotVector;
 
@@ -115,13 +115,13 @@ pub(super) fn has_line(hull: &Hull, line: &ProposedLine) -> bool {
     })
 }
 
-/// Adds lines along which the curvature of a hull may jump, of those given.
-pub(super) fn add_tangents<'a>(hull: &Hull, lines: impl Iterator<Item = &'a ProposedLine>, breaks: &mut Breaks) {
-    for line in lines.filter(|line| line.kind == LineKind::Tangent) {
+/// Adds lines along which a hull may break.
+pub(super) fn add_lines<'a>(hull: &Hull, lines: impl Iterator<Item = &'a ProposedLine>, breaks: &mut Breaks) {
+    for line in lines {
         let (from, to) = knots(hull, line.course).domain();
         let way = usize::from(line.course == LineCourse::Waterline);
-        let tangent = |t: f64| Tangent { at: (t - from) / (to - from), reach: line.reach };
-        breaks.tangents[way].extend(parameter(hull, line).map(tangent));
+        let along = |t: f64| Along { at: (t - from) / (to - from), reach: line.reach };
+        breaks.of(line.kind)[way].extend(parameter(hull, line).map(along));
     }
 }
 
@@ -204,7 +204,7 @@ pub fn proposals(
         let mut proposal = Proposal { number: k + 1, line: *line, rms: None, gain: None, accepted };
         if let Some(hull) = with_line(hull, line)? {
             let mut breaks = breaks.clone();
-            add_tangents(&hull, std::iter::once(line), &mut breaks);
+            add_lines(&hull, std::iter::once(line), &mut breaks);
             let with = of(&hull, Some(without[2]), &breaks)?;
             proposal.rms = Some([without[0], with[0]]);
             proposal.gain = Some((without[1] - with[1]) / (noise * noise));

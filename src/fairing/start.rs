@@ -4,14 +4,14 @@ use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
 use super::flats::shown_flat;
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
-use super::lines::{ProposedLine, proposed_lines};
-use super::proposals::{Accepted, Proposal, add_tangents, declared, has_line, proposals, with_line};
+use super::lines::{LineKind, ProposedLine, proposed_lines};
+use super::proposals::{Accepted, Proposal, add_lines, declared, has_line, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
-use super::unbroken::{Breaks, Tangent};
+use super::unbroken::{Along, Breaks};
 use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
 
@@ -228,11 +228,11 @@ impl Modelled {
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
             start = with_line(&start, &proposal.line)?.unwrap_or(start);
         }
-        add_tangents(&start, proposals.iter().filter(|p| p.accepted).map(|p| &p.line), &mut breaks);
+        add_lines(&start, proposals.iter().filter(|p| p.accepted).map(|p| &p.line), &mut breaks);
         for rule in &job.rules {
             if let Rule::FlatOfSide { x, z } = rule {
                 let edges = edges(*x, *z);
-                add_tangents(&start, edges.iter(), &mut breaks);
+                add_lines(&start, edges.iter(), &mut breaks);
                 start = edged(&start, &edges)?;
             }
         }
@@ -313,18 +313,22 @@ impl Search {
     }
 }
 
-/// The lines that a table declares as tangent lines, and the flat of side that it shows.
+/// The lines that a table declares, and the flat of side that it shows.
 fn declared_breaks(table: &OffsetTable, hull: &Hull, left_out: &[Cell]) -> Breaks {
     let (from, to) = hull.surface().v().domain();
     let mut breaks = Breaks::default();
-    for line in table.lines.iter().filter(|line| line.kind == hull::LineKind::Tangent) {
+    for line in &table.lines {
         let [Some(first), Some(middle), Some(last)] =
             [0, line.points.len() / 2, line.points.len().saturating_sub(1)].map(|point| line.points.get(point))
         else {
             continue;
         };
-        let tangent = |[_, v]: [f64; 2]| Tangent { at: (v - from) / (to - from), reach: [first[0], last[0]] };
-        breaks.tangents[1].extend(hull.parameters(middle[0], middle[2]).map(tangent));
+        let kind = match line.kind {
+            hull::LineKind::Knuckle => LineKind::Knuckle,
+            hull::LineKind::Tangent => LineKind::Tangent,
+        };
+        let along = |[_, v]: [f64; 2]| Along { at: (v - from) / (to - from), reach: [first[0], last[0]] };
+        breaks.of(kind)[1].extend(hull.parameters(middle[0], middle[2]).map(along));
     }
     if let Some(Rule::FlatShown { rectangles, .. }) = shown_flat(table, left_out) {
         breaks.flats = rectangles;

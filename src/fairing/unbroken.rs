@@ -18,15 +18,29 @@
 //! (Charged in the energy instead, its weight is shared with all that bends: of jumps with 0.036 1/m
 //! of root mean square at a waterline of the Series 60 0.043 was left, with a charge of 1e3 0.010, and the weight that is
 //! searched for goes with the charge.)
+//!
+//! Across a knuckle of the net the slope may jump all along it, though the knuckle ends somewhere or the line is a
+//! corner of the chart alone, as at the foot of a transom. Where the start turns by less than [`NO_CORNER`] on a span
+//! that no knuckle is declared along, it is asked for
+//!
+//! ```text
+//! S' = sum over such spans int (sin(angle) l)^2 ds / tr
+//! ```
+//!
+//! in the same way, and for no jump of curvature where the start has none.
 
 use super::breaks::STIFF;
-use super::cells::{Cells, Crossing, Jump, Row, add_square};
-use super::metric::{Jumped, Metric};
+use super::cells::{Cells, Combination, Crossing, Fold, Jump, Place, Row, add_square, both};
+use super::lines::LineKind;
+use super::metric::{Folded, Jumped, Metric};
 use crate::numeric::SymmetricBand;
 use crate::spline::BsplineSurface;
 
 /// Departure in a span below which a start does not break, over its greatest half-breadth.
 const NIL: f64 = 1e-9;
+
+/// Angle \[rad\] by which a start turns at a place and nobody calls it a corner.
+const NO_CORNER: f64 = 1e-3;
 
 /// A line is at a knot where it is nearer than this part of the domain.
 pub(super) const AT_KNOT: f64 = 1e-6;
@@ -46,9 +60,9 @@ pub enum RunsOn {
     Nowhere,
 }
 
-/// A line along which curvature may jump.
+/// A line along which curvature or slope may jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tangent {
+pub(super) struct Along {
     /// Its parameter, of the domain.
     pub(super) at: f64,
     /// From and to in x along the ship, in z up a station \[m\].
@@ -59,7 +73,9 @@ pub(super) struct Tangent {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Breaks {
     /// Lines that are declared or taken: v = constant second, u = constant first.
-    pub(super) tangents: [Vec<Tangent>; 2],
+    pub(super) tangents: [Vec<Along>; 2],
+    /// The same along which the slope may break.
+    pub(super) knuckles: [Vec<Along>; 2],
     /// Flats of side that the table shows: from and to in x and in z \[m\].
     pub(super) flats: Vec<[[f64; 2]; 2]>,
     /// Elsewhere.
@@ -67,13 +83,21 @@ pub struct Breaks {
 }
 
 impl Breaks {
-    /// Whether a declared line runs along a span of a line of the net, by its points.
-    fn declared(&self, way: usize, at: f64, points: &[[f64; 3]; 6]) -> bool {
+    /// The lines of a kind.
+    pub(super) fn of(&mut self, kind: LineKind) -> &mut [Vec<Along>; 2] {
+        match kind {
+            LineKind::Knuckle => &mut self.knuckles,
+            LineKind::Tangent => &mut self.tangents,
+        }
+    }
+
+    /// Whether one of the declared lines runs along a span of a line of the net, by its points.
+    fn declared(lines: &[Vec<Along>; 2], way: usize, at: f64, points: &[[f64; 3]; 6]) -> bool {
         let axis = if way == 1 { 0 } else { 2 };
         let ends = [points[2][axis], points[3][axis]];
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let along = |line: &Tangent| line.reach[1].min(high) - line.reach[0].max(low) > SLACK;
-        self.tangents[way].iter().any(|line| (line.at - at).abs() <= AT_KNOT && along(line))
+        let along = |line: &Along| line.reach[1].min(high) - line.reach[0].max(low) > SLACK;
+        lines[way].iter().any(|line| (line.at - at).abs() <= AT_KNOT && along(line))
     }
 
     /// Whether any of these points lies in a flat.
@@ -103,6 +127,9 @@ pub(super) struct Unbroken {
     spans: Spans,
     /// Those that are, whether they stay so or not, but for lines that are declared.
     own: Spans,
+    /// Spans of lines across which the slope could jump, where it does not, and the same of their curvature.
+    turns: Spans,
+    curvatures: Spans,
 }
 
 impl Unbroken {
@@ -119,27 +146,61 @@ impl Unbroken {
         let own = [0, 1].map(|way: usize| {
             let lines = cells.jumps(way).iter().map(|jump| {
                 let spans = (0..cells.count()[1 - way]).map(|e| {
-                    !breaks.declared(way, jump.at, &cells.corners(way, jump, e)) && smooth(&exact, way, jump, e)
+                    !Breaks::declared(&breaks.tangents, way, jump.at, &cells.corners(way, jump.above, e))
+                        && smooth(&exact, way, jump, e)
                 });
                 spans.collect::<Vec<bool>>()
             });
             lines.collect::<Vec<_>>()
         });
         // By the metric in which jumps are charged it may depart by more than by the exact one.
-        let stays = |way: usize, jump: &Jump, e: usize| match breaks.runs_on {
+        let stays = |way: usize, above: usize, e: usize| match breaks.runs_on {
             RunsOn::Nowhere => false,
-            RunsOn::ButFlats => !breaks.flat(&cells.corners(way, jump, e)),
+            RunsOn::ButFlats => !breaks.flat(&cells.corners(way, above, e)),
             RunsOn::Everywhere => true,
         };
         let mut spans = own.clone();
         for (way, lines) in spans.iter_mut().enumerate() {
             for (jump, line) in cells.jumps(way).iter().zip(lines) {
                 for (e, held) in line.iter_mut().enumerate() {
-                    *held = *held && stays(way, jump, e) && smooth(metric, way, jump, e);
+                    *held = *held && stays(way, jump.above, e) && smooth(metric, way, jump, e);
                 }
             }
         }
-        Self { spans, own }
+        let folds = |holds: &dyn Fn(usize, &Fold, usize) -> bool| {
+            [0, 1].map(|way: usize| {
+                let lines = cells.folds(way).iter().map(|fold| {
+                    let spans = (0..cells.count()[1 - way]).map(|e| {
+                        !Breaks::declared(&breaks.knuckles, way, fold.at, &cells.corners(way, fold.above, e))
+                            && holds(way, fold, e)
+                    });
+                    spans.collect::<Vec<bool>>()
+                });
+                lines.collect::<Vec<_>>()
+            })
+        };
+        let folded =
+            |way: usize, fold: &Fold, e: usize, most: f64, departs: &dyn Fn(&Folded, &[Place<'_>; 2]) -> f64| {
+                let mut known = cells
+                    .sides(way, fold, e)
+                    .filter_map(|sides| {
+                        Folded::new(way, &sides, fold.lengths).map(|folded| departs(&folded, &sides).abs())
+                    })
+                    .peekable();
+                known.peek().is_some() && known.all(|departs| departs <= most)
+            };
+        let turns = folds(&|way, fold, e| folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides)));
+        let mut curvatures = folds(&|way, fold, e| {
+            !Breaks::declared(&breaks.tangents, way, fold.at, &cells.corners(way, fold.above, e))
+                && stays(way, fold.above, e)
+                && folded(way, fold, e, nil, &|folded, sides| {
+                    value(&folded.curvature, sides) * folded.length * folded.length
+                })
+        });
+        for (line, turns) in curvatures.iter_mut().flatten().zip(turns.iter().flatten()) {
+            line.iter_mut().zip(turns).for_each(|(held, turns)| *held = *held && *turns);
+        }
+        Self { spans, own, turns, curvatures }
     }
 
     /// Whether span e of a line is unbroken.
@@ -147,15 +208,25 @@ impl Unbroken {
         self.spans[way][line][e]
     }
 
-    /// S; none where nothing is unbroken.
+    /// S and S'; none where nothing is unbroken.
     pub(super) fn form(&self, cells: &Cells<'_>, metric: &Metric) -> Option<SymmetricBand> {
-        let (mut form, mut row) = (cells.zeros(), Row::new());
+        let (mut jumps, mut row) = (cells.zeros(), Row::new());
         each(&self.spans, cells, metric, |at, jumped| {
             at.form(jumped.factors, &mut row);
-            add_square(&mut form, at.weight * jumped.departure(at).powi(2), &row);
+            add_square(&mut jumps, at.weight * jumped.departure(at).powi(2), &row);
         });
-        let trace = form.trace();
-        (trace > 0.0).then(|| cells.zeros().plus(STIFF / trace, &form))
+        let mut turns = cells.zeros();
+        each_fold(&self.turns, cells, |sides, folded| {
+            add_square(&mut turns, sides[0].weight * folded.length.powi(2), &both(&folded.turn, sides));
+        });
+        let mut curvatures = cells.zeros();
+        each_fold(&self.curvatures, cells, |sides, folded| {
+            add_square(&mut curvatures, sides[0].weight * folded.length.powi(4), &both(&folded.curvature, sides));
+        });
+        let forms = [jumps, turns, curvatures].into_iter().filter(|form| form.trace() > 0.0);
+        forms.fold(None, |sum: Option<SymmetricBand>, form| {
+            Some(sum.unwrap_or_else(|| cells.zeros()).plus(STIFF / form.trace(), &form))
+        })
     }
 
     /// The greatest jump of curvature of a surface on the same net where the start has none, whether it stays so or not, and
@@ -184,6 +255,26 @@ fn each(spans: &Spans, cells: &Cells<'_>, metric: &Metric, mut each: impl FnMut(
     }
 }
 
+/// The sum of a combination on one side of a line and one on the other, for the surface itself.
+fn value(factors: &[Combination; 2], sides: &[Place<'_>; 2]) -> f64 {
+    sides[0].value(&factors[0]) + sides[1].value(&factors[1])
+}
+
+/// Every node of these spans of lines that the slope could jump across, on both sides.
+fn each_fold(spans: &Spans, cells: &Cells<'_>, mut each: impl FnMut(&[Place<'_>; 2], &Folded)) {
+    for (way, lines) in spans.iter().enumerate() {
+        for (fold, spans) in cells.folds(way).iter().zip(lines) {
+            for e in (0..spans.len()).filter(|&e| spans[e]) {
+                for sides in cells.sides(way, fold, e) {
+                    if let Some(folded) = Folded::new(way, &sides, fold.lengths) {
+                        each(&sides, &folded);
+                    }
+                }
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,8 +282,13 @@ mod tests {
 
     /// x = 100 u over four spans, z = 5 v with a double knot at v = 1 of 2, half-breadths y(v) from their blossom.
     fn surface(y: impl Fn([f64; 3]) -> f64) -> BsplineSurface<3> {
+        broken(2, y)
+    }
+
+    /// The same with a knot of so many times.
+    fn broken(times: usize, y: impl Fn([f64; 3]) -> f64) -> BsplineSurface<3> {
         let u = KnotVector::uniform(3, 4).unwrap();
-        let v = KnotVector::from_breakpoints(3, &[0.0, 0.5, 1.0, 1.5, 2.0], &[1, 2, 1]).unwrap();
+        let v = KnotVector::from_breakpoints(3, &[0.0, 0.5, 1.0, 1.5, 2.0], &[1, times, 1]).unwrap();
         let mut points = Vec::new();
         for s in u.greville() {
             for j in 0..v.basis_count() {
@@ -239,11 +335,50 @@ mod tests {
         assert_eq!(unbroken(&kinked, &Breaks::default()).spans[1], vec![vec![false; 4]]);
     }
 
+    /// Across a triple knot max(v - 1, 0) turns the stations by its size over 5, of slopes near 0.
+    #[test]
+    fn a_knuckle_that_nobody_declared_stays_smooth() {
+        let smooth = broken(3, cube);
+        let found = unbroken(&smooth, &Breaks::default());
+        assert_eq!((&found.turns, &found.curvatures), (&[vec![], vec![vec![true; 4]]], &[vec![], vec![vec![true; 4]]]));
+        let form = form(&found, &smooth).unwrap();
+        let of = |surface: &BsplineSurface<3>| {
+            let y: Vec<f64> = surface.points().iter().map(|point| point[1]).collect();
+            form.apply(&y).iter().zip(&y).map(|(s, y)| s * y).sum::<f64>()
+        };
+        let turned = |size: f64| {
+            broken(3, |t| {
+                cube(t) + if t.iter().sum::<f64>() > 3.0 { size * (t.iter().sum::<f64>() / 3.0 - 1.0) } else { 0.0 }
+            })
+        };
+        let kinked = turned(1e-4);
+        assert!(of(&smooth).abs() < 1e-12 * of(&kinked), "{} {}", of(&smooth), of(&kinked));
+        let mut count = 0;
+        each_fold(&found.turns, &Cells::new(&kinked), |sides, folded| {
+            let turn = value(&folded.turn, sides);
+            assert!((turn / (1e-4 / 5.0) - 1.0).abs() < 1e-6, "{turn}");
+            assert!((folded.length - 2.5).abs() < 1e-6, "{}", folded.length);
+            count += 1;
+        });
+        assert_eq!(count, 16);
+        // More than a thousandth is a corner.
+        assert_eq!(unbroken(&turned(0.004), &Breaks::default()).turns[1], vec![vec![true; 4]]);
+        assert_eq!(unbroken(&turned(0.006), &Breaks::default()).turns[1], vec![vec![false; 4]]);
+        let along = vec![Along { at: 0.5, reach: [30.0, 50.0] }];
+        let part = unbroken(&smooth, &Breaks { knuckles: [vec![], along.clone()], ..Breaks::default() });
+        assert_eq!(
+            (&part.turns[1][0], &part.curvatures[1][0]),
+            (&vec![true, false, true, true], &vec![true, false, true, true])
+        );
+        let part = unbroken(&smooth, &Breaks { tangents: [vec![], along], ..Breaks::default() });
+        assert_eq!((&part.turns[1][0], &part.curvatures[1][0]), (&vec![true; 4], &vec![true, false, true, true]));
+    }
+
     #[test]
     fn declared_lines_and_flats_may_break() {
         let smooth = surface(cube);
         let along =
-            |reach: [f64; 2]| Breaks { tangents: [vec![], vec![Tangent { at: 0.5, reach }]], ..Breaks::default() };
+            |reach: [f64; 2]| Breaks { tangents: [vec![], vec![Along { at: 0.5, reach }]], ..Breaks::default() };
         assert!(form(&unbroken(&smooth, &along([0.0, 100.0])), &smooth).is_none());
         assert_eq!(unbroken(&smooth, &along([30.0, 50.0])).spans[1], vec![vec![true, false, true, true]]);
         // Beside the span from v = 1 to 1.5, z = 5 to 7.5 m, of the first quarter of the length.
