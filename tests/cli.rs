@@ -583,3 +583,56 @@ fn convert_takes_its_file_as_other_commands_do() {
     assert_eq!(fs::read(&out).unwrap(), program(&["convert", &table, "-q"]).stdout);
     refused(&[(&["convert", &table, &out, "-o", &out], 2, &["cannot be used with"])]);
 }
+
+/// A table of points has no grid of offsets: its points are judged and drawn all the same.
+#[test]
+fn points_of_sections_are_checked_and_drawn() {
+    let path = folder("points-checked");
+    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/s175/sections.csv").display().to_string();
+    let output = program(&["check", &table, "-o", &path.display().to_string(), "--force"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(path.join("suspect-points.svg").exists() && !path.join("suspects.svg").exists());
+}
+
+/// Areas are drawn and told in square metres; a straight line of locked points bends nowhere, and where one ends the
+/// page says what lets the curvature jump.
+#[test]
+fn curves_of_areas_and_straight_locks() {
+    let path = folder("curves");
+    let here = |name: &str| path.join(name).display().to_string();
+    let areas: String = (0..=20).map(|i| format!("{},{}\n", 5 * i, 120.0 * (f64::from(i) * 0.157).sin())).collect();
+    fs::write(path.join("areas.csv"), format!("x,area\n{areas}")).unwrap();
+    let output = program(&["fair-curve", &here("areas.csv"), "-o", &here("areas")]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let picture = fs::read_to_string(path.join("areas/fair-curve.svg")).unwrap();
+    for words in ["area [m2]", "moves [m2]", "FAIRING OF A CURVE – areas"] {
+        assert!(picture.contains(words), "{words}");
+    }
+    assert!(!picture.contains("moves [mm]"));
+    let line = |marks: [&str; 3]| {
+        let rows = (0..21).map(|i| {
+            let (x, bow) = (5.0 * f64::from(i), f64::from((6 - i).max(i - 12).max(0)));
+            let mark = match i {
+                6 => marks[0],
+                7..=11 => marks[1],
+                12 => marks[2],
+                _ => "",
+            };
+            let noise = 0.004 * (7.3 * f64::from(i)).sin() * f64::from(u8::from(bow > 0.0));
+            format!("{x},{:.4}{mark}\n", 8.0 + 0.01 * f64::from(i) - 0.05 * bow * bow + noise)
+        });
+        format!("x,y\n{}", rows.collect::<String>())
+    };
+    fs::write(path.join("locked.csv"), line(["!"; 3])).unwrap();
+    fs::write(path.join("tangent.csv"), line(["T!", "!", "T!"])).unwrap();
+    let straight: String = (0..21).map(|i| format!("{},{:.4}!\n", 5 * i, 8.0 + 0.01 * f64::from(i))).collect();
+    fs::write(path.join("straight.csv"), format!("x,y\n{straight}")).unwrap();
+    let page =
+        |name: &str| stdout(&program(&["fair-curve", &here(name), "-o", &here("out"), "--force", "--no-figures"]));
+    let locked = page("locked.csv");
+    assert!(locked.contains("locked on a straight line from x = 30.000 to 60.000 m: with T at both"), "{locked}");
+    let tangent = page("tangent.csv");
+    assert!(tangent.contains(" -> 0\n") && !tangent.contains("with T at both"), "{tangent}");
+    let straight = page("straight.csv");
+    assert!(straight.contains("inflections   0 -> 0\n"), "{straight}");
+}

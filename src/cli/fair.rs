@@ -103,8 +103,9 @@ const AFTER: &str = "\
 Held are displacement, LCB and CM of the surface through the table unless something else is said; a target that is given \
 replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
 [shape], [energy], [suspects], [signs]: `loftsman schema job`.
-Files: hull.json, offsets.csv (in the notation of the table), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), \
-summary.json, manifest.json, figures.
+Files: hull.json, start.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
+conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
+manifest.json, figures.
 Exit code 4 when the wishes cannot all be had within the tolerances; the best compromise is written, marked.
 Tables of offsets are all that `loftsman fit --help` lists.";
 

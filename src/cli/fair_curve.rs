@@ -91,7 +91,7 @@ the points show and do not declare are told.
 fairing.json holds the proof: the least number of inflections within the tolerances with three points for each change that no curve \
 can pass without it, and the duality gap of the convex program.
 Exit code 4 when what is wished cannot be had within the tolerances; the message names the smallest tolerance that would do, \
-and the best curve with it is written, marked.";
+and the best curve with it, or what comes near to an area, centroid or slopes that cannot be had, is written, marked.";
 
 fn inflections(text: &str) -> Result<InflectionWish, String> {
     match text {

@@ -66,9 +66,9 @@ flat is at least 5 % of the curve, straight within the tolerance, with a curvatu
 Control polygon: + outboard, - inboard, 0 within a tenth of the tolerance of the chord; fair lines change sign seldom and \
 enclose no sign between two opposite ones.
 Not counted are curves whose half-breadth is below B/1000 all along, and ends of curves longer than B/50 where it is.
-JSON: curves (kind, at, branch, length, turning, inflections, inflections_at, extrema, extrema_at, max_curvature, \
+JSON: name, tolerance, curves (kind, at, branch, length, turning, inflections, inflections_at, extrema, extrema_at, max_curvature, \
 max_curvature_at, max_step, bending_energy, variation_energy, flats, knuckles, without_breadth), totals, empty, no_breadth, net (line, index, at, signs, \
-changes, enclosed), surface (area, bending_energy, gaussian, mean, principal_1, principal_2 with least and greatest).";
+changes, enclosed), surface (area, bending_energy, degenerate_points, gaussian, mean, principal_1, principal_2 with least and greatest).";
 
 fn scale(text: &str) -> Result<f64, String> {
     let number = text.strip_prefix("1:").unwrap_or(text);

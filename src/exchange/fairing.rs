@@ -243,11 +243,16 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .iter()
         .map(|held| {
             let target = held.constraint.target();
+            let words = match outcome.nearest && !held.is_had() {
+                true => format!("{} at no more than what was had", held.constraint.words()),
+                false => held.constraint.words(),
+            };
             let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
-                "price": number(held.price), "words": priced(&held.constraint.words(), held.price),
+                "price": number(held.price), "words": priced(&words, held.price),
+                "had": !outcome.nearest || held.is_had(),
             });
             if let Constraint::SectionArea { x, band, .. } = held.constraint {
                 member["x"] = number(x);

@@ -28,6 +28,18 @@ pub struct Held {
     pub price: f64,
 }
 
+/// What an end may be off its target, relative, and still count as had.
+const HAD: f64 = 1e-9;
+
+impl Held {
+    /// Whether its target is had, within its band.
+    #[must_use]
+    pub fn is_had(&self) -> bool {
+        let target = self.constraint.target();
+        (self.after - target).abs() <= self.constraint.band() + HAD * target.abs()
+    }
+}
+
 /// A rule for a line or a region and how it is held.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldRule {

@@ -367,10 +367,13 @@ pub(super) fn name_curvatures(
 ) {
     let style = TextStyle::new(LETTERS, Anchor::Middle).halo();
     for (arrow, curvature) in cut {
-        let name = format!("{} 1/m", figures(*curvature, 2));
+        let name = if *curvature > CORNER { "a corner".to_owned() } else { format!("{} 1/m", figures(*curvature, 2)) };
         placer.name_arrow(canvas, &name, &style, *arrow, window, &THREAD);
     }
 }
+
+/// Curvature \[1/m\] beyond which a line is rounded with less than a millimetre, which is none.
+const CORNER: f64 = 1e3;
 
 /// What stands on drawings with lines beyond their outermost offsets.
 pub(super) const BEYOND: &str = "dashed: beyond the outermost offsets, extrapolated";

@@ -404,11 +404,15 @@ fn deviations(
     };
     figures(canvas, strip, &range, "offset - fair [mm]");
     canvas.begin_clip(strip);
+    let mut longest = 0.0f64;
     for change in kept() {
         if let Some(tolerance) = change.tolerance {
             let (at, by) = (along.place(change), 1e3 * (change.before - change.after));
             let [from, to] = [-1.0, 1.0].map(|s| on(at, by + s * 1e3 * tolerance));
             canvas.line(from, to, &BAR);
+            if from[1] > strip.bottom || to[1] < strip.top {
+                longest = longest.max(1e3 * tolerance);
+            }
             for end in [from, to] {
                 canvas.line([end[0] - 0.7, end[1]], [end[0] + 0.7, end[1]], &BAR);
             }
@@ -432,4 +436,8 @@ fn deviations(
     }
     canvas.end_group();
     canvas.rectangle(strip, &FRAME);
+    if longest > 0.0 {
+        let words = format!("bars that end beyond the strip: tolerance {longest:.1} mm");
+        canvas.text([strip.right - 1.0, strip.top + 2.0], &words, &TextStyle::new(LETTERS, Anchor::End).halo());
+    }
 }

@@ -58,7 +58,7 @@ mod zero_lines;
 pub use bonjean::{BonjeanTable, bonjean_figure};
 pub use convergence::convergence_figure;
 pub use deviation::deviation_figure;
-pub use fair_curve::fair_curve_figure;
+pub use fair_curve::{CurveSheet, fair_curve_figure};
 pub use fairing::fairing_half_breadth_plan;
 pub use fairing_arrows::fairing_arrows;
 pub use fairing_arrows_long::fairing_arrows_long;

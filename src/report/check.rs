@@ -458,8 +458,10 @@ pub fn check_files(check: &Check, figures: bool) -> Result<Vec<OutputFile>, Fail
     let text = serde_json::to_string_pretty(&check_json(check)).map_err(|error| internal(error.to_string()))?;
     let mut files = vec![OutputFile::text("check.json", text + "\n")];
     let Some(table) = check.table.as_ref().filter(|_| figures) else { return Ok(files) };
+    // A table of points has no cells.
+    let grid = check.suspects.as_ref().filter(|_| !table.waterlines.is_empty() && !table.stations.is_empty());
     let drawn = [
-        ("suspects", check.suspects.as_ref().map(|found| suspects_figure(table, found))),
+        ("suspects", grid.map(|found| suspects_figure(table, found))),
         ("suspect-heights", check.heights.as_ref().map(|found| suspect_heights_figure(table, found))),
         ("suspect-points", check.points.as_ref().map(|found| suspect_points_figure(table, found))),
     ];

@@ -15,11 +15,13 @@ use crate::fairing::curve::{
     Contradictions, CurveMove, CurvePoint, CurveSettings, FairCurve, FairStatus, PRICE, area_and_centroid,
     contradictions, fair_curve,
 };
-use crate::plot::fair_curve_figure;
+use crate::plot::{CurveSheet, fair_curve_figure};
 use crate::units::Notation;
 
 /// Resolution of the picture \[dots per inch\].
 const DOTS_PER_INCH: f64 = 160.0;
+/// What points on a straight line may be off it, over the greatest ordinate.
+const STRAIGHT: f64 = 1e-9;
 /// An abscissa on the command line names a point within this part of the length.
 const SAME: f64 = 1e-6;
 
@@ -155,6 +157,22 @@ impl FairedCurve {
         if self.lengths { metres(value) } else { format!("{value:.4} m2") }
     }
 
+    /// The longest run of locked points on a straight line that the curvature must leave smoothly at an end.
+    fn straight_lock(&self) -> Option<[f64; 2]> {
+        let points = &self.fair.points;
+        let highest = points.iter().fold(0.0_f64, |most, point| most.max(point.after.abs()));
+        let straight = |k: usize| {
+            let [a, b, c] = [&points[k - 1], &points[k], &points[k + 1]];
+            let chord = a.after + (c.after - a.after) * (b.x - a.x) / (c.x - a.x);
+            [a, b, c].iter().all(|point| point.tolerance == Some(0.0)) && (b.after - chord).abs() <= STRAIGHT * highest
+        };
+        let inside: Vec<usize> = (1..points.len().saturating_sub(1)).filter(|&k| straight(k)).collect();
+        let runs = inside.chunk_by(|a, b| a + 1 == *b);
+        let [from, to] = runs.max_by_key(|run| run.len()).map(|run| [run[0] - 1, run[run.len() - 1] + 1])?;
+        let smooth = |k: usize| !(self.points[k].tangent || self.points[k].knuckle) && k > 0 && k + 1 < points.len();
+        (smooth(from) || smooth(to)).then(|| [points[from].x, points[to].x])
+    }
+
     /// The failure that ends the program when the wishes could not be had.
     ///
     /// # Errors
@@ -226,7 +244,9 @@ pub fn fair_curve_files(done: &FairedCurve, figures: bool) -> Result<Vec<OutputF
         OutputFile::text("fairing.json", json + "\n"),
     ];
     if figures {
-        let figure = fair_curve_figure(&done.fair).map_err(|error| Failure::Internal(error.to_string()))?;
+        let name = done.path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let sheet = CurveSheet { name: &name, given: &done.points, fair: &done.fair, lengths: done.lengths };
+        let figure = fair_curve_figure(&sheet).map_err(|error| Failure::Internal(error.to_string()))?;
         let png = figure.to_png(DOTS_PER_INCH).map_err(|error| Failure::Internal(error.to_string()))?;
         files.push(OutputFile::text("fair-curve.svg", figure.as_str().to_owned()));
         files.push(OutputFile { name: "fair-curve.png".to_owned(), contents: png });
@@ -255,7 +275,7 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
         "moves         RMS {}, largest {} at x = {at:.3} m; {} of {} points at their tolerance",
         done.size(rms),
         done.size(most),
-        fair.points.iter().filter(|point| point.active).count(),
+        fair.points.iter().filter(|point| point.active && point.tolerance.is_some_and(|t| t > 0.0)).count(),
         fair.points.len()
     ));
     line(format!("noise         {}", done.size(fair.sigma)));
@@ -308,6 +328,12 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
     for (count, price) in &fair.refused {
         let price = if price.is_finite() { format!("cost {price:.1} sigma^2") } else { "cannot be had".to_owned() };
         line(format!("              {count} {price}"));
+    }
+    if let Some([from, to]) = done.straight_lock().filter(|_| fair.refused.iter().any(|(_, price)| price.is_infinite()))
+    {
+        line(format!(
+            "              locked on a straight line from x = {from:.3} to {to:.3} m: with T at both the curvature may jump there"
+        ));
     }
     for wish in &fair.lines {
         line(format!(

@@ -187,7 +187,7 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
     };
     let words = held.constraint.words();
     let off = match held.after - target {
-        off if nearest && off.abs() > held.constraint.band() + 1e-9 * target.abs() => {
+        _ if nearest && !held.is_had() => {
             format!(
                 "{} were asked for and are out of reach: this is the nearest found that leaves a fair hull",
                 fixed(target, decimals) + unit

@@ -210,7 +210,12 @@ fn fairing_jobs<'a>(
                 "What is held, and at which price",
                 "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
             ],
-            one(|_| Ok(sheet("CONSTRAINTS AND PRICES", PRICES, constraints(fairing)))),
+            one(move |_| {
+                let whole = fairing["status"].as_str() == Some("optimal");
+                let name = text(&fairing["name"]).replace('_', " ");
+                let mark = if whole { "" } else { " (a compromise: not all wishes are held)" };
+                Ok(sheet(&format!("CONSTRAINTS AND PRICES – {name}{mark}"), PRICES, constraints(fairing)))
+            }),
         ),
         job(
             [

@@ -207,13 +207,15 @@ pub(super) const PRICES: &str = "price: RMS of the moves that dropping the wish 
      each part by which its row gives way, of the target (LCB, LCF: of L_PP; KB: of T; C_M: of 1; a section area: of B T; KM, GM: of KM_T)";
 
 pub(super) fn constraints(fairing: &Value) -> Table {
-    let heads = ["held", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
+    let heads = ["wish", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
     let mut table = Table::new(&heads, 2);
     for held in list(&fairing["constraints"]) {
+        let missed = held["had"] == Value::Bool(false);
+        let name = text(&held["name"]);
         table.rows.push((
-            false,
+            missed,
             vec![
-                text(&held["name"]),
+                if missed { format!("{name}: NOT HELD") } else { name },
                 printed_unit(held["unit"].as_str().unwrap_or_default()),
                 value(&held["target"]),
                 value(&held["before"]),

@@ -9,6 +9,8 @@ use crate::spline::BsplineCurve;
 
 /// y'' below this part of its largest value on the same stretch is flat when inflections are counted.
 pub(super) const FLAT: f64 = 1e-3;
+/// The same where it bows over the whole curve by less than this part of the largest ordinate: rounding.
+const NIL: f64 = 1e-10;
 /// Places a span at which y'' is looked at.
 const SAMPLES: usize = 8;
 
@@ -180,12 +182,15 @@ impl FairCurve {
     }
 }
 
-/// Where y'' changes its sign between the knuckles; parts below [`FLAT`] of its largest value on the stretch are flat,
-/// and a change over a flat is put at its middle.
+/// Where y'' changes its sign between the knuckles; parts below [`FLAT`] of its largest value on the stretch, or below
+/// [`NIL`] of the curve, are flat, and a change over a flat is put at its middle.
 pub(super) fn inflections(curve: &BsplineCurve<1>, knuckles: &[f64]) -> Vec<f64> {
     let breaks = curve.knots().breakpoints();
     let (from, to) = curve.knots().domain();
     let ends: Vec<f64> = [from].into_iter().chain(knuckles.iter().copied()).chain([to]).collect();
+    let highest = curve.points().iter().fold(0.0_f64, |most, point| most.max(point[0].abs()));
+    // y'' l^2 / 8 is the bow over a length l.
+    let nil = 8.0 * NIL * highest / (to - from).powi(2);
     let mut found = Vec::new();
     for stretch in ends.windows(2) {
         let spans = breaks.windows(2).filter(|span| span[0] >= stretch[0] && span[1] <= stretch[1]);
@@ -197,7 +202,7 @@ pub(super) fn inflections(curve: &BsplineCurve<1>, knuckles: &[f64]) -> Vec<f64>
             .map(|x| (x, curve.derivatives::<3>(x)[2][0]))
             .collect();
         let largest = samples.iter().fold(0.0_f64, |most, s| most.max(s.1.abs()));
-        let seen: Vec<&(f64, f64)> = samples.iter().filter(|s| s.1.abs() > FLAT * largest).collect();
+        let seen: Vec<&(f64, f64)> = samples.iter().filter(|s| s.1.abs() > nil.max(FLAT * largest)).collect();
         for pair in seen.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0) {
             let ((a, u), (b, v)) = (*pair[0], *pair[1]);
             let h = samples.get(1).map_or(0.0, |s| s.0 - samples[0].0);
