@@ -626,6 +626,29 @@ fn a_misprint_is_left_out_and_listed() {
     assert!(kept.outcome.changes.iter().all(|change| !change.suspect));
 }
 
+/// What is unknown in the table is predicted: told, with its place, and doubtful in the fair table.
+#[test]
+fn unknown_offsets_are_predicted() {
+    let path = folder("unknown");
+    let text = fs::read_to_string(carried("tests/data/series60_cb060/offsets.csv")).unwrap();
+    assert!(text.contains(",2.6420,3.3569,4.3972,"));
+    let table = path.join("table.csv");
+    fs::write(&table, text.replace(",2.6420,3.3569,4.3972,", ",2.6420,?,4.3972,")).unwrap();
+    let out = path.join("out").display().to_string();
+    let output = program(&["fair", &table.display().to_string(), "-o", &out, "--no-figures"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let changes = fs::read_to_string(path.join("out/changes.csv")).unwrap();
+    let last: Vec<&str> = changes.lines().last().unwrap().split(',').collect();
+    assert_eq!((last[0], last[3], last[4], last[11]), ("18.288", "3.2512", "", "?"));
+    assert!((last[5].parse::<f64>().unwrap() - 3.3569).abs() < 0.02, "{last:?}");
+    assert!(last[12].starts_with("(3.3") && last[12].ends_with(')'), "{last:?}");
+    let fair = fs::read_to_string(path.join("out/offsets.csv")).unwrap();
+    assert!(fair.contains(&format!(",{},", last[12])), "{fair}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("1 unknown offset"));
+    let output = program(&["report", &out, "-o", &path.join("report").display().to_string(), "--dpi", "30"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
 #[test]
 fn every_job_of_the_examples_runs() {
     let mut files: Vec<PathBuf> =

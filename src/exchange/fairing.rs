@@ -388,6 +388,7 @@ fn without_noise(value: f64) -> f64 {
 /// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first
 /// outline), place, before, after, move (outward positive), tolerance, the share of it that is used, whether it is
 /// locked or was left out as a suspect, and its text in the old table and in `written`, the new one as it is read back.
+/// Last, with nothing before, the offsets that were unknown.
 #[must_use]
 pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&OffsetTable>) -> String {
     let head = [
@@ -431,6 +432,30 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
             yes(change.suspect),
             text(table, change),
             written.map(|written| text(written, change)).unwrap_or_default(),
+            status_word(outcome.status).to_owned(),
+        ]));
+    }
+    for own in &outcome.predicted {
+        let Some(station) = table.stations.get(own.station) else { continue };
+        let text = |table: &OffsetTable| {
+            let cell = table.stations.get(own.station).and_then(|station| station.half_breadths.get(own.waterline));
+            cell.and_then(|cell| cell.written.as_ref()).map(|written| written.text.clone()).unwrap_or_default()
+        };
+        let blank = String::new;
+        csv.push_str(&line(&[
+            station.station.name.clone(),
+            cell(Some(own.z)),
+            cell(Some(own.x)),
+            cell(Some(own.z)),
+            blank(),
+            cell(Some(without_noise(own.half_breadth))),
+            blank(),
+            blank(),
+            blank(),
+            blank(),
+            blank(),
+            text(table),
+            written.map(text).unwrap_or_default(),
             status_word(outcome.status).to_owned(),
         ]));
     }

@@ -343,6 +343,10 @@ pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> R
             expected,
         };
         let field = |column: usize| record.get(at[column]).unwrap_or_default();
+        if field(3).is_empty() && !field(4).is_empty() {
+            // It was unknown before.
+            continue;
+        }
         let number = |column: usize| {
             let value = field(column).parse::<f64>().map_err(|_| wrong(column, "a number"))?;
             // Not a number is neither.
@@ -405,7 +409,11 @@ pub fn read_texts(text: &str) -> Vec<[String; 2]> {
         let record = record.unwrap_or_default();
         at.map(|at| field(&record, at))
     };
-    reader.records().map(texts).collect()
+    let before = heads.iter().position(|head| head == COLUMNS[3]);
+    let known = |record: &csv::Result<csv::StringRecord>| {
+        before.is_none_or(|_| record.as_ref().is_ok_and(|record| !field(record, before).is_empty()))
+    };
+    reader.records().filter(known).map(texts).collect()
 }
 
 #[cfg(test)]

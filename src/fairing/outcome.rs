@@ -35,6 +35,21 @@ pub struct Change {
     pub locked: bool,
 }
 
+/// An offset that the table marks as unknown (`?`), from the fair surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predicted {
+    /// Index of the station.
+    pub station: usize,
+    /// Index of the waterline.
+    pub waterline: usize,
+    /// Position forward of AP \[m\].
+    pub x: f64,
+    /// Height above the base line \[m\].
+    pub z: f64,
+    /// Half-breadth \[m\].
+    pub half_breadth: f64,
+}
+
 /// Inflections of one curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turns {
@@ -62,6 +77,8 @@ pub struct Outcome {
     pub table: OffsetTable,
     /// Every cell that was read.
     pub changes: Vec<Change>,
+    /// Offsets that were unknown: doubtful ones of the fair table.
+    pub predicted: Vec<Predicted>,
     /// Constraints.
     pub held: Vec<Held>,
     /// Rules for lines and regions.

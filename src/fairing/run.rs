@@ -23,7 +23,7 @@ use super::rules::guarded_lines;
 use super::start::Started;
 use super::surface::{FairSurface, Origin};
 use super::suspects::Suspects;
-use super::told::{Counted, Watched, changes, written};
+use super::told::{Counted, Watched, changes, predicted, written};
 use crate::hull::{Hull, OffsetTable};
 use crate::numeric::at_once;
 use crate::qp::{RepeatedSolver, Status};
@@ -275,6 +275,13 @@ impl<'a> Run<'a> {
             let has = |rule: &Rule| matches!(rule, Rule::Fixed(line) if line.has([change.x, change.z], deck));
             change.locked |= self.settings.rules.iter().any(has);
         }
+        let predicted = predicted(self.table, &after);
+        if !predicted.is_empty() {
+            self.notes.push(format!(
+                "{} are predicted from the fair surface: in brackets, as doubtful ones, in the fair table",
+                counted(predicted.len(), "unknown offset")
+            ));
+        }
         let Self { surface, settings, before, .. } = self;
         Ok(Outcome {
             proposals: self.proposals,
@@ -287,7 +294,8 @@ impl<'a> Run<'a> {
             } else {
                 faired.solved.solution.status
             },
-            table: written(self.table, &changes),
+            table: written(self.table, &changes, &predicted),
+            predicted,
             jump: surface.greatest_jump(&after),
             beyond,
             before,

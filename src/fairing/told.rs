@@ -1,9 +1,9 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
 use super::inspect::{Planes, Traced};
-use super::outcome::{Change, Turns};
+use super::outcome::{Change, Predicted, Turns};
 use super::surface::{FairSurface, Origin};
-use crate::hull::{Cut, Entry, Hull, OffsetTable, default_waterlines};
+use crate::hull::{Cell, Cut, Entry, Hull, OffsetTable, default_waterlines};
 
 /// Every reading with its move; what was left out has the value of the fair surface beside what the table says.
 pub(super) fn changes(
@@ -51,8 +51,26 @@ pub(super) fn changes(
     changes
 }
 
-/// The table with the new half-breadths.
-pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
+/// The half-breadths of the fair surface where the table says `?`; a blank says nothing.
+pub(super) fn predicted(table: &OffsetTable, after: &Hull) -> Vec<Predicted> {
+    let asked = |cell: &Cell| {
+        let said = cell.written.as_ref().is_some_and(|written| written.text.contains('?'));
+        cell.entry == Entry::Unknown && said
+    };
+    let mut list = Vec::new();
+    for (station, column) in table.stations.iter().enumerate() {
+        let x = column.station.x;
+        for (waterline, (cell, &z)) in column.half_breadths.iter().zip(&table.waterlines).enumerate() {
+            if let Some(half_breadth) = after.half_breadth(x, z).filter(|_| asked(cell)) {
+                list.push(Predicted { station, waterline, x, z, half_breadth: half_breadth.max(0.0) });
+            }
+        }
+    }
+    list
+}
+
+/// The table with the new half-breadths; those that were unknown are doubtful.
+pub(super) fn written(table: &OffsetTable, changes: &[Change], predicted: &[Predicted]) -> OffsetTable {
     let mut table = table.clone();
     for change in changes {
         let station = &mut table.stations[change.station];
@@ -65,6 +83,11 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change]) -> OffsetTable {
             Origin::Deck { .. } => station.deck_half_breadth = Some(change.after),
             Origin::Point { outline, point, .. } => station.outlines[outline][point].y = change.after,
         }
+    }
+    for own in predicted {
+        let cell = &mut table.stations[own.station].half_breadths[own.waterline];
+        (cell.entry, cell.written) = (Entry::Given(own.half_breadth), None);
+        cell.marks.doubtful = true;
     }
     table
 }
