@@ -194,7 +194,12 @@ fn draw_table(canvas: &mut Canvas, (table, heads): (&BonjeanTable, &[String]), d
     let (left, first) = (10.0, 30.0);
     let width = (ROOM[0] - 2.0 * left - first) / columns;
     let largest = table.areas.iter().flatten().flatten().copied().fold(0.0, f64::max);
-    let digits = if largest >= 1000.0 { 0 } else { usize::from(largest >= 100.0) + 2 * usize::from(largest < 100.0) };
+    let digits = match largest {
+        1000.0.. => 0,
+        100.0.. => 1,
+        10.0.. => 2,
+        _ => 3,
+    };
     let style = TextStyle::new(LETTERS, Anchor::End);
     let head = TextStyle { anchor: Anchor::Start, ..style };
     canvas.text([left, top - 3.0], "AREAS OF SECTIONS, BOTH SIDES [m²]", &TextStyle { size: 3.2, ..head });

@@ -87,6 +87,12 @@ pub(super) fn figures(value: f64, count: usize) -> String {
     if (-3..6).contains(&power) { format!("{value:.*}", (count as i32 - 1 - power).max(0) as usize) } else { written }
 }
 
+/// A volume to five figures at least, and to a tenth of a cubic metre.
+pub(super) fn volume_of(volume: f64) -> String {
+    let power = volume.abs().max(1e-9).log10().floor() as i32;
+    format!("{volume:.*}", (4 - power).clamp(1, 9) as usize)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
-use super::scale::nice_step;
+use super::scale::{nice_step, volume_of};
 use super::sheet::LEAST_LETTERS;
 use super::{FigureInputs, PlotError, caption, outline};
 use crate::fairing::record::SectionTarget;
@@ -105,10 +105,10 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         let mut words = format!("areas before and after differ by {apart:.3} m² at most");
         if let Some(row) = &before_row {
             let volumes = [row.displacement_volume, design.displacement_volume];
-            words.push_str(&format!("    ∇ {:.1} m³ before, {:.1} m³ after", volumes[0], volumes[1]));
+            words.push_str(&format!("    ∇ {} m³ before, {} m³ after", volume_of(volumes[0]), volume_of(volumes[1])));
         }
         if let Some(volume) = asked.and_then(|asked| asked.volume) {
-            words.push_str(&format!(", {volume:.1} m³ asked for"));
+            words.push_str(&format!(", {} m³ asked for", volume_of(volume)));
         }
         canvas.text([0.5 * SHEET[0], 20.5], &words, &TextStyle::new(2.6, Anchor::Middle));
     }
@@ -216,7 +216,7 @@ fn mark_centre(
 /// What the curve amounts to, in one line.
 fn coefficients(inputs: &FigureInputs) -> String {
     let design = inputs.design;
-    let mut parts = vec![caption::draught(inputs), format!("∇ {:.1} m³", design.displacement_volume)];
+    let mut parts = vec![caption::draught(inputs), format!("∇ {} m³", volume_of(design.displacement_volume))];
     parts.push(match design.maximum_section_position {
         Some(x) => format!("A_X {:.2} m² at x {x:.2} m", design.maximum_section_area),
         None => format!("A_X {:.2} m²", design.maximum_section_area),

@@ -78,8 +78,14 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], height);
+    let tried = record.trials.iter().map(|trial| trial.lambda);
+    let end = match record.lambda {
+        taken if taken >= tried.clone().fold(0.0, f64::max) => " (the largest tried)",
+        taken if taken <= tried.fold(f64::INFINITY, f64::min) => " (the smallest tried)",
+        _ => "",
+    };
     let words = format!(
-        "weight taken {}, {:.1} degrees of freedom, for errors of {:.3} mm; figures are weights",
+        "weight taken {}{end}, {:.1} degrees of freedom, for errors of {:.3} mm; figures are weights",
         figures(record.lambda, 2),
         record.edf,
         1e3 * record.errors
@@ -111,7 +117,14 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         let style = TextStyle::new(2.8, Anchor::Start).coloured("#c00000").halo();
         let name = format!("taken: {}", figures(record.lambda, 2));
         let width = Canvas::text_place([0.0, 0.0], &name, &style).width();
-        let places = [[at[0] + 2.2, at[1] - 2.2], [at[0] - width - 2.2, at[1] + 2.4], [at[0] + 2.2, at[1] + 2.4]];
+        let places = [
+            [at[0] + 2.2, at[1] - 2.2],
+            [at[0] - width - 2.2, at[1] + 2.4],
+            [at[0] + 2.2, at[1] + 2.4],
+            [at[0] - width - 2.2, at[1] - 2.2],
+            [at[0] + 2.2, at[1] - 6.0],
+            [at[0] - width - 2.2, at[1] - 6.0],
+        ];
         placer.name_clear(&mut canvas, &name, &style, &places, &frame);
     }
     if let Some((name, points)) = decided {
