@@ -67,9 +67,19 @@ impl CombScale {
         Self { curvature: sheet_scale(usual(combs, share), length) * STATED, longest: LONGEST }
     }
 
+    /// The scale at which teeth along half the length of the lines of `combs` are no longer than `length` \[mm\].
+    pub(super) fn halfway<'a>(combs: impl IntoIterator<Item = &'a Comb>, length: f64) -> Self {
+        Self { curvature: sheet_scale(median_along(combs), length) * STATED, longest: LONGEST }
+    }
+
     /// The one of two scales that has the shorter teeth.
     pub(super) fn coarser(self, other: Self) -> Self {
         if other.curvature > self.curvature { other } else { self }
+    }
+
+    /// The one of two scales that has the longer teeth.
+    pub(super) fn finer(self, other: Self) -> Self {
+        if other.curvature < self.curvature { other } else { self }
     }
 
     /// This scale on a drawing that has room for teeth of `longest` \[mm\].
@@ -208,6 +218,25 @@ fn usual<'a>(combs: impl IntoIterator<Item = &'a Comb>, share: f64) -> f64 {
     let mut lengths: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
     lengths.sort_by(f64::total_cmp);
     lengths.get((share * lengths.len() as f64) as usize).copied().unwrap_or(0.0)
+}
+
+/// The length of tooth that half the length of the lines has less of.
+fn median_along<'a>(combs: impl IntoIterator<Item = &'a Comb>) -> f64 {
+    let mut parts: Vec<[f64; 2]> = Vec::new();
+    for comb in combs {
+        for pair in comb.teeth.windows(2) {
+            let along = norm(std::array::from_fn(|d| pair[1].at[d] - pair[0].at[d]));
+            parts.push([0.5 * (norm(pair[0].tooth) + norm(pair[1].tooth)), along]);
+        }
+    }
+    parts.retain(|part| part.iter().all(|value| value.is_finite()));
+    parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut left = 0.5 * parts.iter().map(|part| part[1]).sum::<f64>();
+    let half = parts.iter().find(|part| {
+        left -= part[1];
+        left <= 0.0
+    });
+    half.map_or(0.0, |part| part[0])
 }
 
 fn norm(v: [f64; 3]) -> f64 {

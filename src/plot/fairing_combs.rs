@@ -22,6 +22,9 @@ const USUAL: f64 = 0.5;
 /// Part of the teeth that have room on the sheets with a panel for each station or waterline, and with a strip for each
 /// other line.
 const MOST_TEETH: [f64; 2] = [0.9, 0.96];
+/// Length of the teeth along half of the lines where a few sharp corners would leave none to be seen, as a part of the
+/// longest.
+const SEEN: f64 = 0.05;
 /// What the lines of a scale are called.
 const KINDS: [&str; 4] = ["stations", "waterlines", "buttocks", "diagonals"];
 
@@ -120,7 +123,12 @@ impl FairingCombs {
             let own = || before.iter().chain(&after).filter(move |comb| kind(&comb.cut) == k);
             let plan = || CombScale::fitting(own(), SHORT[usize::from(k > 0)], USUAL * LONGEST);
             let strips = |room| CombScale::fitting(own(), MOST_TEETH[usize::from(k > 1)], room);
-            if k < 2 { plan().coarser(strips(fairing_curves::LONGEST)) } else { strips(fairing_long::LONGEST) }
+            if k < 2 {
+                plan().coarser(strips(fairing_curves::LONGEST))
+            } else {
+                let seen = CombScale::halfway(own(), SEEN * fairing_long::LONGEST);
+                strips(fairing_long::LONGEST).finer(seen)
+            }
         });
         Self { buttocks, diagonals, shown, before, after, scales }
     }
