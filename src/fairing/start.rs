@@ -4,7 +4,7 @@ use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
 use super::flats::shown_flat;
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
-use super::lines::{LineKind, ProposedLine, proposed_lines};
+use super::lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 use super::proposals::{Accepted, Proposal, add_lines, declared, has_line, proposals, with_line};
 use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
@@ -113,7 +113,11 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
-            for (cell, expected) in modelled.gross_errors()?.into_iter().filter(|(cell, _)| !job.holds(table, *cell)) {
+            let wrong = modelled.gross_errors()?;
+            // What a net smooths away of a knuckle that nobody declared is no error.
+            let lines = if wrong.is_empty() { Vec::new() } else { proposed_lines(&cleaned.charted, &found) };
+            let right = |cell: Cell| job.holds(table, cell) || lines.iter().any(|line| breaks_at(line, table, cell));
+            for (cell, expected) in wrong.into_iter().filter(|(cell, _)| !right(*cell)) {
                 without.leave_out(cell, expected);
             }
             if without.excluded.len() > cleaned.excluded.len() {
@@ -153,6 +157,13 @@ impl Started {
         let excluded = cleaned.excluded;
         Ok(Self { found, before, notes, assumed, noise, quantum, proposals, surface, search, gap, excluded, watched })
     }
+}
+
+/// Whether a cell lies on a knuckle.
+fn breaks_at(line: &ProposedLine, table: &OffsetTable, (station, waterline): Cell) -> bool {
+    let [x, z] = [table.stations[station].station.x, table.waterlines[waterline]];
+    let (across, along) = if line.course == LineCourse::Waterline { (z, x) } else { (x, z) };
+    line.kind == LineKind::Knuckle && across == line.at && (line.reach[0]..=line.reach[1]).contains(&along)
 }
 
 impl Started {

@@ -20,14 +20,16 @@
 //! searched for goes with the charge.)
 //!
 //! Across a knuckle of the net the slope may jump all along it, though the knuckle ends somewhere or the line is a
-//! corner of the chart alone, as at the foot of a transom. Where the start turns by less than [`NO_CORNER`] on a span
-//! that no knuckle is declared along, it is asked for
+//! corner of the chart alone, as at the foot of a transom. Where a declared knuckle has ended, and where the start turns
+//! by less than [`NO_CORNER`] on a span of a line that none is declared along, it is asked for
 //!
 //! ```text
 //! S' = sum over such spans int (sin(angle) l)^2 ds / tr
 //! ```
 //!
-//! in the same way, and for no jump of curvature where the start has none.
+//! in the same way, and for no jump of curvature, where the start has none or the knuckle has ended. It fades over the
+//! span beyond its end. (The surface through the table rings beyond that end, by 2 degrees on a coaster: left as it is
+//! where it has a corner already, the fair one had 41.)
 
 use super::breaks::STIFF;
 use super::cells::{Cells, Combination, Crossing, Fold, Jump, Place, Row, add_square, both};
@@ -69,6 +71,17 @@ pub(super) struct Along {
     pub(super) reach: [f64; 2],
 }
 
+/// What a knuckle does on a span of a line of the net.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Knuckle {
+    /// None is declared along the line.
+    None,
+    Runs,
+    /// It has ended at the end of the span.
+    Fades,
+    Ended,
+}
+
 /// Where curvature may jump though a fit runs on there.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Breaks {
@@ -98,6 +111,22 @@ impl Breaks {
         let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         let along = |line: &Along| line.reach[1].min(high) - line.reach[0].max(low) > SLACK;
         lines[way].iter().any(|line| (line.at - at).abs() <= AT_KNOT && along(line))
+    }
+
+    /// What a knuckle that is declared somewhere along a line of the net does on one of its spans.
+    fn knuckle(&self, way: usize, at: f64, points: &[[f64; 3]; 6]) -> Knuckle {
+        let here: Vec<&Along> = self.knuckles[way].iter().filter(|line| (line.at - at).abs() <= AT_KNOT).collect();
+        if here.is_empty() {
+            return Knuckle::None;
+        }
+        if Self::declared(&self.knuckles, way, at, points) {
+            return Knuckle::Runs;
+        }
+        let axis = if way == 1 { 0 } else { 2 };
+        let ends = [points[2][axis], points[3][axis]];
+        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let beside = |line: &&Along| line.reach[0] <= high + SLACK && low <= line.reach[1] + SLACK;
+        if here.iter().any(beside) { Knuckle::Fades } else { Knuckle::Ended }
     }
 
     /// Whether any of these points lies in a flat.
@@ -130,6 +159,8 @@ pub(super) struct Unbroken {
     /// Spans of lines across which the slope could jump, where it does not, and the same of their curvature.
     turns: Spans,
     curvatures: Spans,
+    /// The latter whether they stay so or not.
+    own_curvatures: Spans,
 }
 
 impl Unbroken {
@@ -170,10 +201,7 @@ impl Unbroken {
         let folds = |holds: &dyn Fn(usize, &Fold, usize) -> bool| {
             [0, 1].map(|way: usize| {
                 let lines = cells.folds(way).iter().map(|fold| {
-                    let spans = (0..cells.count()[1 - way]).map(|e| {
-                        !Breaks::declared(&breaks.knuckles, way, fold.at, &cells.corners(way, fold.above, e))
-                            && holds(way, fold, e)
-                    });
+                    let spans = (0..cells.count()[1 - way]).map(|e| holds(way, fold, e));
                     spans.collect::<Vec<bool>>()
                 });
                 lines.collect::<Vec<_>>()
@@ -181,26 +209,39 @@ impl Unbroken {
         };
         let folded =
             |way: usize, fold: &Fold, e: usize, most: f64, departs: &dyn Fn(&Folded, &[Place<'_>; 2]) -> f64| {
-                let mut known = cells
-                    .sides(way, fold, e)
-                    .filter_map(|sides| {
-                        Folded::new(way, &sides, fold.lengths).map(|folded| departs(&folded, &sides).abs())
-                    })
+                let sides = cells.sides(way, fold, e);
+                let mut known = sides
+                    .filter_map(|sides| Some(departs(&Folded::new(way, &sides, fold.lengths)?, &sides).abs()))
                     .peekable();
                 known.peek().is_some() && known.all(|departs| departs <= most)
             };
-        let turns = folds(&|way, fold, e| folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides)));
-        let mut curvatures = folds(&|way, fold, e| {
-            !Breaks::declared(&breaks.tangents, way, fold.at, &cells.corners(way, fold.above, e))
-                && stays(way, fold.above, e)
-                && folded(way, fold, e, nil, &|folded, sides| {
-                    value(&folded.curvature, sides) * folded.length * folded.length
-                })
+        let turns = folds(&|way, fold, e| match breaks.knuckle(way, fold.at, &cells.corners(way, fold.above, e)) {
+            Knuckle::Runs | Knuckle::Fades => false,
+            Knuckle::Ended => true,
+            Knuckle::None => folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides)),
         });
-        for (line, turns) in curvatures.iter_mut().flatten().zip(turns.iter().flatten()) {
-            line.iter_mut().zip(turns).for_each(|(held, turns)| *held = *held && *turns);
+        let own_curvatures = folds(&|way, fold, e| {
+            let corners = cells.corners(way, fold.above, e);
+            let bow = |folded: &Folded, sides: &[Place<'_>; 2]| {
+                value(&folded.curvature, sides) * folded.length * folded.length
+            };
+            !Breaks::declared(&breaks.tangents, way, fold.at, &corners)
+                && match breaks.knuckle(way, fold.at, &corners) {
+                    Knuckle::Runs | Knuckle::Fades => false,
+                    Knuckle::Ended => true,
+                    Knuckle::None => {
+                        folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides))
+                            && folded(way, fold, e, nil, &bow)
+                    }
+                }
+        });
+        let mut curvatures = own_curvatures.clone();
+        for (way, lines) in curvatures.iter_mut().enumerate() {
+            for (fold, line) in cells.folds(way).iter().zip(lines) {
+                line.iter_mut().enumerate().for_each(|(e, held)| *held = *held && stays(way, fold.above, e));
+            }
         }
-        Self { spans, own, turns, curvatures }
+        Self { spans, own, turns, curvatures, own_curvatures }
     }
 
     /// Whether span e of a line is unbroken.
@@ -230,11 +271,14 @@ impl Unbroken {
     }
 
     /// The greatest jump of curvature of a surface on the same net where the start has none, whether it stays so or not, and
-    /// no line is declared \[1/m\]; none where there is no such place.
+    /// no line is declared, or where a knuckle has ended \[1/m\]; none where there is no such place.
     pub(super) fn greatest(&self, surface: &BsplineSurface<3>) -> Option<f64> {
         let mut most = None;
         each(&self.own, &Cells::new(surface), &Metric::new(surface, 3, 1.0), |at, jumped| {
             most = Some(at.value(jumped.factors).abs().max(most.unwrap_or(0.0)));
+        });
+        each_fold(&self.own_curvatures, &Cells::new(surface), |sides, folded| {
+            most = Some(value(&folded.curvature, sides).abs().max(most.unwrap_or(0.0)));
         });
         most
     }
@@ -365,11 +409,12 @@ mod tests {
         assert_eq!(unbroken(&turned(0.004), &Breaks::default()).turns[1], vec![vec![true; 4]]);
         assert_eq!(unbroken(&turned(0.006), &Breaks::default()).turns[1], vec![vec![false; 4]]);
         let along = vec![Along { at: 0.5, reach: [30.0, 50.0] }];
-        let part = unbroken(&smooth, &Breaks { knuckles: [vec![], along.clone()], ..Breaks::default() });
-        assert_eq!(
-            (&part.turns[1][0], &part.curvatures[1][0]),
-            (&vec![true, false, true, true], &vec![true, false, true, true])
-        );
+        // It fades over the span beyond 50 m, and has ended elsewhere, whatever the start does there.
+        for surface in [&smooth, &turned(0.006)] {
+            let part = unbroken(surface, &Breaks { knuckles: [vec![], along.clone()], ..Breaks::default() });
+            let held = vec![true, false, false, true];
+            assert_eq!((&part.turns[1][0], &part.curvatures[1][0]), (&held, &held));
+        }
         let part = unbroken(&smooth, &Breaks { tangents: [vec![], along], ..Breaks::default() });
         assert_eq!((&part.turns[1][0], &part.curvatures[1][0]), (&vec![true; 4], &vec![true, false, true, true]));
     }

@@ -12,7 +12,7 @@ use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
 use crate::fairing::proposals::Accepted;
 use crate::fairing::{LineCourse, LineKind, ProposedLine};
 use crate::hull::OffsetTable;
-use crate::units::{Dimension, decimal, parse_length};
+use crate::units::{Dimension, counted, decimal, parse_length};
 
 /// Edges of the surface that may be fixed.
 const EDGES: [&str; 4] = ["stem", "stern", "keel", "deck"];
@@ -321,7 +321,14 @@ impl RuleMark {
         };
         let [low, high] = places.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(*p), b.max(*p)]);
         let [from, to] = self.over(table, part)?;
-        let reach = self.range(from.max(low), to.min(high))?;
+        let reach = [from.max(low), to.min(high)];
+        let crossed = places.iter().filter(|place| (reach[0]..=reach[1]).contains(*place)).count();
+        if crossed < 2 {
+            let lines = if course == LineCourse::Station { "waterline" } else { "station" };
+            let text = format!("the part of the line that breaks has {} of the table", counted(crossed, lines));
+            let help = format!("Name a part with two of them at least, between {low} and {high} m.");
+            return Err(Box::new(self.place.problem("E177", &text, help)));
+        }
         Ok(Some(ProposedLine { kind: *kind, course, at, reach, gain: 1.0 }))
     }
 
