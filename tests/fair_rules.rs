@@ -343,6 +343,48 @@ fn a_chine_ends_where_it_is_said_to_end() {
     }
 }
 
+/// Wigley's hull with a chine at 4 m that fades out at x = 32 and 68 m, and 2 mm of noise: a net that smooths it away has
+/// five offsets side by side against it, which are no typing errors.
+#[test]
+fn a_chine_is_not_taken_for_typing_errors() {
+    let waterlines: Vec<f64> = (0..9).map(f64::from).collect();
+    let mut count = 0;
+    let mut noise = || {
+        count += 1;
+        let uniform = |by: f64| (f64::from(count) * by).fract();
+        0.002
+            * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
+            * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
+    };
+    let mut half = |x: f64, z: f64| {
+        let own = 6.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - ((8.0 - z) / 8.0).powi(2));
+        let part = (x - 32.0) / 36.0;
+        let fades = if (0.0..1.0).contains(&part) { 0.2 * (std::f64::consts::PI * part).sin().powi(2) } else { 0.0 };
+        let y = own - fades * (z - 4.0).abs() * (-((z - 4.0) / 2.5).powi(2)).exp();
+        let y = if own > 0.0 { (y + noise()).max(0.0) } else { 0.0 };
+        Cell::from(Some((y * 1e4).round() / 1e4))
+    };
+    let stations = (0..21)
+        .map(|i| {
+            let x = 5.0 * f64::from(i);
+            StationOffsets {
+                half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
+                ..StationOffsets::new(format!("{i}"), x)
+            }
+        })
+        .collect();
+    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
+    table.form.decimals = Some(4);
+    let outcome = Job::default().run(&table).unwrap();
+    assert_eq!(outcome.status, Status::Optimal);
+    assert!(outcome.changes.iter().all(|change| !change.suspect), "{:?}", outcome.suspects);
+    let furthest = outcome.moves().1;
+    assert!(furthest < 0.01, "{furthest}");
+    let line = &outcome.proposals[0].line;
+    assert_eq!((line.kind, line.course), (LineKind::Knuckle, LineCourse::Waterline));
+    assert!((line.at - 4.0).abs() < 1e-9 && line.reach[0] < 45.0 && line.reach[1] > 55.0, "{line:?}");
+}
+
 #[test]
 fn an_undeclared_chine_is_proposed_and_taken() {
     let table = chined(|_| 0.35);
