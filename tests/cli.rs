@@ -609,6 +609,36 @@ fn curves_of_areas_and_straight_locks() {
         assert!(picture.contains(words), "{words}");
     }
     assert!(!picture.contains("moves [mm]"));
+    // Of units in the head areas are squares, and a unit that is none is refused.
+    let said = |head: &str, unit: &str| {
+        fs::write(path.join("said.csv"), format!("{head}\n{areas}")).unwrap();
+        program(&["fair-curve", &here("said.csv"), "-o", &here("said"), "--force", "--no-figures", "--unit", unit])
+    };
+    let largest = |head: &str, unit: &str| {
+        let output = said(head, unit);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let table = fs::read_to_string(path.join("said/curve.csv")).unwrap();
+        let given = table.lines().skip(1).filter_map(|line| line.split(',').nth(4)?.parse::<f64>().ok());
+        given.fold(0.0, f64::max)
+    };
+    let metres = largest("x,area", "m");
+    for (head, unit, factor) in [
+        ("x,area", "ft", 0.3048 * 0.3048),
+        ("x [m],area [ft2]", "m", 0.3048 * 0.3048),
+        ("x [mm],area [mm^2]", "m", 1e-6),
+        ("x,area [m2]", "mm", 1.0),
+    ] {
+        let found = largest(head, unit);
+        assert!((found / (factor * metres) - 1.0).abs() < 1e-9, "{head}: {found} for {metres}");
+    }
+    for (head, words) in [
+        ("x,area [foo]", "'foo' is no unit of areas in the column area"),
+        ("x [m2],area", "'m2' is no unit of lengths in the column x"),
+    ] {
+        let output = said(head, "m");
+        assert_eq!(output.status.code(), Some(3));
+        assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    }
     let line = |marks: [&str; 3]| {
         let rows = (0..21).map(|i| {
             let (x, bow) = (5.0 * f64::from(i), f64::from((6 - i).max(i - 12).max(0)));

@@ -84,7 +84,7 @@ enum Unit {
 
 const AFTER: &str = "\
 Cells are those of tables of offsets: 6.41, 3-4-5+ (feet-inches-eighths), (6.41) doubtful, ? to be predicted, and the marks K (knuckle), T \
-(tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm]. \
+(tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm], or area [ft2] for a curve of areas. \
 Ends that are 0 stay 0 where no ordinate is below. curve.csv is in metres.
 Points that contradict all others are left out and listed; those that are locked, doubtful or have a tolerance or a mark are not. Corners that \
 the points show and do not declare are told.

@@ -1,7 +1,7 @@
 //! Single curves as CSV: what `fair-curve` reads, and its `curve.csv` and `fairing.json`.
 //!
 //! Columns, by their names in the first line or in this order: abscissa (`x`), ordinate (`y`), tolerance, flag; others
-//! are not read. Units may stand in the names, `y [mm]`. Cells have the grammar of tables of offsets
+//! are not read. Units may stand in the names, `y [mm]`, `area [ft2]`. Cells have the grammar of tables of offsets
 //! ([`crate::units::parse_cell`]): feet-inches-eighths, brackets for doubtful ordinates, `?` for one that is to be
 //! predicted, marks `K` (knuckle), `T` (tangent point) and `!` (locked) on the ordinate or in the column of flags.
 //! Lines that are empty or begin with `#` are passed over.
@@ -43,30 +43,59 @@ pub struct CurveProblem {
     pub remedy: String,
 }
 
-/// Which column holds what, and in which unit.
-struct Columns {
-    x: (usize, Notation),
-    y: (usize, Notation),
-    tolerance: Option<(usize, Notation)>,
-    flag: Option<usize>,
-    lengths: bool,
+/// A column of numbers.
+#[derive(Clone, Copy)]
+struct Column {
+    at: usize,
+    /// The unit of lengths, or of the sides of areas.
+    unit: Notation,
+    area: bool,
 }
 
-/// `y [mm]` as a name and its unit.
-fn name_and_unit(text: &str) -> (String, Option<Notation>) {
+impl Column {
+    /// The step of numbers with so many decimals \[m or m2\].
+    fn quantum(self, decimals: usize) -> Option<f64> {
+        let step = if self.area { Notation::Metres } else { self.unit }.quantum(Some(decimals));
+        step.map(|step| step * self.factor())
+    }
+
+    /// What a number that was read as a length \[m\] is multiplied by.
+    fn factor(self) -> f64 {
+        if self.area { self.unit.metres(1.0).powi(2) } else { 1.0 }
+    }
+}
+
+/// Which column holds what.
+struct Columns {
+    x: Column,
+    y: Column,
+    tolerance: Option<Column>,
+    flag: Option<usize>,
+}
+
+/// `y [mm]` as a name and what stands in the brackets.
+fn name_and_unit(text: &str) -> (String, Option<String>) {
     let text = text.trim().trim_start_matches('\u{feff}').to_lowercase();
     let at = text.find(['[', '(']);
     let name = at.map_or(text.as_str(), |at| &text[..at]).trim().to_owned();
-    let unit = at.and_then(|at| Notation::from_word(text[at + 1..].trim_end_matches([']', ')', ' '])));
-    (name, unit)
+    (name, at.map(|at| text[at + 1..].trim_end_matches([']', ')', ' ']).trim().to_owned()))
+}
+
+/// The unit of a column whose head says one.
+fn unit_of(said: Option<&str>, area: bool, name: &str, unit: Notation) -> Result<Notation, CurveProblem> {
+    let Some(said) = said.filter(|said| !said.is_empty()) else { return Ok(unit) };
+    let sides = said.strip_suffix("^2").or_else(|| said.strip_suffix(['2', '²']));
+    let found = if area { sides.and_then(Notation::from_word) } else { Notation::from_word(said) };
+    found.filter(|unit| !area || *unit != Notation::FeetInchesEighths).ok_or_else(|| CurveProblem {
+        line: Some(1),
+        message: format!("'{said}' is no unit of {} in the column {name}", if area { "areas" } else { "lengths" }),
+        remedy: if area { "Expected m2, cm2, mm2, ft2 or in2." } else { "Expected m, cm, mm, ft or in." }.to_owned(),
+    })
 }
 
 fn columns(header: &[String], unit: Notation) -> Result<Columns, CurveProblem> {
-    let named: Vec<(String, Option<Notation>)> = header.iter().map(|text| name_and_unit(text)).collect();
-    let find = |names: &[&str]| {
-        let at = named.iter().position(|(name, _)| names.contains(&name.as_str()))?;
-        Some((at, named[at].1.unwrap_or(unit)))
-    };
+    let named: Vec<(String, Option<String>)> = header.iter().map(|text| name_and_unit(text)).collect();
+    let find = |names: &[&str]| named.iter().position(|(name, _)| names.contains(&name.as_str()));
     let x = find(&["x", "abscissa", "station", "position"]);
     let y = find(&["y", "ordinate", "offset", "half-breadth", "z", "height", "area", "value"]);
     let (Some(x), Some(y)) = (x, y) else {
@@ -76,9 +105,18 @@ fn columns(header: &[String], unit: Notation) -> Result<Columns, CurveProblem> {
             remedy: "Name the columns x,y[,tolerance][,flag].".to_owned(),
         });
     };
+    let area = named[y].0 == "area";
+    let column = |at: usize, area: bool| {
+        let (name, said) = &named[at];
+        Ok(Column { at, unit: unit_of(said.as_deref(), area, name, unit)?, area })
+    };
     let tolerance = find(&["tolerance", "tol", "band"]);
-    let lengths = named[y.0].0 != "area";
-    Ok(Columns { x, y, lengths, tolerance, flag: find(&["flag", "flags", "mark", "marks"]).map(|found| found.0) })
+    Ok(Columns {
+        x: column(x, false)?,
+        y: column(y, area)?,
+        tolerance: tolerance.map(|at| column(at, area)).transpose()?,
+        flag: find(&["flag", "flags", "mark", "marks"]),
+    })
 }
 
 /// Reads a curve; plain numbers without a unit are in `unit`.
@@ -124,13 +162,8 @@ pub fn read_curve(text: &str, unit: Notation) -> Result<CurveTable, Vec<CurvePro
                         fields.get(k).is_some_and(|f| f.chars().next().is_some_and(|c| c.is_alphabetic() || c == '!'))
                     };
                     let flag = if letters(2) { 2 } else { 3 };
-                    Columns {
-                        x: (0, unit),
-                        y: (1, unit),
-                        lengths: true,
-                        tolerance: (flag == 3).then_some((2, unit)),
-                        flag: Some(flag),
-                    }
+                    let column = |at: usize| Column { at, unit, area: false };
+                    Columns { x: column(0), y: column(1), tolerance: (flag == 3).then(|| column(2)), flag: Some(flag) }
                 } else {
                     columns(&fields, unit).map_err(|problem| vec![problem])?
                 };
@@ -178,7 +211,7 @@ pub fn read_curve(text: &str, unit: Notation) -> Result<CurveTable, Vec<CurvePro
     }
     Ok(CurveTable {
         points: points.into_iter().map(|(point, _)| point).collect(),
-        lengths: layout.is_none_or(|layout| layout.lengths),
+        lengths: layout.is_none_or(|layout| !layout.y.area),
         quantum: quantum.unwrap_or(0.0),
         notes,
     })
@@ -190,10 +223,19 @@ fn point(
     layout: &Columns,
     decimal_comma: bool,
 ) -> Result<(CurvePoint, Option<f64>), (String, String)> {
-    let read = |(at, unit): (usize, Notation)| {
-        let text = fields.get(at).map_or("", String::as_str);
+    let read = |column: Column| {
+        let text = fields.get(column.at).map_or("", String::as_str);
+        let unit = if column.area { Notation::Metres } else { column.unit };
         let reading = parse_cell(text, CellRules { unit, decimal_comma });
-        reading.map_err(|error| (format!("'{text}': {error}"), error.remedy()))
+        let mut reading = reading.map_err(|error| (format!("'{text}': {error}"), error.remedy()))?;
+        if column.area && !matches!(reading.writing, CellWriting::Plain { .. } | CellWriting::Nothing) {
+            let remedy = "Write areas as plain numbers, with their unit in the head: area [ft2].";
+            return Err((format!("'{text}' is a length"), remedy.to_owned()));
+        }
+        if let CellEntry::Length(value) = &mut reading.entry {
+            *value *= column.factor();
+        }
+        Ok(reading)
     };
     let x = match read(layout.x)?.entry {
         CellEntry::Length(x) => x,
@@ -208,7 +250,7 @@ fn point(
         }
     };
     let tolerance = match layout.tolerance {
-        Some(column) if fields.get(column.0).is_some_and(|text| !text.is_empty()) => match read(column)?.entry {
+        Some(column) if fields.get(column.at).is_some_and(|text| !text.is_empty()) => match read(column)?.entry {
             CellEntry::Length(value) if value >= 0.0 => Some(value),
             CellEntry::Length(value) => {
                 let remedy = "Expected a length of 0 or more; leave it empty for that of the noise.";
@@ -243,7 +285,7 @@ fn point(
         }
     }
     let step = match cell.writing {
-        CellWriting::Plain { decimals } => layout.y.1.quantum(Some(decimals)),
+        CellWriting::Plain { decimals } => layout.y.quantum(decimals),
         CellWriting::Eighths => Notation::FeetInchesEighths.quantum(None),
         CellWriting::WithUnit | CellWriting::Nothing => None,
     };

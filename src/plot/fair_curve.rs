@@ -27,6 +27,8 @@ const ROOM: f64 = 16.0;
 const TOOTH: f64 = 14.0;
 /// Teeth over the length.
 const TEETH: usize = 240;
+/// Ordinates that differ by less than this part of the length are drawn as if they did.
+const LEAST_RANGE: f64 = 1e-4;
 /// Radius of the rings \[mm\].
 const RING: f64 = 1.8;
 const COMB: &str = "#2166ac";
@@ -107,7 +109,7 @@ pub fn fair_curve_figure(sheet: &CurveSheet<'_>) -> Result<Svg, PlotError> {
     let (low, high) = ordinates.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(y), b.max(y)));
     let height = PANELS[0][1] - PANELS[0][0] - 2.0 * ROOM;
     let scale_x = (SIDES[1] - SIDES[0]) / (to - from);
-    let scale_y = height / (high - low).max(1e-9 * (to - from));
+    let scale_y = height / (high - low).max(LEAST_RANGE * (to - from));
     let text = TextStyle::new(2.8, Anchor::Middle);
     let scales = format!(
         "combs at one scale: 10 mm = {} {}    ordinates drawn {} times as large as abscissae",

@@ -203,7 +203,7 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
-    let price = priced("it", held.price);
+    let price = priced(if nearest && !held.is_had() { "what was had" } else { "it" }, held.price);
     format!(
         "{words}: {} -> {}{unit}{percent}, {off}; {price}.",
         fixed(held.before, decimals),

@@ -118,7 +118,8 @@ pub enum CurveError {
     Spline(#[from] SplineError),
     /// Points that do not determine the curve.
     #[error(
-        "the points do not determine the curve: every part between knuckles needs two points with an ordinate ({0})"
+        "the points do not determine the curve: too few with an ordinate between its knuckles and tangent points for an energy of this order, \
+         2 at least and more between tangent points; give more, or take a lower --order ({0})"
     )]
     Undetermined(#[from] SingularMatrix),
     /// Numbers that make no program.
