@@ -14,6 +14,7 @@ use super::told::Watched;
 use super::unbroken::{Along, Breaks};
 use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
 use crate::numeric::at_once;
+use crate::units::counted;
 
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
@@ -151,7 +152,8 @@ impl Started {
         }
         if doubtful > 0 {
             notes.push(format!(
-                "{doubtful} points of sections are suspected and count as doubtful, a hundredth of the others"
+                "{} of sections suspected, and doubtful: a hundredth of the weight of the others",
+                counted(doubtful, "point")
             ));
         }
         let excluded = cleaned.excluded;
