@@ -19,6 +19,9 @@ use crate::units::counted;
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
 
+/// A waterline or a station nearer to a proposed line than this \[m\] is the line.
+const SAME: f64 = 1e-9;
+
 /// A cell: (station, waterline).
 type Cell = (usize, usize);
 
@@ -165,7 +168,9 @@ impl Started {
 fn breaks_at(line: &ProposedLine, table: &OffsetTable, (station, waterline): Cell) -> bool {
     let [x, z] = [table.stations[station].station.x, table.waterlines[waterline]];
     let (across, along) = if line.course == LineCourse::Waterline { (z, x) } else { (x, z) };
-    line.kind == LineKind::Knuckle && across == line.at && (line.reach[0]..=line.reach[1]).contains(&along)
+    line.kind == LineKind::Knuckle
+        && (across - line.at).abs() <= SAME
+        && (line.reach[0]..=line.reach[1]).contains(&along)
 }
 
 impl Started {

@@ -342,12 +342,11 @@ fn point_lines(table: &OffsetTable, suspect: &PointSuspect) -> String {
     text + &named_readings(&suspect.readings)
 }
 
-/// Points and branches count from 1, as in `changes.csv`.
+/// Points and branches count from 0, as in files that number them.
 fn point_name(suspect: &PointSuspect) -> String {
-    let number = suspect.point + 1;
     match suspect.branch {
-        0 => format!("point {number}"),
-        branch => format!("branch {}, point {number}", branch + 1),
+        0 => format!("point {}", suspect.point),
+        branch => format!("branch {branch}, point {}", suspect.point),
     }
 }
 
@@ -404,7 +403,7 @@ fn point_json(table: &OffsetTable, suspect: &PointSuspect) -> Value {
     let [[y, z], [near_y, near_z]] = [suspect.given, suspect.expected];
     json!({
         "id": suspect.id, "of": "point", "station": station.x, "station_name": station.name,
-        "branch": suspect.branch + 1, "point": suspect.point + 1, "number": suspect.number.as_str(),
+        "branch": suspect.branch, "point": suspect.point, "number": suspect.number.as_str(),
         "written": suspect.written, "y": y, "z": z, "expected": { "y": near_y, "z": near_z },
         "distance": suspect.distance, "noise": suspect.noise, "score": suspect.score,
         "hypothesis": suspect.hypothesis().as_str(), "proposed": suspect.proposed,

@@ -63,7 +63,7 @@ fn draw_suspect(canvas: &mut Canvas, table: &OffsetTable, suspect: &PointSuspect
         "{}   {}, point {}: y {} z {}, {} from the curve of its neighbours, {:+.1} local noise",
         suspect.id,
         caption::plain(&station.station.words()),
-        suspect.point + 1,
+        suspect.point,
         rounded(suspect.given[0]),
         rounded(suspect.given[1]),
         length(suspect.distance),
@@ -144,10 +144,7 @@ mod tests {
             assert!(texts[..k].iter().all(|other| !text.place.overlaps(&other.place)), "{text:?}");
         }
         assert!(
-            suspect_points_figure(&table, &result)
-                .unwrap()
-                .as_str()
-                .contains("P1\u{a0}\u{a0}\u{a0}station 4, point 10")
+            suspect_points_figure(&table, &result).unwrap().as_str().contains("P1\u{a0}\u{a0}\u{a0}station 4, point 9")
         );
         assert!(suspect_points_figure(&OffsetTable::default(), &result).is_err());
     }
