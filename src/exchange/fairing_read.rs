@@ -409,9 +409,11 @@ pub fn read_texts(text: &str) -> Vec<[String; 2]> {
         let record = record.unwrap_or_default();
         at.map(|at| field(&record, at))
     };
+    // What was unknown before is none of the offsets that moved.
     let before = heads.iter().position(|head| head == COLUMNS[3]);
     let known = |record: &csv::Result<csv::StringRecord>| {
-        before.is_none_or(|_| record.as_ref().is_ok_and(|record| !field(record, before).is_empty()))
+        let unknown = before.and_then(|before| record.as_ref().ok()?.get(before)).is_some_and(str::is_empty);
+        !unknown
     };
     reader.records().filter(known).map(texts).collect()
 }

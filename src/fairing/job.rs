@@ -129,6 +129,9 @@ pub struct Job {
     /// Where the curvature goes on not to jump where that of the surface through the table does not, though the net would
     /// let it.
     pub runs_on: RunsOn,
+    /// Whether the surface through the table is another one with the knuckles that are declared in the job or taken, or the
+    /// same, which may break there.
+    pub refitted: bool,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
@@ -160,6 +163,7 @@ impl Default for Job {
             rules: Vec::new(),
             keep_flat: true,
             runs_on: RunsOn::Everywhere,
+            refitted: true,
             accepted: Accepted::None,
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },

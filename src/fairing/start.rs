@@ -240,7 +240,7 @@ impl Modelled {
         });
         let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
-        let more = lined.lines.len() > charted.lines.len();
+        let more = job.refitted && lined.lines.len() > charted.lines.len();
         let refitted = if more { Hull::fit(&lined, &FitMethod::Graded).ok().map(|fitted| fitted.hull) } else { None };
         let mut start = refitted.as_ref().unwrap_or(before).clone();
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {

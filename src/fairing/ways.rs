@@ -133,7 +133,31 @@ impl Job {
         let on_the_fit = Way { own: false, ..way };
         let outcome = self.or_with_jumps(table, on_the_fit, first)?;
         let outcome = self.or_on_the_fit(table, on_the_fit, outcome)?;
+        let outcome = self.or_fitted_without_lines(table, way, outcome)?;
         self.or_without_the_flat(table, way, outcome)
+    }
+
+    /// A surface that is fitted with the lines that are declared may be of another chart, with which the table cannot be
+    /// had: the one that is fitted without them may break along them as well.
+    fn or_fitted_without_lines(
+        &self,
+        table: &OffsetTable,
+        way: Way<'_>,
+        outcome: Outcome,
+    ) -> Result<Outcome, JobError> {
+        let taken = outcome.proposals.iter().any(|proposal| proposal.accepted);
+        if !self.refitted || !taken || outcome.status == Status::Optimal {
+            return Ok(outcome);
+        }
+        (way.progress)("again, on the surface that is fitted without the declared lines");
+        let other = Self { refitted: false, ..self.clone() }.run_within(table, way)?;
+        let better = other.status == Status::Optimal;
+        Ok(outcome.or(
+            other,
+            better,
+            "the surface through the table is fitted without the lines that break, and may break along them: with the one \
+             that is fitted with them the offsets cannot be had within their tolerances",
+        ))
     }
 
     /// Where the flat of side, or what is wished, takes all the room there is, curvature that must run on bends lines

@@ -194,7 +194,7 @@ fn rules_for_lines_and_regions_are_read() {
                 [flat]\nside = \"waterlines 2 to 4, stations 0 to 9 1/2\"\nbottom = [\"stations 10 m to 50 m\"]\n\
                 [shape]\nrising = [\"waterline 2 from 0 to 9 1/2\"]\nfalling = \"station 10\"\nconvex = [\"station 9 1/2 from 1 m\"]\nconcave = [\"waterline 3\"]\n\
                 inflections = { \"waterline 4\" = 1, \"station 0\" = 0, \"waterline 2 from 9 1/2\" = 2 }\n[lines]\naccept = [\"L2\", \"l1\"]\n\
-                knuckle = \"waterline 2 from 9 1/2 to 95.5\"\ntangent = [\"station 50 m\"]";
+                knuckle = \"waterline 2 from 9 1/2 to 100\"\ntangent = [\"station 50 m\"]";
     let file = read_job("j.toml", text).unwrap();
     let mut table = table();
     let points = vec![[0.0, 1.0, 2.5], [95.0, 1.2, 2.4]];
@@ -233,9 +233,16 @@ fn rules_for_lines_and_regions_are_read() {
     assert_eq!(
         job.lines,
         [
-            line(Breaks::Knuckle, LineCourse::Waterline, 2.0, [95.0, 95.5]),
+            line(Breaks::Knuckle, LineCourse::Waterline, 2.0, [95.0, 100.0]),
             line(Breaks::Tangent, LineCourse::Station, 50.0, [low, high]),
         ]
+    );
+    let short = read_job("j.toml", "[lines]\nknuckle = \"waterline 2 from 9 1/2 to 95.5\"").unwrap();
+    let found = short.for_table(&table, 100.0).unwrap_err()[0].to_string();
+    assert_eq!(
+        found,
+        "E177 j.toml:2:11 lines.knuckle: the part of the line that breaks has 1 station of the table. Name a part with two of \
+         them at least, between 0 and 100 m."
     );
     let accepted = |text: &str| read_job("j.toml", &format!("lines.accept = {text}")).unwrap().accepted;
     assert_eq!(accepted("\"all\""), Some(Accepted::All));
