@@ -287,27 +287,31 @@ fn metacentre_and_wetted_surface_are_held() {
     }
 }
 
-/// 25 stations and 21 waterlines of a hull with a chine at 6 m, which the table does not declare and which turns the
-/// stations by `turn` of x; noise of 2 mm from a sequence of its own (Weyl).
-fn chined(turn: impl Fn(f64) -> f64) -> OffsetTable {
-    let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
+/// Noise of 2 mm from a sequence of its own (Weyl).
+fn noise() -> impl FnMut() -> f64 {
     let mut count = 0;
-    let mut noise = || {
+    move || {
         count += 1;
         let uniform = |by: f64| (f64::from(count) * by).fract();
         0.002
             * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
             * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
-    };
-    let mut half = |x: f64, z: f64| {
-        let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + turn(x) * (z - 6.0).max(0.0);
-        Cell::from(Some(((y + noise()) * 1e4).round() / 1e4))
-    };
-    let stations = (0..25)
+    }
+}
+
+/// A table of `count` stations at `x` of their number, written to a tenth of a millimetre.
+fn sampled(
+    waterlines: Vec<f64>,
+    count: i32,
+    x: impl Fn(f64) -> f64,
+    mut half: impl FnMut(f64, f64) -> f64,
+) -> OffsetTable {
+    let mut cell = |x: f64, z: f64| Cell::from(Some((half(x, z) * 1e4).round() / 1e4));
+    let stations = (0..count)
         .map(|i| {
-            let x = 4.0 * f64::from(i) + 2.0;
+            let x = x(f64::from(i));
             StationOffsets {
-                half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
+                half_breadths: waterlines.iter().map(|&z| cell(x, z)).collect(),
                 ..StationOffsets::new(format!("{i}"), x)
             }
         })
@@ -315,6 +319,18 @@ fn chined(turn: impl Fn(f64) -> f64) -> OffsetTable {
     let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
     table.form.decimals = Some(4);
     table
+}
+
+/// 25 stations and 21 waterlines of a hull with a chine at 6 m, which the table does not declare and which turns the
+/// stations by `turn` of x, with noise.
+fn chined(turn: impl Fn(f64) -> f64) -> OffsetTable {
+    let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
+    let mut noise = noise();
+    let half = |x: f64, z: f64| {
+        let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + turn(x) * (z - 6.0).max(0.0);
+        y + noise()
+    };
+    sampled(waterlines, 25, |i| 4.0 * i + 2.0, half)
 }
 
 /// By how much the slope of a station is more above a height than below.
@@ -348,33 +364,15 @@ fn a_chine_ends_where_it_is_said_to_end() {
 #[test]
 fn a_chine_is_not_taken_for_typing_errors() {
     let waterlines: Vec<f64> = (0..9).map(f64::from).collect();
-    let mut count = 0;
-    let mut noise = || {
-        count += 1;
-        let uniform = |by: f64| (f64::from(count) * by).fract();
-        0.002
-            * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
-            * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
-    };
-    let mut half = |x: f64, z: f64| {
+    let mut noise = noise();
+    let half = |x: f64, z: f64| {
         let own = 6.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - ((8.0 - z) / 8.0).powi(2));
         let part = (x - 32.0) / 36.0;
         let fades = if (0.0..1.0).contains(&part) { 0.2 * (std::f64::consts::PI * part).sin().powi(2) } else { 0.0 };
         let y = own - fades * (z - 4.0).abs() * (-((z - 4.0) / 2.5).powi(2)).exp();
-        let y = if own > 0.0 { (y + noise()).max(0.0) } else { 0.0 };
-        Cell::from(Some((y * 1e4).round() / 1e4))
+        if own > 0.0 { (y + noise()).max(0.0) } else { 0.0 }
     };
-    let stations = (0..21)
-        .map(|i| {
-            let x = 5.0 * f64::from(i);
-            StationOffsets {
-                half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
-                ..StationOffsets::new(format!("{i}"), x)
-            }
-        })
-        .collect();
-    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
-    table.form.decimals = Some(4);
+    let table = sampled(waterlines, 21, |i| 5.0 * i, half);
     let outcome = Job::default().run(&table).unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     assert!(outcome.changes.iter().all(|change| !change.suspect), "{:?}", outcome.suspects);

@@ -243,16 +243,14 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .iter()
         .map(|held| {
             let target = held.constraint.target();
-            let words = match outcome.nearest && !held.is_had() {
-                true => format!("{} at no more than what was had", held.constraint.words()),
-                false => held.constraint.words(),
-            };
+            let had = !outcome.nearest || held.is_had();
+            let at = if had { "" } else { " at no more than what was had" };
             let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
-                "price": number(held.price), "words": priced(&words, held.price),
-                "had": !outcome.nearest || held.is_had(),
+                "price": number(held.price), "words": priced(&(held.constraint.words() + at), held.price),
+                "had": had,
             });
             if let Constraint::SectionArea { x, band, .. } = held.constraint {
                 member["x"] = number(x);
@@ -365,16 +363,19 @@ pub fn reached(outcome: &Outcome) -> impl Iterator<Item = &Change> {
 }
 
 /// The text of an offset in a table; empty where none is kept.
+/// How an offset is written; nothing where that is not known.
+fn cell_text(table: &OffsetTable, station: usize, waterline: usize) -> String {
+    let cell = table.stations.get(station).and_then(|station| station.half_breadths.get(waterline));
+    cell.and_then(|cell| cell.written.as_ref()).map(|written| written.text.clone()).unwrap_or_default()
+}
+
 fn text(table: &OffsetTable, change: &Change) -> String {
-    let station = table.stations.get(change.station);
-    let cell =
-        change.origin.waterline().and_then(|j| station?.half_breadths.get(j)).and_then(|cell| cell.written.as_ref());
     let side = || {
         let lines = table.form.side_columns.iter().find(|side| side.kind == SideKind::DeckHalfBreadth)?;
         lines.texts.get(change.station)?.as_ref().map(|kept| kept.text.clone())
     };
     match change.origin {
-        Origin::HalfBreadth { .. } => cell.map(|written| written.text.clone()).unwrap_or_default(),
+        Origin::HalfBreadth { station, waterline } => cell_text(table, station, waterline),
         Origin::Deck { .. } => side().unwrap_or_default(),
         Origin::Point { .. } => String::new(),
     }
@@ -437,10 +438,7 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
     }
     for own in &outcome.predicted {
         let Some(station) = table.stations.get(own.station) else { continue };
-        let text = |table: &OffsetTable| {
-            let cell = table.stations.get(own.station).and_then(|station| station.half_breadths.get(own.waterline));
-            cell.and_then(|cell| cell.written.as_ref()).map(|written| written.text.clone()).unwrap_or_default()
-        };
+        let text = |table: &OffsetTable| cell_text(table, own.station, own.waterline);
         let blank = String::new;
         csv.push_str(&line(&[
             station.station.name.clone(),

@@ -106,9 +106,7 @@ impl Breaks {
 
     /// Whether one of the declared lines runs along a span of a line of the net, by its points.
     fn declared(lines: &[Vec<Along>; 2], way: usize, at: f64, points: &[[f64; 3]; 6]) -> bool {
-        let axis = if way == 1 { 0 } else { 2 };
-        let ends = [points[2][axis], points[3][axis]];
-        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let [low, high] = reach(way, points);
         let along = |line: &Along| line.reach[1].min(high) - line.reach[0].max(low) > SLACK;
         lines[way].iter().any(|line| (line.at - at).abs() <= AT_KNOT && along(line))
     }
@@ -122,9 +120,7 @@ impl Breaks {
         if Self::declared(&self.knuckles, way, at, points) {
             return Knuckle::Runs;
         }
-        let axis = if way == 1 { 0 } else { 2 };
-        let ends = [points[2][axis], points[3][axis]];
-        let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let [low, high] = reach(way, points);
         let beside = |line: &&Along| line.reach[0] <= high + SLACK && low <= line.reach[1] + SLACK;
         if here.iter().any(beside) { Knuckle::Fades } else { Knuckle::Ended }
     }
@@ -135,6 +131,13 @@ impl Breaks {
         let on = |[x, z]: &[[f64; 2]; 2]| points.iter().any(|point| within(*x, point[0]) && within(*z, point[2]));
         self.flats.iter().any(on)
     }
+}
+
+/// From and to of a span of a line of the net, in x along the ship, in z up a station, by its points \[m\].
+fn reach(way: usize, points: &[[f64; 3]; 6]) -> [f64; 2] {
+    let axis = if way == 1 { 0 } else { 2 };
+    let ends = [points[2][axis], points[3][axis]];
+    [ends[0].min(ends[1]), ends[0].max(ends[1])]
 }
 
 /// Whether a line of the net of a surface (along the ship, `way` 0, or up, 1) lets the curvature jump where, somewhere
@@ -215,26 +218,25 @@ impl Unbroken {
                     .peekable();
                 known.peek().is_some() && known.all(|departs| departs <= most)
             };
-        let turns = folds(&|way, fold, e| match breaks.knuckle(way, fold.at, &cells.corners(way, fold.above, e)) {
+        let knuckle =
+            |way: usize, fold: &Fold, e: usize| breaks.knuckle(way, fold.at, &cells.corners(way, fold.above, e));
+        let turns = folds(&|way, fold, e| match knuckle(way, fold, e) {
             Knuckle::Runs | Knuckle::Fades => false,
             Knuckle::Ended => true,
             Knuckle::None => folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides)),
         });
-        let own_curvatures = folds(&|way, fold, e| {
-            let corners = cells.corners(way, fold.above, e);
-            let bow = |folded: &Folded, sides: &[Place<'_>; 2]| {
-                value(&folded.curvature, sides) * folded.length * folded.length
-            };
-            !Breaks::declared(&breaks.tangents, way, fold.at, &corners)
-                && match breaks.knuckle(way, fold.at, &corners) {
-                    Knuckle::Runs | Knuckle::Fades => false,
-                    Knuckle::Ended => true,
-                    Knuckle::None => {
-                        folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides))
-                            && folded(way, fold, e, nil, &bow)
-                    }
+        let mut own_curvatures = turns.clone();
+        for (way, lines) in own_curvatures.iter_mut().enumerate() {
+            for (fold, line) in cells.folds(way).iter().zip(lines) {
+                for (e, held) in line.iter_mut().enumerate().filter(|(_, held)| **held) {
+                    let bow = |folded: &Folded, sides: &[Place<'_>; 2]| {
+                        value(&folded.curvature, sides) * folded.length * folded.length
+                    };
+                    *held = !Breaks::declared(&breaks.tangents, way, fold.at, &cells.corners(way, fold.above, e))
+                        && (knuckle(way, fold, e) == Knuckle::Ended || folded(way, fold, e, nil, &bow));
                 }
-        });
+            }
+        }
         let mut curvatures = own_curvatures.clone();
         for (way, lines) in curvatures.iter_mut().enumerate() {
             for (fold, line) in cells.folds(way).iter().zip(lines) {

@@ -186,8 +186,9 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
         _ => String::new(),
     };
     let words = held.constraint.words();
+    let missed = nearest && !held.is_had();
     let off = match held.after - target {
-        _ if nearest && !held.is_had() => {
+        _ if missed => {
             format!(
                 "{} were asked for and are out of reach: this is the nearest found that leaves a fair hull",
                 fixed(target, decimals) + unit
@@ -203,7 +204,7 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
-    let price = priced(if nearest && !held.is_had() { "what was had" } else { "it" }, held.price);
+    let price = priced(if missed { "what was had" } else { "it" }, held.price);
     format!(
         "{words}: {} -> {}{unit}{percent}, {off}; {price}.",
         fixed(held.before, decimals),
