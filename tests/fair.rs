@@ -600,7 +600,7 @@ fn sections_given_as_points_are_faired() {
         assert!(pairs.clone().all(|(a, b)| a.z.to_bits() == b.z.to_bits() && (a.y - b.y).abs() < 0.05));
         assert!(pairs.clone().any(|(a, b)| a.y.to_bits() != b.y.to_bits()));
     }
-    assert!(file(&outputs, "changes.csv").contains(",point 1.12,"));
+    assert!(file(&outputs, "changes.csv").contains(",point 0.11,"));
 }
 
 #[test]

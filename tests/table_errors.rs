@@ -234,6 +234,10 @@ fn warnings_and_notes() {
     among(&notes(GOOD, "[table]\nT = 1\n"), &["W307", "only 2 waterlines up to T 1 m"]);
     among(&notes("station,0,1,2\n0,1,2,3\n1,1,,3\n2,1,2,3\n", ""), &["W314", "station 1, waterline 1 m"]);
     among(&notes("station,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "taken as 1 m apart", "station_spacing"]);
+    // A unit beside the word: distances where a hull of so many would be longer than it is broad, numbers else.
+    let metric = |x: [u32; 3]| format!("station [mm],500,1000\n{},0,100\n{},2000,3000\n{},0,100\n", x[0], x[1], x[2]);
+    assert!(!notes(&metric([0, 10_000, 20_000]), "").iter().any(|note| note.contains("W320")));
+    among(&notes(&metric([0, 10, 20]), ""), &["W320", "stations are numbered"]);
     among(&notes("x_from_midship_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "x is 0 at midship"]);
     among(&notes("x_from_midship_m,0.5,1\n-2,1,2\n-1,1,2\n2,2,3\n", ""), &["W320", "AP and FP, 4 m apart"]);
     among(&notes("x_from_FP_m,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "negative aft of it"]);

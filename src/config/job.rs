@@ -14,240 +14,27 @@
 //! ```
 
 mod hold;
+mod keys;
 mod place;
+mod ranges;
 mod shape;
 mod spot;
 
 use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Wish};
+pub use keys::JOB_KEYS;
 pub use place::Place;
+use ranges::{anisotropy, density, positive, price, weight};
 pub use shape::RuleMark;
 pub use spot::{Mark, Spot};
 
 use super::diagnostic::Diagnostic;
 use super::document::{Document, Raw};
-use super::keys::{Key, Kind, key};
-use super::value::Scalar;
+use super::keys::Kind;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::{Holding, Job};
 use crate::fairing::proposals::Accepted;
 use crate::hull::{OffsetTable, StatedParticulars};
-use crate::hydrostatics::DENSITIES;
-
-const HOLD: [&str; 2] = ["table", "free"];
-const AUTO: [&str; 1] = ["auto"];
-
-const fn hold(name: &'static str, kind: &'static Kind, description: &'static str) -> Key {
-    key("hold", name, Kind::OrWord(kind, &HOLD), &[], description)
-}
-
-const fn shape(name: &'static str, description: &'static str) -> Key {
-    key("shape", name, Kind::Phrases(r#""waterline 6.5 from 0 to 5", "station 5 from 2 m""#), &[], description)
-}
-
-/// Every key of the job file.
-pub const JOB_KEYS: &[Key] = &[
-    key("", "schema", Kind::Integer(1, 1), &[], "Version of the keys: 1."),
-    key(
-        "table",
-        "file",
-        Kind::Text,
-        &[],
-        "Table of offsets, relative to this file. Default: the one that the command names.",
-    ),
-    key("dimensions", "Lpp", Kind::Length, &[], "L_PP, over what the table states."),
-    key("dimensions", "B", Kind::Length, &[], "B moulded, over what the table states."),
-    key("dimensions", "T", Kind::Length, &[], "Design draught, over what the table states: what is held holds there."),
-    key("dimensions", "D", Kind::Length, &[], "Depth to the deck at side, over what the table states."),
-    key("water", "density", Kind::Density, &[], "Density of the water. Default: 1.025 t/m3."),
-    key(
-        "energy",
-        "order",
-        Kind::Integer(2, 4),
-        &[],
-        "Order of the derivatives in the energy: 2, 3 or 4. Default: 4 on hulls with plumb ends over a rectangle, else 3.",
-    ),
-    key(
-        "energy",
-        "anisotropy",
-        Kind::Number,
-        &[],
-        "Weight of bending along the ship; that across is its inverse. Default: 0.6.",
-    ),
-    key(
-        "energy",
-        "weight",
-        Kind::NumberOrWord(&AUTO),
-        &[],
-        "Smoothing weight; \"auto\" takes that for the errors of the table (Mallows), on a net of its own that of least generalised cross-validation. Default: \"auto\".",
-    ),
-    key(
-        "tolerance",
-        "table",
-        Kind::Length,
-        &[],
-        "How far an offset may move. Default: three noise levels, at most B/1000 or 15 mm unless the table is three times as rough, at least two steps of its writing.",
-    ),
-    key("tolerance", "stations", Kind::NamedLengths, &[], "Tolerances of single stations, { \"10\" = \"1 mm\" }."),
-    key(
-        "tolerance",
-        "waterlines",
-        Kind::NamedLengths,
-        &[],
-        "Tolerances of single waterlines, { \"6.5 m\" = \"1 mm\" }.",
-    ),
-    key("tolerance", "cells", Kind::NamedLengths, &[], "Tolerances of single cells, { \"10@6.5\" = \"1 mm\" }."),
-    key("lock", "stations", Kind::Names, &[], "Stations that do not move: names of the table, or positions."),
-    key("lock", "waterlines", Kind::Names, &[], "Waterlines that do not move: heights."),
-    key("lock", "cells", Kind::Names, &[], "Cells that do not move, \"station@waterline\"."),
-    key(
-        "lock",
-        "lines",
-        Kind::Phrases(r#""stem", "deck", "waterline 6.5", "line KNUCKLE 1""#),
-        &[],
-        "Lines that stay where the surface through the table has them: \"stem\", \"stern\", \"keel\", \"deck\", \"station 5\", \"waterline 6.5\", \"line NAME\" for a knuckle or tangent line of the table.",
-    ),
-    hold("displacement", &Kind::Displacement, "Displacement at the design draught. Default: \"table\"."),
-    hold("Cb", &Kind::Number, "Block coefficient, instead of the displacement."),
-    hold("LCB", &Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: \"table\"."),
-    hold("KB", &Kind::Length, "Height of the centre of buoyancy above the base line. Default: \"free\"."),
-    hold("LCF", &Kind::CentreOfBuoyancy, "Longitudinal centre of flotation. Default: \"free\"."),
-    hold("Cwp", &Kind::Number, "Waterplane coefficient. Default: \"free\"."),
-    hold("waterplane_area", &Kind::Area, "Waterplane area, instead of Cwp. Default: \"free\"."),
-    hold("Cm", &Kind::Number, "Midship section coefficient. Default: \"table\"."),
-    hold("KM", &Kind::Length, "Height of the transverse metacentre above the base line. Default: \"free\"."),
-    hold("GM", &Kind::Length, "Transverse metacentric height, instead of KM; needs KG. Default: \"free\"."),
-    key("hold", "KG", Kind::Length, &[], "Height of the centre of gravity above the base line, for GM."),
-    hold("wetted_surface", &Kind::Area, "Wetted surface at the design draught. Default: \"free\"."),
-    key(
-        "tangent",
-        "entrance",
-        Kind::NamedAngles(r#""6.5" = "12 deg""#),
-        &[],
-        "Half angles of entrance of waterlines, { \"6.5\" = \"12 deg\" }.",
-    ),
-    key("tangent", "run", Kind::NamedAngles(r#""6.5" = "12 deg""#), &[], "Half angles of run of waterlines."),
-    key(
-        "tangent",
-        "waterlines",
-        Kind::NamedAngles(r#""5@6.5" = "4 deg""#),
-        &[],
-        "Angles of waterlines from the centreline at \"station@height\", positive where the half-breadth rises forward.",
-    ),
-    key(
-        "tangent",
-        "stations",
-        Kind::NamedAngles(r#""5@6.5" = "0 deg""#),
-        &[],
-        "Angles of stations from the vertical at \"station@height\", positive where the half-breadth rises upward; 0 deg where a flat of side begins.",
-    ),
-    key(
-        "flat",
-        "side",
-        Kind::Phrases(r#""stations 8 to 12, waterlines 3 to 9.75""#),
-        &[],
-        "Flats of side, \"stations 8 to 12, waterlines 3 to 9.75\": the half-breadth is B/2 there.",
-    ),
-    key(
-        "flat",
-        "bottom",
-        Kind::Phrases(r#""stations 8 to 12""#),
-        &[],
-        "Flats of bottom, \"stations 8 to 12\": their edge stays where the surface through the table has it.",
-    ),
-    key(
-        "flat",
-        "keep",
-        Kind::Switch,
-        &[],
-        "Whether the flat of side that the table shows is kept: offsets at its greatest half-breadth, their outermost aside. Default: true.",
-    ),
-    shape(
-        "rising",
-        "Parts of lines on which the half-breadth rises, forward along a waterline and upward along a station.",
-    ),
-    shape("falling", "Parts of lines on which the half-breadth falls."),
-    shape("convex", "Parts of lines that are convex, full as seen from outside."),
-    shape("concave", "Parts of lines that are concave, hollow as seen from outside."),
-    key(
-        "shape",
-        "inflections",
-        Kind::NamedCounts(r#""waterline 6.5" = 1"#),
-        &[],
-        "Most inflections of lines or parts of them, { \"waterline 6.5\" = 1, \"station 0 from 2 m to 6 m\" = 0 }.",
-    ),
-    key(
-        "hold",
-        "section_areas",
-        Kind::SectionAreas,
-        &[],
-        "Areas of sections below the design draught, both sides: [[x, area], [x, area, band]], a CSV of x, area and band (a path from \
-         this file), or \"table\": those of the table at every station.",
-    ),
-    key(
-        "hold",
-        "section_area_band",
-        Kind::Number,
-        &["0.5"],
-        "How far section areas may be off that have no band of their own, m2. Default: 0.",
-    ),
-    key(
-        "energy",
-        "true_curvature",
-        Kind::Switch,
-        &[],
-        "Whether the energy is that of true curvature: the metric is refreshed while the functional falls. Default: false.",
-    ),
-    key(
-        "energy",
-        "bending",
-        Kind::Switch,
-        &[],
-        "Whether the bending energy of the surface, the integral of k1^2 + k2^2 over its area, is minimised at last. Default: false.",
-    ),
-    key(
-        "suspects",
-        "exclude",
-        Kind::Switch,
-        &[],
-        "Whether cells that are more likely wrong than right are left out. Default: true.",
-    ),
-    key(
-        "lines",
-        "accept",
-        Kind::Phrases(r#""L1", "L2""#),
-        &[],
-        "Which of the knuckles and tangent lines that `fair` proposes are taken: [\"L1\", \"L2\"], or \"all\". Default: none.",
-    ),
-    key(
-        "lines",
-        "knuckle",
-        Kind::Phrases(r#""waterline 6 from 0 to 18""#),
-        &[],
-        "Lines across which the slope of the hull breaks, that the table does not declare: waterlines or stations, or parts of them.",
-    ),
-    key(
-        "lines",
-        "tangent",
-        Kind::Phrases(r#""station 8 from 2 to 9.75""#),
-        &[],
-        "The same for lines across which the curvature breaks: edges of flats and of straight parts.",
-    ),
-    key(
-        "signs",
-        "impose",
-        Kind::Switch,
-        &[],
-        "Whether changes of curvature that are noise are forbidden. Default: true.",
-    ),
-    key(
-        "signs",
-        "price",
-        Kind::Number,
-        &[],
-        "What forbidding a change of curvature may cost at most: sum of squares of moves over the noise squared. Default: 12; 2 keeps what noise of the size of tolerance.table / 3 does not explain.",
-    ),
-];
 
 /// What a job file says; what it does not say is none.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -398,61 +185,6 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
     hold::read(document, &mut job);
     shape::read(document, &mut job);
     job
-}
-
-/// A value where it is allowed; otherwise it is told what was expected.
-fn allowed(document: &mut Document<'_>, path: &str, value: f64, allowed: bool, expected: &str) -> Option<f64> {
-    if allowed {
-        return Some(value);
-    }
-    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
-    let found = format!("{value:?}");
-    let message = format!("{path} is {}", found.trim_end_matches(".0"));
-    document.problem("E124", path, &span, message, format!("Expected {expected}."));
-    None
-}
-
-/// A number above 0.
-fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> {
-    let value = document.number(path)?;
-    allowed(document, path, value, value > 0.0, &format!("a positive {noun}"))
-}
-
-/// The density of a water.
-fn density(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("water.density")?;
-    let expected = format!("{} to {} t/m3", DENSITIES.start(), DENSITIES.end());
-    allowed(document, "water.density", value, DENSITIES.contains(&value), &expected)
-}
-
-/// Greatest anisotropy and the reciprocal of the least: beyond, one direction is not seen.
-const MOST_ANISOTROPY: f64 = 1e6;
-
-fn anisotropy(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("energy.anisotropy")?;
-    let sensible = (1.0 / MOST_ANISOTROPY..=MOST_ANISOTROPY).contains(&value);
-    let expected = format!("a number from {:.0e} to {MOST_ANISOTROPY:.0e}", 1.0 / MOST_ANISOTROPY);
-    allowed(document, "energy.anisotropy", value, sensible, &expected)
-}
-
-/// Greatest price of a sign: no sign that the tolerances have is as dear.
-const MOST_PRICE: f64 = 1e6;
-
-/// What a sign may cost.
-fn price(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("signs.price")?;
-    let expected = format!("a positive number, {MOST_PRICE:.0e} at most");
-    allowed(document, "signs.price", value, value > 0.0 && value <= MOST_PRICE, &expected)
-}
-
-/// Greatest smoothing weight: nothing but the energy is left well below it.
-const MOST_WEIGHT: f64 = 1e9;
-
-fn weight(document: &mut Document<'_>) -> Option<Option<f64>> {
-    let Scalar::Measure(measure) = document.number_or_word("energy.weight")? else { return Some(None) };
-    let sensible = measure.value > 0.0 && measure.value <= MOST_WEIGHT;
-    let expected = format!("a positive number, {MOST_WEIGHT:.0e} at most, or \"auto\"");
-    allowed(document, "energy.weight", measure.value, sensible, &expected).map(Some)
 }
 
 impl JobFile {

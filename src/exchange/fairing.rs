@@ -386,8 +386,8 @@ fn without_noise(value: f64) -> f64 {
     if value.abs() < 1e-12 { 0.0 } else { value }
 }
 
-/// One row an offset: station, waterline (`deck` for the deck at side, `point 1.7` for the seventh point of the first
-/// outline), place, before, after, move (outward positive), tolerance, the share of it that is used, whether it is
+/// One row an offset: station, waterline (`deck` for the deck at side, `point 0.6` for point 6 of outline 0, which
+/// count from 0 as in files that number them), place, before, after, move (outward positive), tolerance, the share of it that is used, whether it is
 /// locked or was left out as a suspect, and its text in the old table and in `written`, the new one as it is read back.
 /// Last, with nothing before, the offsets that were unknown.
 #[must_use]
@@ -416,7 +416,7 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
         let waterline = match change.origin {
             Origin::HalfBreadth { waterline, .. } => cell(table.waterlines.get(waterline).copied()),
             Origin::Deck { .. } => "deck".to_owned(),
-            Origin::Point { outline, point, .. } => format!("point {}.{}", outline + 1, point + 1),
+            Origin::Point { outline, point, .. } => format!("point {outline}.{point}"),
         };
         let used = change.tolerance.filter(|t| *t > 0.0).map(|tolerance| moved.abs() / tolerance);
         csv.push_str(&line(&[

@@ -356,13 +356,13 @@ pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> R
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-9;
         let station = lines.stations.iter().position(|s| near(s.x, x) && s.name == field(8));
         let station = station.ok_or_else(|| wrong(8, "a station of the table in fairing.json, with its x"))?;
-        let counted = |text: &str| text.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let counted = |text: &str| text.parse::<usize>().ok();
         let origin = match (field(0), field(0).strip_prefix("point ")) {
             ("deck", _) => Origin::Deck { station },
             (_, Some(place)) => {
                 let pair = place.split_once('.').and_then(|(a, b)| Some((counted(a)?, counted(b)?)));
                 let (outline, point) =
-                    pair.ok_or_else(|| wrong(0, "the number of an outline and of its point, point 1.7"))?;
+                    pair.ok_or_else(|| wrong(0, "the number of an outline and of its point, point 0.6"))?;
                 Origin::Point { station, outline, point }
             }
             _ => {
@@ -438,7 +438,7 @@ mod tests {
     #[test]
     fn changes_are_read_back() {
         let text = format!(
-            "{HEAD}\n1,1.25,5,1.25,2,2.001,0.001,0.002,0.5,yes,\n1,deck,5,3,2.5,2.4,-0.1,,,,yes\n1,point 2.7,5,3,2,2,0,,,,\n"
+            "{HEAD}\n1,1.25,5,1.25,2,2.001,0.001,0.002,0.5,yes,\n1,deck,5,3,2.5,2.4,-0.1,,,,yes\n1,point 1.6,5,3,2,2,0,,,,\n"
         );
         let changes = read_changes(&text, &lines(), None).unwrap();
         let waterline = Some(1);
@@ -449,7 +449,7 @@ mod tests {
         let deck = Origin::Deck { station: 0 };
         assert_eq!((changes[1].origin, changes[1].tolerance, changes[1].suspect), (deck, None, true));
         assert_eq!(changes[2].origin, Origin::Point { station: 0, outline: 1, point: 6 });
-        assert!(read_changes(&text.replace("2.7", "0.7"), &lines(), None).is_err());
+        assert!(read_changes(&text.replace("1.6", "1"), &lines(), None).is_err());
     }
 
     #[test]

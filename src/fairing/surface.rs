@@ -102,13 +102,14 @@ impl Origin {
         }
     }
 
-    /// What it is of a station, in words: "waterline 2.000 m", "deck at side", "point 7 at 2.000 m".
+    /// What it is of a station, in words: "waterline 2.000 m", "deck at side", "point 7 at 2.000 m"; points count from
+    /// 0, as in files that number them.
     #[must_use]
     pub fn words(self, z: f64) -> String {
         match self {
             Self::HalfBreadth { .. } => format!("waterline {z:.3} m"),
             Self::Deck { .. } => "deck at side".to_owned(),
-            Self::Point { point, .. } => format!("point {} at {z:.3} m", point + 1),
+            Self::Point { point, .. } => format!("point {point} at {z:.3} m"),
         }
     }
 }

@@ -218,11 +218,15 @@ pub(super) fn origin(
     let says = if corner.rows.is_some_and(Axis::is_station) { corner.rows } else { corner.columns };
     let scale = settings.stations.unwrap_or_else(|| {
         let numbers = match says {
-            Some(Axis::Station) => true,
+            Some(Axis::Station) if corner.unit.is_none() => true,
             Some(Axis::X) => false,
             _ if 2 * named > heads.len() => true,
-            // Without words: a hull that would be shorter than it is broad counts its stations.
-            _ => plain.len() > 1 && high - low < 2.0 * largest_half_breadth,
+            // Without words, or with a unit beside them: a hull that would be shorter than it is broad counts its
+            // stations.
+            _ => {
+                let length = corner.unit.map_or(high - low, |unit| unit.metres(high - low));
+                plain.len() > 1 && length < 2.0 * largest_half_breadth
+            }
         };
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers }
     });

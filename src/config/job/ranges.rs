@@ -1,0 +1,66 @@
+//! What the single values of a job may be.
+
+use super::super::document::Document;
+use super::super::value::Scalar;
+use crate::hydrostatics::DENSITIES;
+
+/// A value where it is allowed; otherwise it is told what was expected.
+pub(super) fn allowed(
+    document: &mut Document<'_>,
+    path: &str,
+    value: f64,
+    allowed: bool,
+    expected: &str,
+) -> Option<f64> {
+    if allowed {
+        return Some(value);
+    }
+    let span = document.entry(path).map_or(0..0, |e| e.span.clone());
+    let found = format!("{value:?}");
+    let message = format!("{path} is {}", found.trim_end_matches(".0"));
+    document.problem("E124", path, &span, message, format!("Expected {expected}."));
+    None
+}
+
+/// A number above 0.
+pub(super) fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> Option<f64> {
+    let value = document.number(path)?;
+    allowed(document, path, value, value > 0.0, &format!("a positive {noun}"))
+}
+
+/// The density of a water.
+pub(super) fn density(document: &mut Document<'_>) -> Option<f64> {
+    let value = document.number("water.density")?;
+    let expected = format!("{} to {} t/m3", DENSITIES.start(), DENSITIES.end());
+    allowed(document, "water.density", value, DENSITIES.contains(&value), &expected)
+}
+
+/// Greatest anisotropy and the reciprocal of the least: beyond, one direction is not seen.
+const MOST_ANISOTROPY: f64 = 1e6;
+
+pub(super) fn anisotropy(document: &mut Document<'_>) -> Option<f64> {
+    let value = document.number("energy.anisotropy")?;
+    let sensible = (1.0 / MOST_ANISOTROPY..=MOST_ANISOTROPY).contains(&value);
+    let expected = format!("a number from {:.0e} to {MOST_ANISOTROPY:.0e}", 1.0 / MOST_ANISOTROPY);
+    allowed(document, "energy.anisotropy", value, sensible, &expected)
+}
+
+/// Greatest price of a sign: no sign that the tolerances have is as dear.
+const MOST_PRICE: f64 = 1e6;
+
+/// What a sign may cost.
+pub(super) fn price(document: &mut Document<'_>) -> Option<f64> {
+    let value = document.number("signs.price")?;
+    let expected = format!("a positive number, {MOST_PRICE:.0e} at most");
+    allowed(document, "signs.price", value, value > 0.0 && value <= MOST_PRICE, &expected)
+}
+
+/// Greatest smoothing weight: nothing but the energy is left well below it.
+const MOST_WEIGHT: f64 = 1e9;
+
+pub(super) fn weight(document: &mut Document<'_>) -> Option<Option<f64>> {
+    let Scalar::Measure(measure) = document.number_or_word("energy.weight")? else { return Some(None) };
+    let sensible = measure.value > 0.0 && measure.value <= MOST_WEIGHT;
+    let expected = format!("a positive number, {MOST_WEIGHT:.0e} at most, or \"auto\"");
+    allowed(document, "energy.weight", measure.value, sensible, &expected).map(Some)
+}
