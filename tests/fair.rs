@@ -649,6 +649,45 @@ fn unknown_offsets_are_predicted() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
+/// Single lines that bend more often, and an order that the table cannot have, are warned of on stderr.
+#[test]
+fn what_is_not_what_was_hoped_for_is_warned_of() {
+    let out = folder("hoped").join("out").display().to_string();
+    let yacht = carried(YACHT).display().to_string();
+    let output = program(&["fair", &yacht, "-o", &out, "--no-figures", "--no-signs", "--order", "4"]);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("W402") && said.contains("waterline 0.900 m 5 > 6"), "{said}");
+    assert!(said.contains("W403") && said.contains("of order 3, not 4"), "{said}");
+}
+
+/// x of the yacht counts from near midship, and nothing says where AP is.
+#[test]
+fn what_stands_amidships_is_not_held_where_midship_is_not_known() {
+    let (job, outputs) = faired(&carried(YACHT), &[]);
+    let held: Vec<&str> = outputs.outcome.held.iter().map(|held| held.constraint.key()).collect();
+    assert_eq!(held, ["displacement", "lcb"]);
+    let page = fair_page(&job, &outputs, "out");
+    let head = &page[..page.find("offsets kept").unwrap()];
+    assert!(head.contains("midship is not known") && head.contains("Not stated, so assumed"), "{head}");
+    assert!(!page.contains("% L)"), "{page}");
+    // With L_PP, x is taken as it stands.
+    let (_, outputs) = faired(&carried(YACHT), &[("--job", "dimensions.Lpp", "17 m")]);
+    assert_eq!(outputs.outcome.held.len(), 3);
+}
+
+/// Cells that no part of the hull reads are listed as they stay.
+#[test]
+fn changes_list_every_offset_of_the_table() {
+    let (job, outputs) = faired(&carried(TABLE), &[]);
+    let given = |cell: &&loftsman::hull::Cell| cell.value().is_some();
+    let all = job.table.stations.iter().flat_map(|station| &station.half_breadths).filter(given).count();
+    let changes = file(&outputs, "changes.csv");
+    let not_used = changes.lines().filter(|row| row.ends_with(",not used")).count();
+    assert_eq!(changes.lines().count() - 1, all);
+    assert_eq!(not_used, all - outputs.outcome.changes.len());
+}
+
 #[test]
 fn every_job_of_the_examples_runs() {
     let mut files: Vec<PathBuf> =

@@ -65,7 +65,7 @@ pub(super) struct Arguments {
     /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
-    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on plain hulls, else 3]
+    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on hulls with plumb ends over a rectangle, where alone it can be had, else 3]
     #[arg(long, value_name = "N")]
     order: Option<String>,
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
@@ -80,7 +80,7 @@ pub(super) struct Arguments {
     /// Take knuckles and tangent lines that are proposed: "L1,L2", or "all"
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
-    /// What forbidding a change of curvature may cost at most: sum of squares of moves over the noise squared [default: 12]
+    /// What forbidding the changes of curvature of a line may cost at most: sum of squares of moves over the noise squared [default: 12]
     #[arg(long, value_name = "NUMBER", conflicts_with = "no_signs")]
     sign_price: Option<String>,
     /// Do not forbid changes of curvature that are noise
@@ -180,14 +180,12 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     if let Err(failure) = destination.check(job.outputs().iter().map(String::as_str)) {
         return (Some(job), Err(failure));
     }
-    let [stations, waterlines, offsets] = job.size();
-    progress(format!(
-        "{}: {}, {}, {}",
-        job.table.name,
-        counted(stations, "station"),
-        counted(waterlines, "waterline"),
-        counted(offsets, "offset")
-    ));
+    let [stations, waterlines, offsets, points] = job.size();
+    let of = [(waterlines, "waterline"), (offsets, "offset"), (points, "point")];
+    let of = of.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {}", counted(*count, what)));
+    progress(format!("{}: {}{}", job.table.name, counted(stations, "station"), of.collect::<String>()));
+    let scale = job.reading.iter().filter(|note| note.code == "W320");
+    scale.for_each(|note| stream::message(&note.to_string()));
     let told = |text: &str| progress(format!("{:6.1} s  {text}", start.elapsed().as_secs_f64()));
     let outputs = match fair_outputs_telling(&job, !arguments.files.no_figures, &told) {
         Ok(outputs) => outputs,
@@ -195,7 +193,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     let seconds = start.elapsed().as_secs_f64();
     progress(format!("faired in {seconds:.2} s"));
-    outputs.warning().iter().for_each(|warning| stream::message(warning));
+    outputs.warnings().iter().for_each(|warning| stream::message(warning));
     let written = destination.write_run(&outputs.files).map(|()| (outputs, seconds));
     (Some(job), written)
 }

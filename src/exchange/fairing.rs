@@ -387,9 +387,11 @@ fn without_noise(value: f64) -> f64 {
 }
 
 /// One row an offset: station, waterline (`deck` for the deck at side, `point 0.6` for point 6 of outline 0, which
-/// count from 0 as in files that number them), place, before, after, move (outward positive), tolerance, the share of it that is used, whether it is
-/// locked or was left out as a suspect, and its text in the old table and in `written`, the new one as it is read back.
-/// Last, with nothing before, the offsets that were unknown.
+/// count from 0 as in files that number them), place, before, after, move (outward positive), tolerance, the share of it
+/// that is used, whether it is locked or was left out as a suspect, and its text in the old table and in `written`, the
+/// new one as it is read back.
+/// Then, with nothing before, the offsets that were unknown, and with nothing after those that no part of the hull reads
+/// (zeros before it begins, stations that were left out): they stay as written.
 #[must_use]
 pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&OffsetTable>) -> String {
     let head = [
@@ -456,6 +458,19 @@ pub fn changes_csv(table: &OffsetTable, outcome: &Outcome, written: Option<&Offs
             written.map(text).unwrap_or_default(),
             status_word(outcome.status).to_owned(),
         ]));
+    }
+    for (s, station) in table.stations.iter().enumerate() {
+        for (w, given) in station.half_breadths.iter().enumerate() {
+            let read = |change: &Change| change.station == s && change.origin.waterline() == Some(w);
+            let Some(value) = given.value().filter(|_| !outcome.changes.iter().any(read)) else { continue };
+            let z = cell(table.waterlines.get(w).copied());
+            let text = cell_text(table, s, w);
+            let mut row =
+                [station.station.name.clone(), z.clone(), cell(Some(station.station.x)), z, cell(Some(value))].to_vec();
+            row.resize(head.len() - 3, String::new());
+            row.extend([text.clone(), text, "not used".to_owned()]);
+            csv.push_str(&line(&row));
+        }
     }
     csv
 }

@@ -343,8 +343,8 @@ pub fn read_changes(text: &str, lines: &TableLines, offsets: Option<usize>) -> R
             expected,
         };
         let field = |column: usize| record.get(at[column]).unwrap_or_default();
-        if field(3).is_empty() && !field(4).is_empty() {
-            // It was unknown before.
+        if field(3).is_empty() != field(4).is_empty() {
+            // It was unknown before, or no part of the hull reads it.
             continue;
         }
         let number = |column: usize| {

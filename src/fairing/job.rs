@@ -42,7 +42,8 @@ pub enum Holding {
 }
 
 impl Holding {
-    /// The constraints, of the surface through the table where they are its own. Where displacement and C_B, or the area
+    /// The constraints, of the surface through the table where they are its own; without its own C_M where midship is not
+    /// known ([`Hull::counts_from_aft_perpendicular`]). Where displacement and C_B, or the area
     /// amidships and C_M, say the same to the digits in which the coefficient is written, the coefficient is left out.
     ///
     /// # Errors
@@ -50,17 +51,22 @@ impl Holding {
     pub(super) fn constraints(&self, before: &Hull) -> Result<Vec<Constraint>, JobError> {
         let valued = |constraint: &Constraint| constraint.with_target(constraint.value(before));
         let p = before.particulars();
+        // The section amidships of a hull whose midship is not known is any section.
+        let counts = before.counts_from_aft_perpendicular();
+        let known_place = |constraint: &&Constraint| counts || !matches!(constraint, Constraint::MidshipCoefficient(_));
         let mut constraints: Vec<Constraint> = match self {
             Self::Given(list) => list.clone(),
             Self::Both { own: list, given } => {
                 // A section above the water has no area.
                 let least = EMPTY * p.breadth * p.draught;
                 let there = |c: &Constraint| !matches!(c, Constraint::SectionArea { area, .. } if *area <= least);
-                list.iter().map(valued).filter(there).chain(given.iter().copied()).collect()
+                let own = list.iter().filter(known_place).map(valued).filter(there);
+                own.chain(given.iter().copied()).collect()
             }
             Self::Table => {
                 [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
                     .iter()
+                    .filter(known_place)
                     .map(valued)
                     .collect()
             }

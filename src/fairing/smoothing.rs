@@ -23,8 +23,9 @@ pub const GAMMA: f64 = 1.2;
 /// Powers of ten of lambda that are scanned.
 const SCAN: [f64; 2] = [-11.0, 6.0];
 
-/// Least power of ten of the weight that is taken for a given noise.
+/// Least and greatest power of ten of the weight that is taken for a given noise.
 const LEAST: f64 = -7.0;
+const GREATEST: f64 = 9.0;
 
 /// Weight of the start, over the mean of the diagonal of A'WA. It decides where the offsets say little: between them a
 /// net that only smooths them swings by more than it takes out (1e-5 instead: 9.8 mm for 3.4 mm on an S-175 with 2 mm
@@ -290,6 +291,13 @@ impl Smoother {
             power -= 1.0;
         }
         let least = |trials: &[Trial]| trials.iter().copied().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        // The scan ends where the offsets of most tables say nothing any more; those of a table that is far smoother than
+        // its length (a bulb, a transom of many offsets) still do.
+        let mut power = SCAN[1];
+        while power < GREATEST && least(&trials).is_some_and(|best| best.lambda >= 10f64.powf(power)) {
+            power += 1.0;
+            trials.extend(self.trial(10f64.powf(power)));
+        }
         if let Some(best) = least(&trials) {
             trials.extend([-0.5, 0.5].iter().filter_map(|step| self.trial(best.lambda * 10f64.powf(*step))));
         }

@@ -23,6 +23,12 @@ use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
 /// less does not fall, and stations on which x differs by less are upright.
 const ROUNDING: f64 = 1e-12;
 
+/// Lengths that differ by less than this part are one.
+const SAME_LENGTH: f64 = 1e-6;
+
+/// Part of L_PP that the aft end of a length that was not stated may stand from AP.
+const FROM_PERPENDICULAR: f64 = 0.01;
+
 /// Why data do not make a hull.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HullError {
@@ -361,6 +367,19 @@ impl Hull {
         let v = self.height_parameter(z)?;
         let (a, b) = self.surface.u().domain();
         Some([self.surface.eval(a, v)[0], self.surface.eval(b, v)[0]])
+    }
+
+    /// Whether midship is L_PP/2 forward of x = 0. It is not where L_PP is the length of the waterline at the design
+    /// draught, or of the hull, and that does not begin within a hundredth of L_PP of x = 0: x counts from elsewhere.
+    #[must_use]
+    pub fn counts_from_aft_perpendicular(&self) -> bool {
+        let length = self.particulars.length_between_perpendiculars;
+        let along = self.surface.points().iter().map(|point| point[0]);
+        let hull = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let elsewhere = |[aft, fore]: [f64; 2]| {
+            (fore - aft - length).abs() <= SAME_LENGTH * length && aft.abs() > FROM_PERPENDICULAR * length
+        };
+        ![self.endings(self.particulars.draught), Some(hull)].into_iter().flatten().any(elsewhere)
     }
 
     /// Height of the deck at side at `x` \[m\]; beyond the ends of the deck, the height of its end.

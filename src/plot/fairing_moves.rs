@@ -332,8 +332,9 @@ fn key(canvas: &mut Canvas, map: &Map, y: f64) {
     }
     let place = Rectangle::new(x, y - 3.0, x + 10.0, y + 3.0);
     canvas.fill(&place, "#e4e4e4");
-    canvas.text([x + 12.0, y], "no offset", &style);
-    x = Canvas::text_place([x + 12.0, y], "no offset", &style).right + 7.0;
+    let word = "no offset, or beyond the hull";
+    canvas.text([x + 12.0, y], word, &style);
+    x = Canvas::text_place([x + 12.0, y], word, &style).right + 7.0;
     for (kind, word) in [(LineKind::Knuckle, "knuckle"), (LineKind::Tangent, "tangent line")] {
         diamond(canvas, [x, y], kind);
         canvas.text([x + 3.0, y], word, &style);

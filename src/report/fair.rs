@@ -172,12 +172,13 @@ impl FairJob {
         &self.files
     }
 
-    /// Stations, waterlines and offsets of the table.
+    /// Stations, waterlines, offsets on them and points of sections of the table.
     #[must_use]
-    pub fn size(&self) -> [usize; 3] {
+    pub fn size(&self) -> [usize; 4] {
         let cells = self.table.stations.iter().flat_map(|station| &station.half_breadths);
         let given = cells.filter(|cell| cell.value().is_some()).count();
-        [self.table.stations.len(), self.table.waterlines.len(), given]
+        let points = self.table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum();
+        [self.table.stations.len(), self.table.waterlines.len(), given, points]
     }
 }
 

@@ -4,7 +4,7 @@ use super::fair::{FairJob, FairOutputs};
 use super::page::{WIDTH, fixed, fixed_sign, wrapped};
 use super::verdict::more_than;
 use crate::exchange::{priced, reached, status_word};
-use crate::fairing::constraint::Constraint;
+use crate::fairing::constraint::{Constraint, Rule};
 use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::outcome::{Change, Outcome};
@@ -119,10 +119,14 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
             Some(s) => (s.id.as_str(), s.written.as_str(), s.hypothesis().as_str()),
             None => ("", "", ""),
         };
+        let metres = match written.parse::<f64>() {
+            Ok(value) if (value - change.before).abs() < 1e-9 => String::new(),
+            _ => format!(", {} m", fixed(change.before, 4)),
+        };
+        let read = found.map_or(String::new(), |s| format!(" for {}", s.proposed_text));
         let text = format!(
-            "  {id} {}: written {written}, {} m; the fair hull has {} m ({why})",
+            "  {id} {}: written {written}{metres} ({why}{read}); the fair hull has {} m",
             place(job, change),
-            fixed(change.before, 4),
             fixed(change.after, 4)
         );
         page.push_str(&format!("  {}", wrapped(&text, 5)));
@@ -168,7 +172,7 @@ fn signed(length: f64) -> String {
 }
 
 /// A constraint before and after, and what holding it costs.
-fn held_line(held: &Held, length: f64, nearest: bool) -> String {
+fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
     let target = held.constraint.target();
     let (unit, decimals) = match held.constraint {
         Constraint::Displacement(_) => (" m3", 3),
@@ -179,8 +183,8 @@ fn held_line(held: &Held, length: f64, nearest: bool) -> String {
         Constraint::WaterplaneArea(_) | Constraint::SectionArea { .. } | Constraint::WettedSurface(_) => (" m2", 3),
         _ => ("", 6),
     };
-    let percent = match held.constraint {
-        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => {
+    let percent = match (held.constraint, length) {
+        (Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_), Some(length)) => {
             format!(" ({:+.3} % L)", 100.0 * (held.after / length - 0.5))
         }
         _ => String::new(),
@@ -222,8 +226,8 @@ fn more_than_asked(outputs: &FairOutputs) -> String {
         0 => String::new(),
         n => wrapped(
             &format!(
-                "{} than was asked of {}, {} than before, in the dead band or between the places of their signs: asked and after in \
-                 fairing.json.",
+                "{} than was asked of {}, {} than before (asked and after in fairing.json): signs are asked for at places along a \
+                 line, and what is held may leave it no room for them.",
                 counted(n, "line bends more often", "lines bend more often"),
                 if n == 1 { "it" } else { "them" },
                 match worse {
@@ -247,6 +251,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     };
     let mut line = format!("Displacement {} -> {} t{change}.", mass(before), mass(after));
     let length = outputs.outcome.after.particulars().length_between_perpendiculars;
+    let from_midship = outputs.outcome.before.counts_from_aft_perpendicular().then_some(length);
     if let (Some(a), Some(b)) = (before.lcb, after.lcb) {
         line.push_str(&format!(" LCB {}.", fixed_sign(100.0 * (b - a) / length, 3, " % L")));
     }
@@ -284,7 +289,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     let whole = areas.len() > MOST_AREAS;
     for held in &outputs.outcome.held {
         if !(whole && matches!(held.constraint, Constraint::SectionArea { .. })) {
-            page.push_str(&wrapped(&held_line(held, length, outputs.outcome.nearest), 2));
+            page.push_str(&wrapped(&held_line(held, from_midship, outputs.outcome.nearest), 2));
         }
     }
     if whole {
@@ -309,7 +314,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         page.push_str(&wrapped(line, 2));
     }
     for held in &outputs.outcome.rules {
-        let words = held.rule.words();
+        let words = held.rule.words() + &stays(&held.rule, &outputs.outcome);
         let binds = match held.binding {
             _ if held.given_up => "GIVEN UP, it cannot be had with the other wishes".to_owned(),
             0 => "does not bind".to_owned(),
@@ -338,7 +343,9 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let p = outcome.after.particulars();
     let mut page = format!("{name}: {}\n", status_word(outcome.status));
     let length = p.length_between_perpendiculars;
-    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.breadth, p.draught, p.depth));
+    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n", p.breadth, p.draught, p.depth));
+    page.push_str(&assumed(job, outcome));
+    page.push('\n');
     verdict(job, outcome, &mut page);
     page.push('\n');
     hydrostatics(outputs, &mut page);
@@ -393,6 +400,49 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();
     page.push_str(&wrapped(&format!("Written to {folder}: {}.", names.join(", ")), 2));
     page
+}
+
+/// What is held, and all figures, stand on dimensions that nobody stated: said before all figures.
+fn assumed(job: &FairJob, outcome: &Outcome) -> String {
+    let stated = &job.table.stated;
+    let dimensions = [
+        ("Lpp", stated.length_between_perpendiculars),
+        ("B", stated.breadth),
+        ("T (displacement is held up to it)", stated.draught),
+        ("D", stated.depth),
+    ];
+    let names: Vec<&str> = dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect();
+    let mut text = if names.is_empty() {
+        String::new()
+    } else {
+        wrapped(&format!("Not stated, so assumed (see the notes): {}.", names.join(", ")), 2)
+    };
+    if !outcome.before.counts_from_aft_perpendicular() {
+        let line = "x does not count from AP and no Lpp is stated: midship is not known, C_M is not held and LCB not related to it.";
+        text.push_str(&wrapped(line, 2));
+    }
+    text
+}
+
+/// A move that nobody sees [m].
+const STAYS: f64 = 1e-6;
+
+/// How many offsets of a flat that the table shows stay: it is held a cell inside of its outermost offsets.
+fn stays(rule: &Rule, outcome: &Outcome) -> String {
+    let Rule::FlatShown { half_breadth, .. } = rule else { return String::new() };
+    let on_it = outcome.changes.iter().filter(|change| !change.suspect && (change.before - half_breadth).abs() < STAYS);
+    let moves: Vec<f64> = on_it.map(|change| (change.after - change.before).abs()).collect();
+    let edge: Vec<f64> = moves.iter().copied().filter(|size| *size > STAYS).collect();
+    if edge.is_empty() {
+        return String::new();
+    }
+    format!(
+        ", of {} offsets at that half-breadth {} within it stay, {} at its edges move by {} mm at most",
+        moves.len(),
+        moves.len() - edge.len(),
+        edge.len(),
+        millimetres(edge.iter().copied().fold(0.0, f64::max))
+    )
 }
 
 /// A line that is proposed, and what it would bring.

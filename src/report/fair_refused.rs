@@ -7,15 +7,71 @@ use super::page::upward;
 use crate::config::{Diagnostic, Place, Severity};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::infeasible::{Diagnosis, Reach};
+use crate::fairing::outcome::Turns;
+use crate::hull::Cut;
 use crate::qp::Status;
+
+/// Lines that a warning names.
+const NAMED: usize = 4;
 
 /// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
 const NEAR: f64 = 1e-6;
 
 impl FairOutputs {
-    /// What was had and is no fairer than the table for that, in words for the one who reads nothing else.
+    /// What was had and is not what was hoped for, in words for the one who reads nothing else: lines that bend more
+    /// often than before, all together or single ones, and an energy of another order.
     #[must_use]
-    pub fn warning(&self) -> Option<String> {
+    pub fn warnings(&self) -> Vec<String> {
+        let bends = self.bends_more().or_else(|| self.lines_bend_more());
+        bends.into_iter().chain(self.other_order()).collect()
+    }
+
+    fn warning(&self, code: &'static str, message: String, help: &str) -> String {
+        let told = problem(code, &self.table_file, message, help);
+        Diagnostic { severity: Severity::Warning, ..told }.to_string()
+    }
+
+    /// Single lines that bend more often than before.
+    fn lines_bend_more(&self) -> Option<String> {
+        let outcome = &self.outcome;
+        let worse: Vec<_> = outcome.turns.iter().filter(|turns| turns.after > turns.before).collect();
+        if outcome.status != Status::Optimal || worse.is_empty() {
+            return None;
+        }
+        let name = |turns: &&Turns| {
+            let place = match turns.cut {
+                Cut::Station { x } => format!("station at x = {x:.3} m"),
+                Cut::Waterline { z } => format!("waterline {z:.3} m"),
+                Cut::Buttock { y } => format!("buttock {y:.3} m"),
+                Cut::Diagonal { .. } | Cut::Plane { .. } => "a diagonal".to_owned(),
+            };
+            format!("{place} {} > {}", turns.before, turns.after)
+        };
+        let mut names: Vec<String> = worse.iter().take(NAMED).map(name).collect();
+        if worse.len() > NAMED {
+            names.push(format!("{} more", worse.len() - NAMED));
+        }
+        let bend = if worse.len() == 1 { "line bends" } else { "lines bend" };
+        let message = format!("{} {bend} more often than before: {}", worse.len(), names.join(", "));
+        Some(self.warning(
+            "W402",
+            message,
+            "Allow them fewer inflections under shape.inflections, or less smoothing (--weight)",
+        ))
+    }
+
+    /// An energy of another order than was asked for.
+    fn other_order(&self) -> Option<String> {
+        let taken = self.outcome.order;
+        let wanted = self.said.order.filter(|wanted| *wanted != taken)?;
+        let message = format!(
+            "the energy is of order {taken}, not {wanted}: one of order {wanted} needs a net of its own, which does not follow this table"
+        );
+        Some(self.warning("W403", message, &format!("Ask for order {taken}")))
+    }
+
+    /// Lines that bend more often all together.
+    fn bends_more(&self) -> Option<String> {
         let outcome = &self.outcome;
         let [before, after] = outcome.all_inflections();
         if outcome.status != Status::Optimal || after <= before {
@@ -26,8 +82,7 @@ impl FairOutputs {
         });
         let message =
             format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
-        let told = problem("W401", &self.table_file, message, format!("Ask for nearer targets{wider}"));
-        Some(Diagnostic { severity: Severity::Warning, ..told }.to_string())
+        Some(self.warning("W401", message, &format!("Ask for nearer targets{wider}")))
     }
 
     /// The failure that ends the program when the wishes cannot all be had.

@@ -72,6 +72,11 @@ impl Destination<'_> {
                 path.display()
             )));
         }
+        // A device, a pipe or a folder is no file that can be replaced by another.
+        if let Some(path) = paths.iter().find(|path| path.metadata().is_ok_and(|data| !data.is_file())) {
+            let error = std::io::Error::new(std::io::ErrorKind::InvalidInput, "there, and no file");
+            return Err(Failure::FileSystem { act: "write", path: path.clone(), error });
+        }
         let there = paths.into_iter().filter(|path| !self.force && path.symlink_metadata().is_ok());
         let there: Vec<PathBuf> = there.collect();
         if there.is_empty() { Ok(()) } else { Err(Failure::Exists(there)) }
@@ -121,8 +126,10 @@ impl Destination<'_> {
             })?;
         }
         for file in files {
-            let temporary = folder.join(format!(".{}.{}.part", file.name, std::process::id()));
+            // What a link points to is written, not the link.
             let path = folder.join(&file.name);
+            let path = path.canonicalize().unwrap_or(path);
+            let temporary = path.with_file_name(format!(".{}.{}.part", file.name, std::process::id()));
             let written = fs::write(&temporary, &file.contents).and_then(|()| fs::rename(&temporary, &path));
             if let Err(error) = written {
                 // The half-written file is of no use; that it cannot be removed either adds nothing to the message.

@@ -202,9 +202,9 @@ fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, p
             _ => (-aft, "a point that is not named; the aftermost section is taken as AP"),
         }
     };
-    let message = format!(
-        "sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}; moved forward by {shift:.4} m"
-    );
+    let moved = if shift.abs() > 0.0 { format!("; moved forward by {shift:.4} m") } else { String::new() };
+    let message =
+        format!("sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}{moved}");
     problems.warning("W330", Place::FILE, message, "");
     shift
 }

@@ -4,7 +4,7 @@
 //! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs
 //! becomes a matrix; sections of points keep the format of their program, or become a tidy table.
 
-use super::header::side_name;
+use super::header::{in_unit, side_name};
 use super::tidy;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
@@ -401,7 +401,7 @@ impl Writer {
             format!("{first}\\{across} [{}]", self.form.notation.as_str())
         };
         let corner = if half { &self.form.corner } else { &self.form.buttock_corner };
-        let corner = corner.clone().unwrap_or(own);
+        let corner = corner.as_ref().map_or(own, |corner| in_unit(corner, self.form.notation));
         let mut order: Vec<usize> = (0..if half { table.waterlines.len() } else { table.buttocks.len() }).collect();
         if self.form.waterline_order == Order::Falling && half {
             order.reverse();

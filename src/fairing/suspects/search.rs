@@ -40,6 +40,10 @@ const EXCHANGED: f64 = 1.5;
 /// Neighbours for which a suspect may be exchanged: steps along the station, stations across.
 const EXCHANGES: [(isize, isize); 12] =
     [(0, 1), (0, -1), (1, 0), (-1, 0), (0, 2), (0, -2), (2, 0), (-2, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+/// Cells before one that make a straight run which goes on to it, and how far they may be off their chord, in steps of
+/// the writing: what rounding does.
+const STRAIGHT: isize = 3;
+const STEP: f64 = 0.5 + 1e-6;
 /// Reach along the lines, and the lines beside, of the cells that an exchange is judged by.
 const REACH: isize = 3;
 
@@ -261,9 +265,31 @@ impl Search<'_> {
         odds / (1.0 + odds)
     }
 
+    /// Whether the cell is in line with the three before it on one side, to the writing: a wall or a panel goes on to
+    /// it and ends there, which says nothing against it.
+    fn ends_a_straight_run(&self, cell: usize) -> bool {
+        let grid = &self.judge.grid;
+        let sides = Along::BOTH.into_iter().flat_map(|along| [(along, -1), (along, 1)]);
+        sides.into_iter().any(|(along, step)| {
+            let places: Option<Vec<(f64, f64)>> = (0..=STRAIGHT)
+                .map(|far| {
+                    let other = grid.shifted(along, cell, far * step, 0)?;
+                    let value = self.written[other];
+                    let counts = value > 0.0 && (other == cell || !self.judge.is_masked(other));
+                    counts.then(|| (grid.coordinate(along, other), value))
+                })
+                .collect();
+            places.is_some_and(|places| {
+                let [(a, first), .., (b, last)] = places[..] else { return false };
+                let chord = |t: f64| first + (last - first) * (t - a) / (b - a);
+                places.iter().all(|&(t, value)| (value - chord(t)).abs() <= STEP * self.quantum)
+            })
+        })
+    }
+
     /// Whether the verdict makes the cell a suspect.
     fn stands_out(&self, verdict: &Verdict) -> bool {
-        if verdict.score().abs() < LEAST_SCORE {
+        if verdict.score().abs() < LEAST_SCORE || self.ends_a_straight_run(verdict.cell) {
             return false;
         }
         self.probability(verdict) >= LEAST_PROBABILITY

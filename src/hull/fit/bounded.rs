@@ -111,16 +111,18 @@ impl Line {
         runs
     }
 
-    /// Where the spline falls below `lowest` between two sites, both get the slopes of the monotone cubic of the data,
-    /// so that on double knots it is that cubic between them. Tells whether there are such gaps.
-    pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64) -> bool {
-        if control.iter().all(|&c| c >= lowest) {
+    /// Where the spline falls below `lowest` between two sites, or leaves the limits of the gap by more than `wild` for
+    /// all pulling back, both get the slopes of the monotone cubic of the data, so that on double knots it is that cubic
+    /// between them. Tells whether there are such gaps.
+    pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64, wild: f64) -> bool {
+        let outside = self.outside(knots, control);
+        let mut gaps: Vec<usize> = outside.into_iter().filter(|(_, beyond)| *beyond > wild).map(|(k, _)| k).collect();
+        if gaps.is_empty() && control.iter().all(|&c| c >= lowest) {
             return false;
         }
         let Ok(curve) = curve_of(knots, control) else { return false };
         let points = self.points();
-        let gaps: Vec<usize> =
-            (0..self.limits.len()).filter(|&k| self.looks(&curve, k).any(|value| value < lowest)).collect();
+        gaps.extend((0..self.limits.len()).filter(|&k| self.looks(&curve, k).any(|value| value < lowest)));
         let before = self.slopes.len();
         for k in gaps.into_iter().flat_map(|k| [k, k + 1]) {
             if self.slopes.iter().all(|s| s.0 != k) {
@@ -320,4 +322,29 @@ pub(super) fn with_knots(knots: &KnotVector, mut middles: Vec<f64>) -> Result<Kn
     all.extend(added);
     all.sort_by(f64::total_cmp);
     Ok(KnotVector::new(knots.degree(), all).map_err(HullError::from)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A blunt end a tenth of the last space away: what swings far beyond the cells beside it follows the monotone cubic.
+    #[test]
+    fn a_row_that_swings_far_beyond_its_cells_is_steered() {
+        let sites = vec![0.0, 0.3, 0.6, 0.9, 1.0];
+        let values = vec![0.0, 2.9, 3.1, 2.7, 0.0];
+        let mut line = Line::within(sites.clone(), values.clone(), vec![0.0; 5], [0.0, 10.0], 1e-3);
+        let knots = KnotVector::from_breakpoints(3, &sites, &[2; 3]).unwrap();
+        let energy = Energy::new(&knots, 2);
+        let wild: Vec<f64> = line.free(&energy).unwrap();
+        let between = |control: &[f64]| curve_of(&knots, control).unwrap().eval(0.75)[0];
+        // Least energy alone: wider than both cells.
+        assert!(between(&wild) > 3.2, "{}", between(&wild));
+        assert!(line.steer(&knots, &wild, -1.0, 0.05));
+        let steered = line.free(&energy).unwrap();
+        assert!((2.7..3.1).contains(&between(&steered)), "{}", between(&steered));
+        // What stays within its limits is left alone.
+        let mut calm = Line::within(sites, values, vec![0.0; 5], [0.0, 10.0], 1e-3);
+        assert!(!calm.steer(&knots, &steered, -1.0, 0.05));
+    }
 }

@@ -182,7 +182,7 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
             Origin::BeforeZero,
             "ends where it closes when continued straight, at its zero at the latest: zeros of neighbours stand at other stations",
         ),
-        (Origin::Cut, "is cut off at the last station, where it still has breadth (transom)"),
+        (Origin::Cut, "is cut off at the last station, where it still has breadth"),
         (Origin::Continued, "ends where it closes when continued straight, before the next station"),
     ] {
         for (side, name) in SIDES.iter().enumerate() {
@@ -191,7 +191,7 @@ pub(super) fn prepare(table: &OffsetTable) -> Result<Rows, FitError> {
                 let which = if lines.len() == 1 {
                     format!("the waterline at z = {first:.3} m")
                 } else {
-                    format!("each of {} waterlines from z = {first:.3} to {last:.3} m", lines.len())
+                    format!("each of {} waterlines between z = {first:.3} and {last:.3} m", lines.len())
                 };
                 notes.push(format!("{name}: {which} {words}"));
             }

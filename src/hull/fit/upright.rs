@@ -210,7 +210,7 @@ impl Net {
     }
 }
 
-/// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the outermost ones, B twice the
+/// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the ends of the hull, B twice the
 /// greatest half-breadth, D the highest point, T seven tenths of the height up to the lowest upper edge. What was not
 /// stated is noted.
 pub(super) fn particulars(
@@ -223,7 +223,7 @@ pub(super) fn particulars(
     let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
     let length = last.x - first.x;
     let (length, how) =
-        length_by_stations(table, length).map_or((length, "between the outermost stations"), |l| (l, BY_STATIONS));
+        length_by_stations(table, length).map_or((length, "between the ends of the hull"), |l| (l, BY_STATIONS));
     let (length, lowest) = (length, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
     let top = lowest + size.depth;
     let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {

@@ -97,7 +97,8 @@ pub(super) fn sections(table: &OffsetTable, notes: &mut Vec<String>) -> Vec<Sect
     ] {
         if let Some(most) = list.iter().map(|h| h.1).max_by(f64::total_cmp) {
             let names: Vec<&str> = list.iter().map(|h| h.0.as_str()).collect();
-            notes.push(format!("stations {} have {what} {most:.3} m", names.join(", ")));
+            let (station, have) = if names.len() == 1 { ("station", "has") } else { ("stations", "have") };
+            notes.push(format!("{station} {} {have} {what} {most:.3} m", names.join(", ")));
         }
     }
     result.sort_by(|a, b| a.x.total_cmp(&b.x));
