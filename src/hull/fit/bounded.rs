@@ -22,6 +22,13 @@ const EQUAL: f64 = 1e-6;
 /// Rounds of pulling back; a round frees neighbours that were held by the swing before.
 const ROUNDS: usize = 4;
 
+/// Further rounds for gaps in which the spline leaves its limits by more than this many tolerances though it is held in
+/// the middle: beside a blunt end a fraction of the gap away (the dome of DTMB 5415 was 4.4 m wide between offsets of 3.1
+/// and 2.7 m). It is held once more where it is furthest out, this part of the gap from what it meets there.
+const WILD_ROUNDS: usize = 8;
+const WILD: f64 = 50.0;
+const APART: f64 = 0.1;
+
 /// Data on one line: sites rising, values, slacks, and how far the spline may go in each gap.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
@@ -111,18 +118,16 @@ impl Line {
         runs
     }
 
-    /// Where the spline falls below `lowest` between two sites, or leaves the limits of the gap by more than `wild` for
-    /// all pulling back, both get the slopes of the monotone cubic of the data, so that on double knots it is that cubic
-    /// between them. Tells whether there are such gaps.
-    pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64, wild: f64) -> bool {
-        let outside = self.outside(knots, control);
-        let mut gaps: Vec<usize> = outside.into_iter().filter(|(_, beyond)| *beyond > wild).map(|(k, _)| k).collect();
-        if gaps.is_empty() && control.iter().all(|&c| c >= lowest) {
+    /// Where the spline falls below `lowest` between two sites, both get the slopes of the monotone cubic of the data,
+    /// so that on double knots it is that cubic between them. Tells whether there are such gaps.
+    pub(super) fn steer(&mut self, knots: &KnotVector, control: &[f64], lowest: f64) -> bool {
+        if control.iter().all(|&c| c >= lowest) {
             return false;
         }
         let Ok(curve) = curve_of(knots, control) else { return false };
         let points = self.points();
-        gaps.extend((0..self.limits.len()).filter(|&k| self.looks(&curve, k).any(|value| value < lowest)));
+        let gaps: Vec<usize> =
+            (0..self.limits.len()).filter(|&k| self.looks(&curve, k).any(|value| value < lowest)).collect();
         let before = self.slopes.len();
         for k in gaps.into_iter().flat_map(|k| [k, k + 1]) {
             if self.slopes.iter().all(|s| s.0 != k) {
@@ -217,6 +222,29 @@ impl Line {
         inside.min_by(|s, t| (s - middle).abs().total_cmp(&(t - middle).abs()))
     }
 
+    /// The knot inside gap `k` nearest to where the spline is furthest beyond its limits, apart from the sites and from
+    /// what is held; none where there is none.
+    fn knot_at_worst(
+        &self,
+        k: usize,
+        (knots, breaks): (&KnotVector, &[f64]),
+        control: &[f64],
+        held: &[(usize, f64)],
+    ) -> Option<f64> {
+        let curve = curve_of(knots, control).ok()?;
+        let ([a, b], [low, high]) = ([self.sites[k], self.sites[k + 1]], self.limits[k]);
+        let beyond = |value: f64| (low - value).max(value - high);
+        let looks = self.looks(&curve, k).map(beyond).enumerate();
+        let (worst, _) = looks.max_by(|x, y| x.1.total_cmp(&y.1))?;
+        let worst = a + (b - a) * (worst + 1) as f64 / (LOOKS + 1) as f64;
+        let apart = |t: f64| {
+            let margin = APART * (b - a);
+            (a + margin..=b - margin).contains(&t) && held.iter().all(|h| (h.1 - t).abs() >= margin)
+        };
+        let inside = breaks.iter().copied().filter(|&t| apart(t));
+        inside.min_by(|s, t| (s - worst).abs().total_cmp(&(t - worst).abs()))
+    }
+
     /// The control values; `free` is the solution without limits. Only gaps with a knot inside are pulled back: in others
     /// one more datum would make the spline swing elsewhere. A round that makes it swing much more is not
     /// taken.
@@ -234,12 +262,21 @@ impl Line {
             }
             Some(energy.smoothing(&conditions, &slacks).ok()?.solve(&data))
         };
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS + WILD_ROUNDS {
             let mut gaps: Vec<(usize, f64, f64)> = self
                 .outside(energy.knots(), &control)
                 .into_iter()
-                .filter(|gap| held.iter().all(|h| h.0 != gap.0))
-                .filter_map(|(k, by)| self.knot_inside(k, &breaks).map(|site| (k, site, by)))
+                .filter_map(|(k, by)| {
+                    let again = held.iter().any(|h| h.0 == k);
+                    let site = if again && by > WILD * self.tolerance {
+                        self.knot_at_worst(k, (energy.knots(), &breaks), &control, &held)?
+                    } else if again || round >= ROUNDS {
+                        return None;
+                    } else {
+                        self.knot_inside(k, &breaks)?
+                    };
+                    Some((k, site, by))
+                })
                 .collect();
             gaps.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
             // All of them at once, or the worst alone.
@@ -328,23 +365,22 @@ pub(super) fn with_knots(knots: &KnotVector, mut middles: Vec<f64>) -> Result<Kn
 mod tests {
     use super::*;
 
-    /// A blunt end a tenth of the last space away: what swings far beyond the cells beside it follows the monotone cubic.
+    /// The waterline 1 m below the base line of DTMB 5415, whose dome ends a fraction of the last space forward.
     #[test]
-    fn a_row_that_swings_far_beyond_its_cells_is_steered() {
-        let sites = vec![0.0, 0.3, 0.6, 0.9, 1.0];
-        let values = vec![0.0, 2.9, 3.1, 2.7, 0.0];
-        let mut line = Line::within(sites.clone(), values.clone(), vec![0.0; 5], [0.0, 10.0], 1e-3);
-        let knots = KnotVector::from_breakpoints(3, &sites, &[2; 3]).unwrap();
+    fn a_row_beside_a_blunt_end_is_held_until_it_does_not_swing() {
+        let sites = vec![0.0, 0.065, 0.135, 0.19, 0.5, 0.948, 1.0];
+        let values = vec![0.0, 1.7, 2.65, 2.973, 3.094, 2.74, 0.0];
+        let greatest = 10.2;
+        let line = Line::within(sites, values, vec![0.0; 7], [0.0, greatest], 1e-4 * greatest);
+        let knots = KnotVector::uniform(3, 60).unwrap();
         let energy = Energy::new(&knots, 2);
-        let wild: Vec<f64> = line.free(&energy).unwrap();
-        let between = |control: &[f64]| curve_of(&knots, control).unwrap().eval(0.75)[0];
-        // Least energy alone: wider than both cells.
-        assert!(between(&wild) > 3.2, "{}", between(&wild));
-        assert!(line.steer(&knots, &wild, -1.0, 0.05));
-        let steered = line.free(&energy).unwrap();
-        assert!((2.7..3.1).contains(&between(&steered)), "{}", between(&steered));
-        // What stays within its limits is left alone.
-        let mut calm = Line::within(sites, values, vec![0.0; 5], [0.0, 10.0], 1e-3);
-        assert!(!calm.steer(&knots, &steered, -1.0, 0.05));
+        let widest = |control: &[f64]| {
+            let curve = curve_of(&knots, control).unwrap();
+            (0..100).map(|k| curve.eval(0.5 + 0.00448 * f64::from(k))[0]).fold(0.0, f64::max)
+        };
+        let free = line.free(&energy).unwrap();
+        assert!(widest(&free) > 5.0, "{}", widest(&free));
+        let held = line.solve(&energy, free);
+        assert!(widest(&held) < 3.25, "{}", widest(&held));
     }
 }

@@ -145,13 +145,11 @@ pub(super) fn loft(table: &OffsetTable, prepared: Rows) -> Result<(Hull, Vec<Str
         parts.push(Part::new(rows, table.stations.len(), greatest, shape)?);
     }
     let mut lined = length_rows(&parts, greatest)?;
-    // Where a row falls below the centreplane between two cells, or swings far beyond them (a blunt end a fraction of the
-    // last space away: the dome of DTMB 5415 was 4.4 m wide between cells of 3.1 and 2.7 m), it follows the monotone
-    // cubic there.
+    // Where a row falls below the centreplane between two cells it follows the monotone cubic there.
     for _ in 0..STEERED {
         let (u, rows) = &lined;
         let lines = parts.iter_mut().flat_map(|p| &mut p.lines);
-        let steered = lines.zip(rows).map(|(line, control)| line.steer(u, control, -line.tolerance, WILD * greatest));
+        let steered = lines.zip(rows).map(|(line, control)| line.steer(u, control, -line.tolerance));
         if steered.filter(|&steered| steered).count() == 0 {
             break;
         }
