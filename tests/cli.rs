@@ -94,6 +94,33 @@ fn nothing_is_overwritten_without_force() {
     assert_ne!(fs::read(path.join("hull.json")).unwrap(), before);
 }
 
+/// What a link points to is written; a device is no file that another can take the place of, and a file no folder.
+#[cfg(unix)]
+#[test]
+fn only_files_are_written_over() {
+    use std::os::unix::fs::FileTypeExt;
+    let path = wigley("nodes");
+    let (target, link) = (path.join("target.csv"), path.join("link.csv"));
+    fs::write(&target, "old").unwrap();
+    std::os::unix::fs::symlink("target.csv", &link).unwrap();
+    let hull = path.join("hull.json").display().to_string();
+    let to = |file: &Path| {
+        let file = file.display().to_string();
+        program(&["offsets", &hull, "--stations", "10,20", "--waterlines", "1,2", "-o", &file, "--force"])
+    };
+    let written = to(&link);
+    assert_eq!(written.status.code(), Some(0), "{}", stderr(&written));
+    assert!(link.symlink_metadata().unwrap().file_type().is_symlink());
+    assert!(fs::read_to_string(&target).unwrap().starts_with("x\\z"));
+    let device = to(Path::new("/dev/null"));
+    assert_eq!(device.status.code(), Some(6), "{}", stderr(&device));
+    assert!(stderr(&device).contains("/dev/null") && stderr(&device).contains("no file"), "{}", stderr(&device));
+    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    let fair = program(&["fair", &table().display().to_string(), "-o", &target.display().to_string()]);
+    assert_eq!(fair.status.code(), Some(6));
+    assert!(!stderr(&fair).contains("faired in"), "{}", stderr(&fair));
+}
+
 #[test]
 fn force_removes_what_the_earlier_run_wrote() {
     let path = folder("stale");

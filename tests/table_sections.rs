@@ -235,6 +235,16 @@ fn the_notation_is_that_of_the_offsets() {
     assert_eq!(read.form.notation, Notation::FeetInchesEighths);
     assert!(read.form.quantum().is_some_and(|q| q < 0.005), "{:?}", read.form.quantum());
     assert_eq!(write_table(&read, TableWriting::default()).text, text);
+    // Where the unit of the offsets is said elsewhere it goes with the table.
+    let units = Some(("t.toml", "[table]\nunits = \"m\"\n"));
+    let metres = "x [ft],0.5,1\n0,1.5,2\n30,2,3\n";
+    let other = read_table_with("t.csv", metres.as_bytes(), units).unwrap().table;
+    let written = write_table(&other, TableWriting::default()).text;
+    assert_eq!(written, format!("# units = m\n{metres}"));
+    let again = read_table("t.csv", written.as_bytes()).unwrap().table;
+    let values = |table: &OffsetTable| table.stations[1].half_breadths.iter().map(|c| c.value()).collect::<Vec<_>>();
+    assert_eq!(values(&again), values(&other));
+    assert!((again.stations[1].station.x - 9.144).abs() < 1e-12);
     // One cell with a digit more does not make the table finer.
     let digits = |text: &str| read_table("t.csv", text.as_bytes()).unwrap().table.form.decimals;
     assert_eq!(digits("x [m],0.5,1,1.5\n0,1.25,2,1.559\n10,1.5,2.75,3.25\n"), Some(2));
@@ -305,8 +315,11 @@ fn a_header_that_contradicts_the_numbers() {
 
 #[test]
 fn files_of_other_kinds_in_one_message() {
-    let cases: [(&str, &[u8], &str); 2] =
-        [("a.3dm", b"3D Geometry File Format        50", "3dm"), ("a.csv.gz", b"\x1f\x8b\x08\0\0\0\0\0", "gzip")];
+    let cases: [(&str, &[u8], &str); 3] = [
+        ("a.3dm", b"3D Geometry File Format        50", "3dm"),
+        ("a.csv.gz", b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),
+        ("hull.json", b"{\n  \"schema\": \"hull\"\n}", "JSON"),
+    ];
     for (name, bytes, kind) in cases {
         let found = errors(name, bytes);
         assert_eq!(found.len(), 1, "{name} {found:?}");

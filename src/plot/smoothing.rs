@@ -12,6 +12,7 @@ use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
 use crate::fairing::record::FairRecord;
 use crate::fairing::smoothing::Trial;
+use crate::fairing::smoothing::end_of_search;
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [210.0, 230.0];
@@ -78,12 +79,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], height);
-    let tried = record.trials.iter().map(|trial| trial.lambda);
-    let end = match record.lambda {
-        taken if taken >= tried.clone().fold(0.0, f64::max) => " (the largest tried)",
-        taken if taken <= tried.fold(f64::INFINITY, f64::min) => " (the smallest tried)",
-        _ => "",
-    };
+    let end = end_of_search(record.lambda, &record.trials);
     let words = format!(
         "weight taken {}{end}, {:.1} degrees of freedom, for errors of {:.3} mm; figures are weights",
         figures(record.lambda, 2),

@@ -11,6 +11,7 @@ use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
+use crate::fairing::smoothing::end_of_search;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
@@ -355,7 +356,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let energy = outcome.energy[1] / outcome.energy[0];
     let proof = format!(
         "Proof: duality gap {:.0e}, stationarity {:.0e}, largest violation of a row {:.0e}, computed without the solver. Energy \
-         of order {}: {} of that {}. Smoothing weight {:.2e}, {:.1} degrees of freedom; {}, {} iterations.",
+         of order {}: {} of that {}. Smoothing weight {:.2e}{}, {:.1} degrees of freedom; {}, {} iterations.",
         certificate.gap.abs(),
         certificate.stationarity,
         certificate.max_violation.max(0.0),
@@ -364,6 +365,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         // Its own net takes the half-breadths of that surface for control values, which evens them out.
         if outcome.own { "of its net laid evenly through the surface before" } else { "before" },
         faired.lambda,
+        end_of_search(faired.lambda, &faired.trials),
         faired.edf,
         counted(faired.programs, "program", "programs"),
         faired.iterations
@@ -382,13 +384,16 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         ),
         2,
     ));
-    if !outcome.proposals.is_empty() {
+    // What the chart has no line for cannot be taken; it is in fairing.json.
+    let proposals: Vec<&Proposal> =
+        outcome.proposals.iter().filter(|line| line.accepted || line.rms.is_some()).collect();
+    if !proposals.is_empty() {
         // What is taken, or cannot be, needs no hint.
-        let open = outcome.proposals.iter().any(|line| line.rms.is_some() && !line.accepted);
+        let open = proposals.iter().any(|line| line.rms.is_some() && !line.accepted);
         let hint = if open { " (--accept-lines takes them)" } else { "" };
         page.push_str(&format!("Lines that the table does not declare{hint}:\n"));
     }
-    for line in outcome.proposals.iter().take(MOST_LINES) {
+    for line in proposals.into_iter().take(MOST_LINES) {
         page.push_str(&format!("  {}", wrapped(&proposal(line), 5)));
     }
     for note in outcome.notes.iter().take(MOST_REMARKS) {

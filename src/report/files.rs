@@ -72,6 +72,10 @@ impl Destination<'_> {
                 path.display()
             )));
         }
+        if self.folder.metadata().is_ok_and(|data| !data.is_dir()) {
+            let error = std::io::Error::from(std::io::ErrorKind::NotADirectory);
+            return Err(Failure::FileSystem { act: "write into", path: self.folder.to_owned(), error });
+        }
         // A device, a pipe or a folder is no file that can be replaced by another.
         if let Some(path) = paths.iter().find(|path| path.metadata().is_ok_and(|data| !data.is_file())) {
             let error = std::io::Error::new(std::io::ErrorKind::InvalidInput, "there, and no file");

@@ -28,6 +28,9 @@ pub(super) fn format(name: &str, bytes: &[u8]) -> Option<&'static str> {
         return Some(kind);
     }
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
+    if start.trim_start().starts_with('{') {
+        return Some("JSON (of a hull? hydro, section, inspect and report read those)");
+    }
     let mut words = start.split_whitespace();
     if (words.next(), words.next()) == (Some("0"), Some("SECTION")) {
         return Some("a drawing (DXF)");

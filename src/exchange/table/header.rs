@@ -82,22 +82,6 @@ pub(super) fn unit_of(text: &str) -> Option<Notation> {
     (!before.is_empty()).then(|| Notation::from_word(last)).flatten()
 }
 
-/// A header with the unit that it declares replaced by one of another size.
-pub(super) fn in_unit(text: &str, unit: Notation) -> String {
-    let other =
-        |word: &str| Notation::from_word(word).is_some_and(|old| (old.metres(1.0) - unit.metres(1.0)).abs() > 0.0);
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((before, after)) = text.split_once(open)
-            && let Some((inside, rest)) = after.split_once(close)
-            && other(inside)
-        {
-            return format!("{before}{open}{}{close}{rest}", unit.as_str());
-        }
-    }
-    let last = text.trim_end().rfind(['_', ' ', ',']).filter(|&at| at > 0 && other(text[at + 1..].trim_end()));
-    last.map_or_else(|| text.to_owned(), |at| format!("{}{}", &text[..=at], unit.as_str()))
-}
-
 /// Names of side columns and rows; the first of each kind is the one that we write.
 pub(super) const SIDES: [(&str, SideKind); 36] = [
     ("keel", SideKind::Keel),
@@ -309,20 +293,6 @@ mod tests {
         assert_eq!(position("WL 3", false).unwrap().axis, Some(Axis::Waterline));
         for text in ["", "deck", "WL", "1.2.3", "abc 3 def", "nan", "inf"] {
             assert!(position(text, false).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn the_unit_of_a_header_becomes_that_of_the_table() {
-        let cases = [
-            ("x [ft]", Notation::Metres, "x [m]"),
-            ("x\\z (mm)", Notation::Metres, "x\\z (m)"),
-            ("x_from_midship_m", Notation::Millimetres, "x_from_midship_mm"),
-            ("x_from_AP_m", Notation::Metres, "x_from_AP_m"),
-            ("station", Notation::Feet, "station"),
-        ];
-        for (old, unit, new) in cases {
-            assert_eq!(in_unit(old, unit), new);
         }
     }
 

@@ -4,7 +4,7 @@
 //! Rounding to the quantum of the notation is the last step, and what it does is returned. A table in pairs
 //! becomes a matrix; sections of points keep the format of their program, or become a tidy table.
 
-use super::header::{in_unit, side_name};
+use super::header::{side_name, unit_of};
 use super::tidy;
 use crate::hull::{
     Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
@@ -127,6 +127,16 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         TableLayout::Matrix | TableLayout::Pairs | TableLayout::Other => TableLayout::Matrix,
     };
     let renotated = notation != form.notation;
+    // A unit in the corner is that of the positions; that of the offsets was said elsewhere, and is said here.
+    let apart = |unit: Notation| (unit.metres(1.0) - notation.metres(1.0)).abs() > 0.0;
+    let says = |line: &String| line.trim_start_matches('#').trim_start().starts_with("units");
+    if !renotated
+        && notation != Notation::FeetInchesEighths
+        && form.corner.as_deref().and_then(unit_of).is_some_and(apart)
+        && !form.preamble.iter().any(says)
+    {
+        form.preamble.push(format!("# units = {}", notation.as_str()));
+    }
     if renotated {
         (form.notation, form.x_notation, form.z_notation) = (notation, notation, notation);
         form.decimals = usual_decimals(notation);
@@ -401,7 +411,7 @@ impl Writer {
             format!("{first}\\{across} [{}]", self.form.notation.as_str())
         };
         let corner = if half { &self.form.corner } else { &self.form.buttock_corner };
-        let corner = corner.as_ref().map_or(own, |corner| in_unit(corner, self.form.notation));
+        let corner = corner.clone().unwrap_or(own);
         let mut order: Vec<usize> = (0..if half { table.waterlines.len() } else { table.buttocks.len() }).collect();
         if self.form.waterline_order == Order::Falling && half {
             order.reverse();

@@ -8,7 +8,9 @@
 //!
 //! A flat that the table shows and nobody declares ([`shown`]) has no edge that is known to better than the spacing of
 //! the offsets. It is held a cell of the knots inside of its outermost offsets, so that the surface may leave it in between
-//! with continuous curvature: a cubic that is flat up to its last offset swings about those beyond.
+//! with continuous curvature: a cubic that is flat up to its last offset swings about those beyond. Tried instead: the
+//! outermost offsets held within a millimetre besides (inflections of Series 60 C_B 0.70 81 > 96, C_B 0.75 66 > 74, DTC
+//! 257 > 272; Series 60 C_B 0.60 and the VLCC 271 > 343 without the flat, which could not be had then).
 
 use super::super::lines::{LineCourse, LineKind, ProposedLine};
 use super::super::model::Limit;
