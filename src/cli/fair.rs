@@ -19,47 +19,47 @@ pub(super) struct Arguments {
     #[arg(value_name = "TABLE|JOB")]
     input: PathBuf,
     /// Displacement to hold, "4050 t" or "3951 m3"; "table" for that of the table, "free" for none [default: table]
-    #[arg(long, value_name = "MASS|VOLUME")]
+    #[arg(long, value_name = "MASS|VOLUME", allow_hyphen_values = true)]
     displacement: Option<String>,
     /// Block coefficient to hold, instead of the displacement
-    #[arg(long, value_name = "CB")]
+    #[arg(long, value_name = "CB", allow_hyphen_values = true)]
     cb: Option<String>,
     /// Longitudinal centre of buoyancy, "+0.8 %" (of Lpp from midship, + forward) or "41.0 m AP" [default: table]
     #[arg(long, value_name = "LCB", allow_hyphen_values = true)]
     lcb: Option<String>,
     /// Midship section coefficient [default: table]
-    #[arg(long, value_name = "CM")]
+    #[arg(long, value_name = "CM", allow_hyphen_values = true)]
     cm: Option<String>,
     /// Height of the centre of buoyancy above the base line [default: free]
-    #[arg(long, value_name = "KB")]
+    #[arg(long, value_name = "KB", allow_hyphen_values = true)]
     kb: Option<String>,
     /// Longitudinal centre of flotation, as --lcb [default: free]
     #[arg(long, value_name = "LCF", allow_hyphen_values = true)]
     lcf: Option<String>,
     /// Waterplane coefficient [default: free]
-    #[arg(long, value_name = "CWP", conflicts_with = "waterplane_area")]
+    #[arg(long, value_name = "CWP", allow_hyphen_values = true, conflicts_with = "waterplane_area")]
     cwp: Option<String>,
     /// Waterplane area [m2], instead of the coefficient
-    #[arg(long, value_name = "AREA")]
+    #[arg(long, value_name = "AREA", allow_hyphen_values = true)]
     waterplane_area: Option<String>,
     /// Height of the transverse metacentre above the base line [default: free]
-    #[arg(long, value_name = "KM", conflicts_with = "gm")]
+    #[arg(long, value_name = "KM", allow_hyphen_values = true, conflicts_with = "gm")]
     km: Option<String>,
     /// Transverse metacentric height, for the centre of gravity of --kg [default: free]
     #[arg(long, value_name = "GM", allow_hyphen_values = true)]
     gm: Option<String>,
     /// Height of the centre of gravity above the base line
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", allow_hyphen_values = true)]
     kg: Option<String>,
     /// Wetted surface [m2] at the design draught [default: free]
-    #[arg(long, value_name = "AREA")]
+    #[arg(long, value_name = "AREA", allow_hyphen_values = true)]
     wetted_surface: Option<String>,
     /// Design draught: what is held holds there [default: of the table]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
     /// How far an offset may move [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
     /// as rough, at least two steps of its writing]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too:
     /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
@@ -69,10 +69,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N")]
     order: Option<String>,
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     anisotropy: Option<String>,
     /// Smoothing weight, or "auto": by the errors of the table (Mallows), by cross-validation where the net is one of its own [default: auto]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     weight: Option<String>,
     /// Take suspected typing errors as they are
     #[arg(long)]
@@ -81,7 +81,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
     /// What forbidding the changes of curvature of a line may cost at most: sum of squares of moves over the noise squared [default: 12]
-    #[arg(long, value_name = "NUMBER", conflicts_with = "no_signs")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, conflicts_with = "no_signs")]
     sign_price: Option<String>,
     /// Do not forbid changes of curvature that are noise
     #[arg(long)]

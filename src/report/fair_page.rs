@@ -1,13 +1,14 @@
 //! The page that `fair` prints: what moved, what holds and at which price, what bends, and the proof.
 
 use super::fair::{FairJob, FairOutputs};
+use super::fair_refused::line_name;
 use super::page::{WIDTH, fixed, fixed_sign, wrapped};
 use super::verdict::more_than;
 use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::{Constraint, Rule};
 use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
-use crate::fairing::outcome::{Change, Outcome};
+use crate::fairing::outcome::{Change, Outcome, Turns};
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
@@ -265,6 +266,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     page.push_str(&wrapped(&line, 2));
     page.push_str("  (buttocks and diagonals are no lines of the table: they were never used)\n");
     page.push_str(&more_than_asked(outputs));
+    page.push_str(&far_above_the_least(&outputs.outcome));
     let sum =
         |side: usize, count: fn(&PolygonSigns) -> usize| outputs.outcome.signs[side].iter().map(count).sum::<usize>();
     let line = format!(
@@ -427,6 +429,34 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
         text.push_str(&wrapped(line, 2));
     }
     text
+}
+
+/// Inflections that a line keeps above its proved least from which the page names it, and how many lines it names.
+const ABOVE: usize = 4;
+const NAMED: usize = 4;
+
+/// The lines that keep most inflections above their proved least, and how fewer can be asked for; nothing where none
+/// keeps many.
+fn far_above_the_least(outcome: &Outcome) -> String {
+    let least = |turns: &Turns| turns.minimum.filter(|(_, proved)| *proved).map(|(least, _)| least);
+    let above = |turns: &Turns| least(turns).map_or(0, |least| turns.after.saturating_sub(least));
+    let mut lines: Vec<&Turns> = outcome.turns.iter().filter(|turns| above(turns) >= ABOVE).collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    let count = lines.len();
+    lines.sort_by_key(|turns| std::cmp::Reverse(above(turns)));
+    let name = |turns: &&Turns| {
+        format!("{} {} (least {})", line_name(&turns.cut), turns.after, least(turns).unwrap_or_default())
+    };
+    let names: Vec<String> = lines.iter().take(NAMED).map(name).collect();
+    let more = if count > NAMED { format!(", {} more", count - NAMED) } else { String::new() };
+    let line = format!(
+        "Far above their proved least, since fewer cost more than their price: {}{more}. shape.inflections asks for fewer \
+         whatever they cost.",
+        names.join(", ")
+    );
+    wrapped(&line, 2)
 }
 
 /// A move that nobody sees [m].

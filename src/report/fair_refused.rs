@@ -17,6 +17,16 @@ const NAMED: usize = 4;
 /// Parts of its scale by which a quantity may miss its target and still be on it, to the eye.
 const NEAR: f64 = 1e-6;
 
+/// "waterline 2.000 m".
+pub(super) fn line_name(cut: &Cut) -> String {
+    match cut {
+        Cut::Station { x } => format!("station at x = {x:.3} m"),
+        Cut::Waterline { z } => format!("waterline {z:.3} m"),
+        Cut::Buttock { y } => format!("buttock {y:.3} m"),
+        Cut::Diagonal { .. } | Cut::Plane { .. } => "a diagonal".to_owned(),
+    }
+}
+
 impl FairOutputs {
     /// What was had and is not what was hoped for, in words for the one who reads nothing else: lines that bend more
     /// often than before, all together or single ones, and an energy of another order.
@@ -38,15 +48,7 @@ impl FairOutputs {
         if outcome.status != Status::Optimal || worse.is_empty() {
             return None;
         }
-        let name = |turns: &&Turns| {
-            let place = match turns.cut {
-                Cut::Station { x } => format!("station at x = {x:.3} m"),
-                Cut::Waterline { z } => format!("waterline {z:.3} m"),
-                Cut::Buttock { y } => format!("buttock {y:.3} m"),
-                Cut::Diagonal { .. } | Cut::Plane { .. } => "a diagonal".to_owned(),
-            };
-            format!("{place} {} > {}", turns.before, turns.after)
-        };
+        let name = |turns: &&Turns| format!("{} {} > {}", line_name(&turns.cut), turns.before, turns.after);
         let mut names: Vec<String> = worse.iter().take(NAMED).map(name).collect();
         if worse.len() > NAMED {
             names.push(format!("{} more", worse.len() - NAMED));
