@@ -686,6 +686,19 @@ fn changes_list_every_offset_of_the_table() {
     let not_used = changes.lines().filter(|row| row.ends_with(",not used")).count();
     assert_eq!(changes.lines().count() - 1, all);
     assert_eq!(not_used, all - outputs.outcome.changes.len());
+    // Of the flat that the table shows the page says how many stay.
+    let page = fair_page(&job, &outputs, "out");
+    let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("within it stay, 12 at its edges move by"), "{page}");
+}
+
+/// Lines that keep far more inflections than their offsets ask for are named.
+#[test]
+fn lines_far_above_their_least_are_named() {
+    let (job, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);
+    let page = fair_page(&job, &outputs, "out");
+    let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("Far above their proved least") && words.contains("52.500 m 4 (least 0)"), "{page}");
 }
 
 #[test]

@@ -123,3 +123,29 @@ fn proposed_lines_are_printed_and_written() {
     assert!(page.contains("knuckle along the waterline at 4.000 m, from 0.000 to 55.000 m"), "{page}");
     assert!(check.verdict(&[]).is_ok(), "a line that may be declared is no error");
 }
+
+/// Walls that flare out from other heights at other stations, and one misprint: what ends a wall is no misprint.
+#[test]
+fn the_end_of_a_wall_is_no_suspect() {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for i in 0..17 {
+        let s = (5.0 * f64::from(i) - 40.0) / 44.0;
+        let wide = 8.0 * (1.0 - s * s);
+        let flares = 9.0 - f64::from(i - 12);
+        let half = |z: f64| {
+            let bilge = if z < 4.0 { 1.0 - ((4.0 - z) / 4.6).powi(3) } else { 1.0 };
+            let flare = if i >= 12 && z > flares { 0.4 * (z - flares).powf(1.3) } else { 0.0 };
+            format!("{:.3}", wide * bilge + flare)
+        };
+        rows.push((0..12).map(|z| half(f64::from(z))).collect());
+    }
+    rows[5][7] = "7.700".to_owned();
+    let heads: Vec<String> = (0..12).map(|z| z.to_string()).collect();
+    let mut text = format!("x_m,{}\n", heads.join(","));
+    for (i, row) in rows.iter().enumerate() {
+        text += &format!("{},{}\n", 5 * i, row.join(","));
+    }
+    let table = read_table("t.csv", text.as_bytes()).unwrap().table;
+    let found: Vec<_> = suspects(&table).suspects.iter().map(|s| (s.station, s.waterline)).collect();
+    assert_eq!(found, [(5, 7)]);
+}
