@@ -1,6 +1,9 @@
 //! Whole jobs of fairing without pictures: tables of 21 stations and 11 waterlines of Wigley's hull with 2 mm and 25 mm
 //! of noise, for which at most 30 ms are wanted: the mean over 30 seeds.
 
+#[path = "../tests/random/mod.rs"]
+mod random;
+#[allow(dead_code, reason = "one hull of many is timed, nothing is measured")]
 #[path = "../tests/truth_hulls/mod.rs"]
 mod truth_hulls;
 

@@ -9,6 +9,7 @@
 //! program between ours, turn by turn, with `{case}` in COMMAND replaced by `81x41_60x40` and so on; it has to print its
 //! seconds of CPU as `t=0.31s` and may print its objective as `J=1203.112`.
 
+#[allow(dead_code, reason = "random programs are of the test")]
 #[path = "../tests/qp_problems/mod.rs"]
 mod qp_problems;
 

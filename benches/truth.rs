@@ -2,10 +2,14 @@
 //! hull that they were sampled from. Medians and worst cases over 30 seeds; `-- --quick` takes 3, a number as many, a
 //! name the cases of that name.
 
+#[path = "../tests/random/mod.rs"]
+mod random;
+#[allow(dead_code, reason = "the page is of the test")]
 #[path = "../tests/truth_hulls/mod.rs"]
 mod truth_hulls;
 
-use truth_hulls::{Summary, cases};
+use truth_hulls::cases;
+use truth_hulls::measure::Summary;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();

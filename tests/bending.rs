@@ -1,13 +1,13 @@
 //! The bending energy of a surface: closed forms, its derivatives, and its least value within the rows of a fairing
 //! program.
 
-mod qp_problems;
-
 use loftsman::fairing::bending::bending_energy;
 use loftsman::fairing::least_bending::least_bending;
 use loftsman::qp::{Settings, SparseRows};
 use loftsman::spline::{BsplineSurface, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
+
+use crate::qp_problems::{fairing, unbent};
 
 /// Control values of the square of a linear function a + b t on the Greville points of a cubic or higher spline: its
 /// blossom.
@@ -124,10 +124,10 @@ fn a_folded_chart_has_no_energy() {
 #[test]
 fn the_least_energy_is_stationary_within_the_rows() {
     let net = [14, 10];
-    let problem = qp_problems::fairing([21, 11], net, 5);
+    let problem = fairing([21, 11], net, 5);
     let n = net[0] * net[1];
     let start = problem.solve(&Settings::default()).unwrap().x;
-    let (surface, rest) = qp_problems::unbent(&problem, net, &start);
+    let (surface, rest) = unbent(&problem, net, &start);
     let free: Vec<usize> = (0..n).collect();
     let found = least_bending(&surface, &rest, 1.0, &free, true, &Settings::default()).unwrap().unwrap();
     println!("{:?}, {} programs, promised {:e}", found.energies, found.programs, found.promised);

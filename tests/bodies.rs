@@ -2,36 +2,22 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use loftsman::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
 use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, TriangleMesh};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
 
-#[path = "random/mod.rs"]
-mod random;
-use random::Random;
-
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
-}
+use crate::random::Random;
+use crate::support::{carried, folder, program, read_text, stderr};
 
 fn config(name: &str) -> Hull {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(format!("{name}.toml"));
+    let path = carried("configs").join(format!("{name}.toml"));
     read_source(&path).unwrap().hull
 }
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bodies").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// The files of a hull, with the conventions that its dimensions give.
-fn files(hull: &Hull, name: &str, formats: &[ExportFormat]) -> Vec<PathBuf> {
-    let folder = folder(name);
+/// The files of a hull in a folder, with the conventions that its dimensions give.
+fn files(folder: &Path, hull: &Hull, name: &str, formats: &[ExportFormat]) -> Vec<PathBuf> {
     let particulars = hull.particulars();
     let deviation = Some(3e-4 * particulars.breadth);
     let exported = export(hull, name, formats, &ExportSettings { deviation, ..ExportSettings::default() }).unwrap();
@@ -118,7 +104,8 @@ fn exported_meshes_float_as_their_hulls() {
         let hull = config(name);
         let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
-        for path in files(&hull, name, &MESHES) {
+        let folder = folder(name);
+        for path in files(&folder, &hull, name, &MESHES) {
             let floating = read_floating(&path).unwrap();
             assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
             let found = floating.curves_of_form(&draughts, &Conventions::default()).rows;
@@ -142,7 +129,8 @@ fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
         let hull = config(name);
         let draughts = [0.4, 0.75].map(|share| share * hull.particulars().draught);
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
-        for path in files(&hull, &format!("surfaces-{name}"), &[ExportFormat::Step, ExportFormat::Iges]) {
+        let folder = folder(&format!("surfaces-{name}"));
+        for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges]) {
             let found = read_floating(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
             for (a, b) in found.iter().zip(&exact) {
                 for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
@@ -181,7 +169,8 @@ fn surfaces_in_millimetres_become_a_table() {
 #[test]
 fn a_mesh_is_fitted_like_a_table() {
     let hull = config("bulk-carrier");
-    let path = files(&hull, "fitted", &[ExportFormat::Stl]).remove(0);
+    let folder = folder("fitted");
+    let path = files(&folder, &hull, "fitted", &[ExportFormat::Stl]).remove(0);
     let (table, _) = loftsman::report::read_table_file(&path).unwrap();
     assert_eq!(table.stations.len(), 41);
     let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
@@ -194,14 +183,15 @@ fn a_mesh_is_fitted_like_a_table() {
 #[test]
 fn the_commands_take_meshes() {
     let hull = config("yacht");
-    let path = files(&hull, "commands", &[ExportFormat::Obj]).remove(0).display().to_string();
+    let folder = folder("commands");
+    let path = files(&folder, &hull, "commands", &[ExportFormat::Obj]).remove(0).display().to_string();
     let told = program(&["hydro", &path, "--draughts", "0.3,0.6", "--csv"]);
-    assert_eq!(told.status.code(), Some(0), "{}", String::from_utf8_lossy(&told.stderr));
+    assert_eq!(told.status.code(), Some(0), "{}", stderr(&told));
     assert_eq!(String::from_utf8_lossy(&told.stdout).lines().count(), 4);
-    assert!(String::from_utf8_lossy(&told.stderr).contains("a mesh (OBJ)"));
+    assert!(stderr(&told).contains("a mesh (OBJ)"));
     let out = Path::new(&path).with_extension("csv").display().to_string();
     let converted = program(&["convert", &path, &out]);
-    assert_eq!(converted.status.code(), Some(0), "{}", String::from_utf8_lossy(&converted.stderr));
+    assert_eq!(converted.status.code(), Some(0), "{}", stderr(&converted));
     // The table is the one that the mesh gives, to the rounding of its notation.
     let read = |name: &str| read_table(name, &fs::read(name).unwrap()).unwrap().table;
     let (table, mesh) = (read(&out), loftsman::report::read_table_file(Path::new(&path)).unwrap().0);
@@ -275,7 +265,7 @@ fn sound(name: &str, bytes: &[u8]) {
 }
 
 fn golden(name: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)).unwrap()
+    read_text(carried("tests/golden").join(name))
 }
 
 /// The volume of the box of the golden files, read from a text with changes, and what is said about it.
@@ -388,7 +378,8 @@ fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
         let hull = config(name);
         let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
-        let path = files(&hull, &format!("nets-{name}"), &[ExportFormat::Ftm]).remove(0);
+        let folder = folder(&format!("nets-{name}"));
+        let path = files(&folder, &hull, name, &[ExportFormat::Ftm]).remove(0);
         let floating = read_floating(&path).unwrap();
         assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
         for (a, b) in floating.curves_of_form(&draughts, &Conventions::default()).rows.iter().zip(&exact) {
@@ -405,11 +396,11 @@ fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
 #[test]
 fn files_are_converted_by_the_endings_of_their_names() {
     let folder = folder("converted");
-    let hull = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/box.toml").display().to_string();
+    let hull = carried("configs/box.toml").display().to_string();
     let place = |name: &str| folder.join(name).display().to_string();
     let run = |arguments: &[&str]| {
         let told = program(arguments);
-        assert_eq!(told.status.code(), Some(0), "{arguments:?}: {}", String::from_utf8_lossy(&told.stderr));
+        assert_eq!(told.status.code(), Some(0), "{arguments:?}: {}", stderr(&told));
         told.stdout
     };
     run(&["convert", &hull, &place("box.ftm")]);
@@ -435,13 +426,13 @@ fn files_are_converted_by_the_endings_of_their_names() {
     assert_eq!(program(&["convert", &hull, &place("box.stl")]).status.code(), Some(6));
     let refused = program(&["convert", &hull, &place("new.stl"), "--input-unit", "mm"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out what is said of it: units"));
+    assert!(stderr(&refused).contains("leave out what is said of it: units"));
     // Units and axes of a body on the command line stand over the file.
     let volume = |flags: &[&str]| {
         let told = run(&[&["hydro", &place("box.obj"), "--draughts", "1", "--csv"], flags].concat());
         String::from_utf8(told).unwrap().lines().last().unwrap().to_owned()
     };
-    let body = fs::read_to_string(place("box.obj")).unwrap();
+    let body = read_text(place("box.obj"));
     let turned: String = body
         .lines()
         .map(|line| match line.strip_prefix("v ") {
@@ -461,11 +452,7 @@ fn files_are_converted_by_the_endings_of_their_names() {
     }
     let wrong = program(&["hydro", &place("box.obj"), "--draughts", "1", "--up", "w"]);
     assert_eq!(wrong.status.code(), Some(3));
-    assert!(
-        String::from_utf8_lossy(&wrong.stderr).contains("E311 command line"),
-        "{}",
-        String::from_utf8_lossy(&wrong.stderr)
-    );
+    assert!(stderr(&wrong).contains("E311 command line"), "{}", stderr(&wrong));
     let negative = program(&["export", &hull, "-f", "gdf", "--draught", "-1"]);
-    assert!(String::from_utf8_lossy(&negative.stderr).contains("must be more than 0"));
+    assert!(stderr(&negative).contains("must be more than 0"));
 }

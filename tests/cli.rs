@@ -2,37 +2,23 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 use serde_json::Value;
 
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// An empty folder of this test.
-fn folder(test: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
+use crate::support::{Folder, carried, command, folder, json, names_in, program, read_text, stderr, stdout};
 
 fn config(name: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(name).display().to_string()
+    carried("configs").join(name).display().to_string()
 }
 
-/// Generates the Wigley hull without figures; gives the folder.
-fn wigley(test: &str) -> PathBuf {
-    let path = folder(test).join("wigley");
+fn table() -> PathBuf {
+    carried("tests/data/wigley/offsets.csv")
+}
+
+/// Generates the Wigley hull without figures into an empty folder.
+fn wigley(test: &str) -> Folder {
+    let path = folder(test);
     let output = program(&["generate", &config("wigley.toml"), "-o", path.to_str().unwrap(), "--no-figures", "-q"]);
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
@@ -51,9 +37,7 @@ fn generate_writes_its_files_and_one_screen() {
     for word in ["Wigley hull", "requested", "achieved", "origin", "DISPVOL", "Coefficients on Lpp", "manifest.json"] {
         assert!(page.contains(word), "{word}: {page}");
     }
-    let mut names: Vec<String> =
-        fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
+    let names = names_in(path);
     let expected = [
         "diagram-sheet.png",
         "heights.csv",
@@ -69,7 +53,7 @@ fn generate_writes_its_files_and_one_screen() {
         "summary.json",
     ];
     assert_eq!(names, expected);
-    let manifest: Value = serde_json::from_slice(&fs::read(Path::new(path).join("manifest.json")).unwrap()).unwrap();
+    let manifest = json(fs::read(Path::new(path).join("manifest.json")).unwrap());
     for entry in manifest["outputs"].as_array().unwrap() {
         let bytes = fs::read(Path::new(path).join(entry["file"].as_str().unwrap())).unwrap();
         assert_eq!(entry["sha256"], loftsman::exchange::sha256(&bytes), "{entry}");
@@ -111,7 +95,7 @@ fn only_files_are_written_over() {
     let written = to(&link);
     assert_eq!(written.status.code(), Some(0), "{}", stderr(&written));
     assert!(link.symlink_metadata().unwrap().file_type().is_symlink());
-    assert!(fs::read_to_string(&target).unwrap().starts_with("x\\z"));
+    assert!(read_text(&target).starts_with("x\\z"));
     let device = to(Path::new("/dev/null"));
     assert_eq!(device.status.code(), Some(6), "{}", stderr(&device));
     assert!(stderr(&device).contains("/dev/null") && stderr(&device).contains("no file"), "{}", stderr(&device));
@@ -150,7 +134,7 @@ fn tables_carry_the_decimals_that_are_meant() {
         let target = path.join(name);
         let output = program(&["generate", &config(name), "-o", target.to_str().unwrap(), "--no-figures", "-q"]);
         assert!(output.status.success(), "{}", stderr(&output));
-        let text = fs::read_to_string(target.join("offsets.csv")).unwrap();
+        let text = read_text(target.join("offsets.csv"));
         let header = text.lines().next().unwrap();
         assert!(header.split(',').skip(1).all(|z| z.len() <= 8), "{name}: {header}");
         for line in text.lines().skip(1) {
@@ -182,7 +166,7 @@ fn json_is_one_object_and_the_same_bytes_twice() {
     };
     let first = run("a");
     assert_eq!(first, run("b"));
-    let summary: Value = serde_json::from_str(&first.0).unwrap();
+    let summary = json(&first.0);
     assert_eq!(summary["name"], "Wigley hull");
     assert!((summary["design"]["CB"].as_f64().unwrap() - 4.0 / 9.0).abs() < 1e-12);
     let keys = ["key", "requested", "achieved", "error", "origin"];
@@ -202,7 +186,7 @@ fn hydro_from_file_folder_and_design() {
     let from_file = of(file.to_str().unwrap(), "--json");
     assert_eq!(from_file, of(path.to_str().unwrap(), "--json"));
     assert_eq!(from_file, of(&config("wigley.toml"), "--json"));
-    let table: Value = serde_json::from_str(&from_file).unwrap();
+    let table = json(&from_file);
     assert_eq!(table["rows"].as_array().unwrap().len(), 5);
     assert!((table["rows"][4]["DISPVOL"].as_f64().unwrap() / (4.0 / 9.0 * 6250.0) - 1.0).abs() < 1e-12);
     assert_eq!(table["conventions"]["density"], 1.025);
@@ -221,7 +205,7 @@ fn conventions_of_the_hull_can_be_overridden() {
         arguments.extend(more);
         let output = program(&arguments);
         assert!(output.status.success(), "{}", stderr(&output));
-        let table: Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let table = json(stdout(&output));
         (table["conventions"].clone(), table["rows"][0].clone())
     };
     let (_, plain) = rows(&[]);
@@ -283,9 +267,8 @@ fn sections_of_every_plane() {
         let mut lines = csv.lines();
         assert_eq!(lines.next(), Some("branch,x,y,z,face"));
         assert!(lines.next().is_some_and(|line| line.starts_with("1,") && line.ends_with(",side")), "{plane:?}: {csv}");
-        let json: Value =
-            serde_json::from_str(&stdout(&program(&["section", hull, plane[0], plane[1], "--json"]))).unwrap();
-        assert!(json["branches"][0]["points"].as_array().unwrap().len() >= 2);
+        let found = json(stdout(&program(&["section", hull, plane[0], plane[1], "--json"])));
+        assert!(found["branches"][0]["points"].as_array().unwrap().len() >= 2);
     }
     let beside = program(&["section", hull, "--station", "500"]);
     assert_eq!((stdout(&beside).as_str(), beside.status.code()), ("branch,x,y,z,face\n", Some(0)));
@@ -300,15 +283,16 @@ fn templates_and_schema() {
         assert!(list.contains(aliases), "{list}");
     }
     assert_eq!(stdout(&program(&["new", "ferry"])), stdout(&program(&["new", "ro-ro"])));
-    let path = folder("new").join("ship.toml");
+    let folder = folder("new");
+    let path = folder.join("ship.toml");
     let file = path.to_str().unwrap();
     assert!(program(&["new", "frigate", "-o", file]).status.success());
-    assert_eq!(fs::read_to_string(&path).unwrap(), stdout(&program(&["new", "frigate"])));
+    assert_eq!(read_text(&path), stdout(&program(&["new", "frigate"])));
     assert_eq!(program(&["new", "tug", "-o", file]).status.code(), Some(6));
     assert_eq!(program(&["new", "submarine"]).status.code(), Some(2));
-    let schema: Value = serde_json::from_str(&stdout(&program(&["schema"]))).unwrap();
+    let schema = json(stdout(&program(&["schema"])));
     assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
-    assert_eq!(schema, serde_json::from_str::<Value>(&stdout(&program(&["schema", "design"]))).unwrap());
+    assert_eq!(schema, json(stdout(&program(&["schema", "design"]))));
 }
 
 #[test]
@@ -321,10 +305,7 @@ fn the_self_test_passes() {
 #[test]
 fn exit_codes_tell_what_went_wrong() {
     let path = folder("exit");
-    let write = |name: &str, text: &[u8]| {
-        fs::write(path.join(name), text).unwrap();
-        path.join(name).display().to_string()
-    };
+    let write = |name: &str, text: &[u8]| path.write(name, text);
     let out = path.join("out").display().to_string();
     let generate = |file: &str| program(&["generate", file, "-o", &out, "--no-figures"]);
     for (arguments, code) in [(&["generate"][..], 2), (&["frobnicate"], 2), (&["--help"], 0), (&["--version"], 0)] {
@@ -386,8 +367,7 @@ fn exit_codes_tell_what_went_wrong() {
 
 #[test]
 fn a_reader_that_stops_early_is_no_error() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_loftsman"))
-        .args(["hydro", &config("wigley.toml"), "--draughts", "0.01:6:0.01", "--json"])
+    let mut child = command(&["hydro", &config("wigley.toml"), "--draughts", "0.01:6:0.01", "--json"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -401,7 +381,6 @@ fn a_reader_that_stops_early_is_no_error() {
 #[test]
 fn what_is_too_much_is_refused() {
     let path = folder("too-much");
-    fs::create_dir_all(&path).unwrap();
     let hull = path.join("wigley");
     let hull = hull.to_str().unwrap();
     assert_eq!(program(&["generate", &config("wigley.toml"), "--no-figures", "-o", hull]).status.code(), Some(0));
@@ -416,10 +395,6 @@ fn what_is_too_much_is_refused() {
     assert!(stderr(&output).contains("control character"), "{}", stderr(&output));
 }
 
-fn table() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wigley/offsets.csv")
-}
-
 #[test]
 fn no_command_writes_over_what_it_reads() {
     let path = folder("inputs");
@@ -432,7 +407,8 @@ fn no_command_writes_over_what_it_reads() {
         "[particulars]\nlpp = 100\nbeam = 10\ndraught = 6.25\ndepth = 6.25\n[exact]\ncb = 0.444\n[table]\nfile = \"validation.csv\"\n",
     )
     .unwrap();
-    let hull = wigley("inputs-hull").join("hull.json").display().to_string();
+    let generated = wigley("inputs-hull");
+    let hull = generated.join("hull.json").display().to_string();
     let count = fs::read_dir(&path).unwrap().count();
     let (folder, offsets, curve) = (path.display().to_string(), here("offsets.csv"), here("curve.csv"));
     let contents = || ["offsets.csv", "validation.csv", "curve.csv"].map(|name| fs::read(path.join(name)).unwrap());
@@ -520,11 +496,8 @@ fn refused(cases: &[(&[&str], i32, &[&str])]) {
 #[test]
 fn dimensions_and_conventions_that_no_ship_has() {
     let path = wigley("faults");
-    let text = fs::read_to_string(path.join("hull.json")).unwrap();
-    let write = |name: &str, text: &str| {
-        fs::write(path.join(name), text).unwrap();
-        path.join(name).display().to_string()
-    };
+    let text = read_text(path.join("hull.json"));
+    let write = |name: &str, text: &str| path.write(name, text);
     let changed = text.replace("\"density\":1.025", "\"density\":0").replace("\"KG\":null", "\"KG\":1e300");
     assert_ne!(changed, text);
     let faults = write("faults.json", &changed);
@@ -573,12 +546,9 @@ fn dimensions_and_conventions_that_no_ship_has() {
 #[test]
 fn messages_name_the_file_the_key_or_the_option() {
     let path = folder("names");
-    let write = |name: &str, text: &str| {
-        fs::write(path.join(name), text).unwrap();
-        path.join(name).display().to_string()
-    };
+    let write = |name: &str, text: &str| path.write(name, text);
     let table = table().display().to_string();
-    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/box.stl").display().to_string();
+    let mesh = carried("tests/golden/box.stl").display().to_string();
     let job = write("job.toml", "[table]\nfile = \"\"\n");
     let method = write("method.toml", "table = \" \"\n[method]\nkind = \"graded\"\n");
     let long = write("long.toml", &format!("[table]\nfile = \"{table}\"\n[dimensions]\nLpp = 1e9\n"));
@@ -615,7 +585,7 @@ fn convert_takes_its_file_as_other_commands_do() {
 #[test]
 fn points_of_sections_are_checked_and_drawn() {
     let path = folder("points-checked");
-    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/s175/sections.csv").display().to_string();
+    let table = carried("tests/data/s175/sections.csv").display().to_string();
     let output = program(&["check", &table, "-o", &path.display().to_string(), "--force"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(path.join("suspect-points.svg").exists() && !path.join("suspects.svg").exists());
@@ -631,7 +601,7 @@ fn curves_of_areas_and_straight_locks() {
     fs::write(path.join("areas.csv"), format!("x,area\n{areas}")).unwrap();
     let output = program(&["fair-curve", &here("areas.csv"), "-o", &here("areas")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let picture = fs::read_to_string(path.join("areas/fair-curve.svg")).unwrap();
+    let picture = read_text(path.join("areas/fair-curve.svg"));
     for words in ["area [m2]", "moves [m2]", "FAIRING OF A CURVE – areas"] {
         assert!(picture.contains(words), "{words}");
     }
@@ -644,7 +614,7 @@ fn curves_of_areas_and_straight_locks() {
     let largest = |head: &str, unit: &str| {
         let output = said(head, unit);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        let table = fs::read_to_string(path.join("said/curve.csv")).unwrap();
+        let table = read_text(path.join("said/curve.csv"));
         let given = table.lines().skip(1).filter_map(|line| line.split(',').nth(4)?.parse::<f64>().ok());
         given.fold(0.0, f64::max)
     };

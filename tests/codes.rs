@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use loftsman::exchange::{ReadTable, TableProblem, read_table};
 use loftsman::fairing::curve::CurveSettings;
@@ -13,25 +13,13 @@ use loftsman::report::{
 };
 use loftsman::units::Notation;
 
+use crate::support::{carried, folder, read_text, sources};
+
 /// Codes that no input is known to reach: the program is prepared for a fault of its own.
 const UNREACHED: [(&str, &str); 2] = [
     ("E199", "the interpolation of a net of a valid form fails"),
     ("E403", "metacentre and wetted surface come to their targets or are refused on every hull that was tried"),
 ];
-
-fn root(folder: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
-}
-
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-        if entry.is_dir() {
-            sources(&entry, found);
-        } else if entry.extension().is_some_and(|e| e == "rs") {
-            found.push(entry);
-        }
-    }
-}
 
 /// The codes in a text, with the character before each.
 fn codes(text: &str) -> Vec<(char, String)> {
@@ -53,10 +41,8 @@ fn codes(text: &str) -> Vec<(char, String)> {
 /// `tests/`, and those of the tests within the sources.
 fn known() -> [BTreeSet<String>; 3] {
     let [mut said, mut explained, mut tested] = [const { BTreeSet::new() }; 3];
-    let mut files = Vec::new();
-    sources(&root("src"), &mut files);
-    for file in &files {
-        let text = fs::read_to_string(file).unwrap();
+    for file in &sources(&carried("src")) {
+        let text = read_text(file);
         let own = file.file_name().is_some_and(|name| name == "tests.rs");
         let (program, tests) =
             if own { ("", text.as_str()) } else { text.split_once("#[cfg(test)]\nmod ").unwrap_or((&text, "")) };
@@ -72,13 +58,11 @@ fn known() -> [BTreeSet<String>; 3] {
             }
         }
     }
-    files.clear();
-    sources(&root("tests"), &mut files);
-    for file in files.iter().filter(|file| !file.ends_with("codes.rs")) {
-        tested.extend(codes(&fs::read_to_string(file).unwrap()).into_iter().map(|(_, code)| code));
+    for file in sources(&carried("tests")).iter().filter(|file| !file.ends_with("codes.rs")) {
+        tested.extend(codes(&read_text(file)).into_iter().map(|(_, code)| code));
     }
     // Of this file, what is compared with a message: the code opens a literal.
-    let own = fs::read_to_string(root("tests/codes.rs")).unwrap();
+    let own = read_text(carried("tests/codes.rs"));
     let own = own.split_once("fn refusals").map_or("", |(_, tests)| tests);
     tested.extend(codes(own).into_iter().filter(|(before, _)| *before == '"').map(|(_, code)| code));
     [said, explained, tested]
@@ -108,14 +92,6 @@ fn refusals(failure: Failure) -> Vec<String> {
     }
 }
 
-/// A file of this test.
-fn file(name: &str, contents: &[u8]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("codes");
-    fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join(name), contents).unwrap();
-    folder.join(name)
-}
-
 #[track_caller]
 fn says(messages: &[String], code: &str, words: &str) {
     let found = messages.iter().any(|message| message.starts_with(code) && message.contains(words));
@@ -124,7 +100,9 @@ fn says(messages: &[String], code: &str, words: &str) {
 
 #[test]
 fn tables_that_make_no_hull() {
-    let line = file("line.csv", b"x\\z [m],1,2,3\n0,1,1.5,2\n");
+    let folder = folder("line");
+    let line = folder.join("line.csv");
+    fs::write(&line, "x\\z [m],1,2,3\n0,1,1.5,2\n").unwrap();
     let job = read_fit(&line, None, None).unwrap();
     says(&refusals(fit_outputs(&job, &[]).map(|_| ()).unwrap_err()), "E162", "a surface needs at least 2 of each");
     says(&refusals(read_source(&line).unwrap_err()), "E314", "a surface needs at least 2 of each");
@@ -134,15 +112,16 @@ fn tables_that_make_no_hull() {
 
 #[test]
 fn a_refused_fit_names_the_worst_suspect() {
-    let text = fs::read_to_string(root("tests/data/wigley/offsets.csv")).unwrap();
+    let text = read_text(carried("tests/data/wigley/offsets.csv"));
     // 4.3 for 3.4: digits swapped at a place of full breadth.
     let row = text.lines().find(|line| line.starts_with("0,")).unwrap();
     let cells: Vec<&str> = row.split(',').collect();
     let breadth: f64 = cells[6].parse().unwrap();
     let wrong = row.replacen(cells[6], &format!("{:.6}", breadth - 1.0), 1);
-    let table = file("misprint.csv", text.replacen(row, &wrong, 1).as_bytes());
-    let narrow = file("narrow.toml", b"[dimensions]\nB = 0.1\n[method]\nkind = \"bilinear\"\n");
-    let job = read_fit(&table, Some(narrow.to_str().unwrap()), None).unwrap();
+    let folder = folder("misprint");
+    let table = folder.write("misprint.csv", text.replacen(row, &wrong, 1));
+    let narrow = folder.write("narrow.toml", "[dimensions]\nB = 0.1\n[method]\nkind = \"bilinear\"\n");
+    let job = read_fit(Path::new(&table), Some(&narrow), None).unwrap();
     let messages = refusals(fit_outputs(&job, &[]).map(|_| ()).unwrap_err());
     says(&messages, "E163", "no hull");
     says(&messages, "W164", "the worst is station 0, waterline 3.125 m");
@@ -150,7 +129,7 @@ fn a_refused_fit_names_the_worst_suspect() {
 
 #[test]
 fn a_program_that_stops_early_is_no_proof() {
-    let job = read_fair(&root("tests/data/wigley/offsets.csv"), &[]).unwrap();
+    let job = read_fair(&carried("tests/data/wigley/offsets.csv"), &[]).unwrap();
     let mut outputs = fair_outputs(&job, false).unwrap();
     outputs.verdict().unwrap();
     outputs.outcome.status = Status::Limit;
@@ -161,7 +140,9 @@ fn a_program_that_stops_early_is_no_proof() {
 
 #[test]
 fn a_curve_that_is_no_text() {
-    let path = file("curve.csv", b"x,y\n0,1\n\xff\xfe,2\n");
+    let folder = folder("curve");
+    let path = folder.join("curve.csv");
+    fs::write(&path, b"x,y\n0,1\n\xff\xfe,2\n").unwrap();
     let job = CurveJob {
         keep_suspects: false,
         path,
@@ -213,7 +194,9 @@ fn remarks_are_counted_where_they_are_many() {
     says(&shown, "W312", "50 more problems not shown");
     assert_eq!(shown.iter().filter(|note| note.starts_with("W332")).count(), 100);
     // That remarks were left out is no fault of a cell.
-    assert!(check_table(&file("remarks.csv", text.as_bytes())).unwrap().problems.is_empty());
+    let folder = folder("remarks");
+    folder.write("remarks.csv", &text);
+    assert!(check_table(&folder.join("remarks.csv")).unwrap().problems.is_empty());
 }
 
 #[test]

@@ -6,10 +6,13 @@ use std::path::{Path, PathBuf};
 use loftsman::config::{TEMPLATES, read, template};
 use loftsman::exchange::read_hull;
 use loftsman::report::{generate_outputs, read_design};
+use serde_json::Value;
+
+use crate::support::{carried, json, read_text, shared_folder};
 
 fn configs() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs");
-    let mut files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> =
+        fs::read_dir(carried("configs")).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|e| e == "toml"));
     files.sort();
     assert!(files.len() >= 10);
@@ -17,7 +20,7 @@ fn configs() -> Vec<PathBuf> {
 }
 
 /// Targets of a summary within the promise: coefficients to 1e-10, the centre of buoyancy to 1e-9 of the length.
-fn check(name: &str, summary: &serde_json::Value) {
+fn check(name: &str, summary: &Value) {
     let length = summary["particulars"]["Lpp"].as_f64().unwrap();
     for target in summary["targets"].as_array().unwrap() {
         let error = target["error"].as_f64().unwrap().abs();
@@ -37,7 +40,7 @@ fn check(name: &str, summary: &serde_json::Value) {
 #[test]
 fn every_config_says_in_its_first_line_what_it_shows() {
     for path in configs() {
-        let text = fs::read_to_string(&path).unwrap();
+        let text = read_text(&path);
         let first = text.lines().next().unwrap();
         assert!(first.starts_with("# ") && first.len() > 20 && first.ends_with('.'), "{}: {first}", path.display());
     }
@@ -50,7 +53,7 @@ fn every_config_gives_what_it_asks() {
         let (design, bytes) = read_design(&path).unwrap_or_else(|e| panic!("{e}"));
         let outputs = generate_outputs(&design, (&path, &bytes), &[]).unwrap_or_else(|e| panic!("{name}: {e}"));
         let file = |wanted: &str| outputs.files.iter().find(|f| f.name == wanted).map(|f| f.contents.clone()).unwrap();
-        let summary: serde_json::Value = serde_json::from_slice(&file("summary.json")).unwrap();
+        let summary = json(file("summary.json"));
         check(&name, &summary);
         let back = read_hull(&String::from_utf8(file("hull.json")).unwrap()).unwrap();
         assert_eq!(back.hull, outputs.hull, "{name}: hull.json is not the hull");
@@ -77,9 +80,10 @@ fn every_template_generates() {
 
 #[test]
 fn the_example_of_the_raw_generator_is_read() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/seed002_frigate/frigate.hgf");
+    let Some(folder) = shared_folder() else { return };
+    let path = folder.join("seed002_frigate/frigate.hgf");
     if !path.is_file() {
-        eprintln!("skipped: no published example beside this folder");
+        println!("skipped: {} is absent", path.display());
         return;
     }
     let (design, bytes) = read_design(&path).unwrap();
@@ -91,8 +95,6 @@ fn the_example_of_the_raw_generator_is_read() {
 
 #[test]
 fn the_published_schema_is_that_of_the_program() {
-    let published =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/configs/design.schema.json")).unwrap();
-    let published: serde_json::Value = serde_json::from_str(&published).unwrap();
+    let published = json(read_text(carried("configs/design.schema.json")));
     assert_eq!(published, loftsman::config::design_schema(), "run `loftsman schema > configs/design.schema.json`");
 }

@@ -1,20 +1,17 @@
 //! `loftsman export`: every configuration in every format.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::PathBuf;
 
 use loftsman::exchange::{DxfVersion, read_table, sha256};
 use loftsman::hull::{FitMethod, Hull, HullMesh, LEAST_ANGLE, PanelMesh, PanelSettings, Solid, whole_volume};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{ExportFormat, ExportSettings, export, read_source, read_table_file};
 
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).output().unwrap()
-}
+use crate::support::{carried, folder, program, stderr};
 
 fn config(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("configs").join(name)
+    carried("configs").join(name)
 }
 
 #[test]
@@ -34,12 +31,11 @@ fn every_config_is_written_in_every_format_and_its_mesh_is_closed() {
 
 #[test]
 fn files_are_not_overwritten_unasked() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("export");
-    let _ = fs::remove_dir_all(&folder);
+    let folder = folder("again");
     let (hull, out) = (config("box.toml").display().to_string(), folder.display().to_string());
     let arguments = ["export", hull.as_str(), "-f", "step,obj", "-o", out.as_str(), "--datum", "waterline"];
     assert_eq!(program(&arguments).status.code(), Some(0));
-    let text = fs::read_to_string(folder.join("box.obj")).unwrap();
+    let text = folder.read("box.obj");
     let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok());
     let (least, most) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
     let particulars = *read_source(&config("box.toml")).unwrap().hull.particulars();
@@ -47,13 +43,13 @@ fn files_are_not_overwritten_unasked() {
     assert!((most + particulars.draught - particulars.depth).abs() < 1e-12, "{most}");
     let again = program(&arguments);
     assert_eq!(again.status.code(), Some(6));
-    assert_eq!(fs::read_to_string(folder.join("box.obj")).unwrap(), text);
+    assert_eq!(folder.read("box.obj"), text);
     let mut forced = arguments.to_vec();
     forced.push("--force");
     assert_eq!(program(&forced).status.code(), Some(0));
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&wrong.stderr).contains(
+    assert!(stderr(&wrong).contains(
         "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan"
     ));
 }
@@ -65,7 +61,7 @@ fn files_are_those_of_the_golden_folder() {
     let hull = read_source(&config("box.toml")).unwrap().hull;
     let settings = ExportSettings { across: 1, panel: Some(25.0), ..ExportSettings::default() };
     let exported = export(&hull, "box", &ExportFormat::ALL, &settings).unwrap();
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    let golden = carried("tests/golden");
     for file in &exported.files {
         let wanted = fs::read(golden.join(&file.name)).unwrap_or_default();
         assert!(wanted == file.contents, "{} is not what tests/golden has", file.name);
@@ -309,7 +305,7 @@ fn hulls_laid_through_tables_have_no_slivers() {
         "series60_cb070/offsets.csv",
     ];
     for table in tables {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(table);
+        let path = carried("tests/data").join(table);
         let (table_read, _) = read_table_file(&path).unwrap();
         let hull = Hull::fit(&table_read, &FitMethod::default()).unwrap().hull;
         assert_eq!(slivers(table, &hull, 1e-3 * hull.particulars().breadth), 0, "{table}");

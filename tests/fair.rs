@@ -1,34 +1,15 @@
 //! The command `fair`: files, certificate, notation, locks, job files and their messages.
 
-mod random;
-
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 use loftsman::exchange::read_table;
 use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair, read_source};
 use serde_json::Value;
 
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// An empty folder of this test.
-fn folder(test: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fair-{test}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn carried(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
+use crate::random::Random;
+use crate::support::{carried, command, folder, json, names_in, program, read_text, stderr, stdout};
 
 const TABLE: &str = "tests/data/series60_cb060/offsets.csv";
 const YACHT: &str = "tests/data/pdstrip_yacht/offsets.csv";
@@ -107,11 +88,9 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     let arguments = ["fair", &carried(TABLE).display().to_string(), "-o", out.to_str().unwrap()];
     let output = program(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let page = String::from_utf8(output.stdout).unwrap();
+    let page = stdout(&output);
     assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
-    let mut names: Vec<String> =
-        fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
+    let names = names_in(&out);
     let expected = [
         "changes.csv",
         "control-polygon.csv",
@@ -131,7 +110,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "summary.json",
     ];
     assert_eq!(names, expected);
-    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    let certificate = json(read_text(out.join("fairing.json")));
     assert_eq!(certificate["status"], "optimal");
     for key in ["primal", "dual", "gap", "stationarity", "max_violation"] {
         number(&certificate["certificate"][key]);
@@ -161,7 +140,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
 #[test]
 fn the_table_keeps_its_notation_and_says_what_rounding_did() {
     let (job, outputs) = faired(&carried(TABLE), &[]);
-    let (old, new) = (fs::read_to_string(carried(TABLE)).unwrap(), file(&outputs, "offsets.csv"));
+    let (old, new) = (read_text(carried(TABLE)), file(&outputs, "offsets.csv"));
     assert_eq!(old.lines().next(), new.lines().next());
     assert_eq!(old.lines().count(), new.lines().count());
     let table = read_table("offsets.csv", new.as_bytes()).unwrap().table;
@@ -245,13 +224,14 @@ fn targets_are_met_and_locks_hold() {
 
 #[test]
 fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
-    let out = folder("infeasible").join("out");
+    let folder = folder("infeasible");
+    let out = folder.join("out");
     let table = carried(TABLE).display().to_string();
     let arguments = ["fair", &table, "-o", out.to_str().unwrap(), "--cb", "0.7", "--tolerance", "1 mm", "--no-figures"];
     let output = program(&arguments);
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert!(stderr(&output).contains("E401"), "{}", stderr(&output));
-    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    let certificate = json(read_text(out.join("fairing.json")));
     assert_eq!(certificate["status"], "infeasible");
     let found = &certificate["infeasible"];
     assert!(found["widening"].as_f64().unwrap() > 1.0, "{found}");
@@ -263,23 +243,23 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(0.59 < least && least < greatest && greatest < 0.62, "{alone}");
     assert!(stderr(&output).contains("C_B (--cb) alone would have to give by"), "{}", stderr(&output));
     // Every file says that it is a compromise.
-    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    let read = |name: &str| read_text(out.join(name));
     let mark = "# compromise: not all that was wished is held; fairing.json says what is not";
     let written = read("offsets.csv");
     assert_eq!(written.lines().next(), Some(mark));
     for name in ["hull.json", "summary.json"] {
-        let file: Value = serde_json::from_str(&read(name)).unwrap();
+        let file = json(read(name));
         assert!(file["name"].as_str().unwrap().ends_with(" (compromise)"), "{name}: {}", file["name"]);
     }
     let changes = read("changes.csv");
     assert!(changes.lines().skip(1).all(|line| line.ends_with(",infeasible")), "{changes}");
     // A table of a compromise that is faired in its turn loses the mark when all that is wished is held.
-    let again = folder("infeasible-again").join("out");
+    let again = folder.join("again");
     let table = out.join("offsets.csv").display().to_string();
     let output = program(&["fair", &table, "-o", again.to_str().unwrap(), "--no-figures"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(!fs::read_to_string(again.join("offsets.csv")).unwrap().contains("compromise"));
-    let summary: Value = serde_json::from_str(&fs::read_to_string(again.join("summary.json")).unwrap()).unwrap();
+    assert!(!read_text(again.join("offsets.csv")).contains("compromise"));
+    let summary = json(read_text(again.join("summary.json")));
     assert!(!summary["name"].as_str().unwrap().contains("compromise"), "{}", summary["name"]);
 }
 
@@ -468,8 +448,7 @@ fn the_least_tolerances_for_a_section_area_are_found() {
         fs::write(&job, format!("[table]\nfile = {table:?}\n[tolerance]\ntable = {tolerance}\n{hold}\n")).unwrap();
         let (job, to) = (job.display().to_string(), out.display().to_string());
         let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
-        let certificate = fs::read_to_string(out.join("fairing.json")).unwrap();
-        let certificate: Value = serde_json::from_str(&certificate).unwrap();
+        let certificate = json(read_text(out.join("fairing.json")));
         (output.status.code(), stderr(&output), certificate["infeasible"]["widening"].as_f64())
     };
     let (code, said, widening) = run(0.01);
@@ -488,11 +467,12 @@ fn the_least_tolerances_for_a_section_area_are_found() {
 /// it may stay there, and no line bends more often for it.
 #[test]
 fn tolerances_below_the_swings_of_the_start_harm_nothing() {
-    let out = folder("tight").join("out");
+    let folder = folder("tight");
+    let out = folder.join("out");
     let (table, to) = (carried(TABLE).display().to_string(), out.display().to_string());
     let output = program(&["fair", &table, "--tolerance", "0.5 mm", "-o", &to, "--no-figures"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let certificate: Value = serde_json::from_str(&fs::read_to_string(out.join("fairing.json")).unwrap()).unwrap();
+    let certificate = json(read_text(out.join("fairing.json")));
     for kind in ["stations", "waterlines", "buttocks", "diagonals"] {
         for line in certificate["inflections"][kind].as_array().unwrap() {
             assert!(line["after"].as_u64() <= line["before"].as_u64(), "{kind} {line}");
@@ -517,8 +497,7 @@ fn a_sectional_area_curve_is_held() {
         let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
         (output.status.code(), stderr(&output), String::from_utf8_lossy(&output.stdout).into_owned())
     };
-    let certificate =
-        || -> Value { serde_json::from_str(&fs::read_to_string(folder.join("out/fairing.json")).unwrap()).unwrap() };
+    let certificate = || json(folder.read("out/fairing.json"));
     let areas = || -> Vec<[f64; 4]> {
         let all = certificate()["constraints"].as_array().unwrap().clone();
         let own = all.iter().filter(|c| c["kind"] == "section_area");
@@ -565,7 +544,7 @@ fn a_sectional_area_curve_is_held() {
 #[test]
 fn sections_given_as_points_are_faired() {
     use std::fmt::Write;
-    let mut random = random::Random(5);
+    let mut random = Random(5);
     let truth = |x: f64, z: f64| 5.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - (1.0 - z / 6.0).powi(2));
     let mut text = "station,x [m],point,y [m],z [m]\n".to_owned();
     for station in 1..20 {
@@ -577,7 +556,8 @@ fn sections_given_as_points_are_faired() {
             writeln!(text, "{station},{x},{point},{y:.5},{z:.5}").unwrap();
         }
     }
-    let table = folder("points").join("sections.csv");
+    let folder = folder("points");
+    let table = folder.join("sections.csv");
     fs::write(&table, text).unwrap();
     let (job, outputs) = faired(&table, &[]);
     let changes = &outputs.outcome.changes;
@@ -630,19 +610,19 @@ fn a_misprint_is_left_out_and_listed() {
 #[test]
 fn unknown_offsets_are_predicted() {
     let path = folder("unknown");
-    let text = fs::read_to_string(carried("tests/data/series60_cb060/offsets.csv")).unwrap();
+    let text = read_text(carried("tests/data/series60_cb060/offsets.csv"));
     assert!(text.contains(",2.6420,3.3569,4.3972,"));
     let table = path.join("table.csv");
     fs::write(&table, text.replace(",2.6420,3.3569,4.3972,", ",2.6420,?,4.3972,")).unwrap();
     let out = path.join("out").display().to_string();
     let output = program(&["fair", &table.display().to_string(), "-o", &out, "--no-figures"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let changes = fs::read_to_string(path.join("out/changes.csv")).unwrap();
+    let changes = read_text(path.join("out/changes.csv"));
     let last: Vec<&str> = changes.lines().last().unwrap().split(',').collect();
     assert_eq!((last[0], last[3], last[4], last[11]), ("18.288", "3.2512", "", "?"));
     assert!((last[5].parse::<f64>().unwrap() - 3.3569).abs() < 0.02, "{last:?}");
     assert!(last[12].starts_with("(3.3") && last[12].ends_with(')'), "{last:?}");
-    let fair = fs::read_to_string(path.join("out/offsets.csv")).unwrap();
+    let fair = read_text(path.join("out/offsets.csv"));
     assert!(fair.contains(&format!(",{},", last[12])), "{fair}");
     assert!(String::from_utf8_lossy(&output.stdout).contains("1 unknown offset"));
     let output = program(&["report", &out, "-o", &path.join("report").display().to_string(), "--dpi", "30"]);
@@ -652,7 +632,8 @@ fn unknown_offsets_are_predicted() {
 /// Single lines that bend more often, and an order that the table cannot have, are warned of on stderr.
 #[test]
 fn what_is_not_what_was_hoped_for_is_warned_of() {
-    let out = folder("hoped").join("out").display().to_string();
+    let folder = folder("hoped");
+    let out = folder.join("out").display().to_string();
     let yacht = carried(YACHT).display().to_string();
     let output = program(&["fair", &yacht, "-o", &out, "--no-figures", "--no-signs", "--order", "4"]);
     let said = stderr(&output);
@@ -752,9 +733,7 @@ fn a_changed_file_is_faired_again() {
     let table = path.join("table.csv");
     fs::copy(carried(TABLE), &table).unwrap();
     let out = path.join("out");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_loftsman"))
-        .args(["fair", table.to_str().unwrap(), "-o", out.to_str().unwrap(), "--watch", "--no-figures"])
-        .stdin(Stdio::null())
+    let mut child = command(&["fair", table.to_str().unwrap(), "-o", out.to_str().unwrap(), "--watch", "--no-figures"])
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
@@ -765,7 +744,7 @@ fn a_changed_file_is_faired_again() {
     assert!(first.is_some());
     let before = fs::read(out.join("fairing.json")).unwrap();
     // A tenth of a metre narrower at the upper edge of five stations is another hull.
-    let text = fs::read_to_string(&table).unwrap().replace("8.1280\n", "8.0280\n");
+    let text = read_text(&table).replace("8.1280\n", "8.0280\n");
     fs::write(&table, text).unwrap();
     let later = SystemTime::now() + Duration::from_secs(2);
     fs::File::options().write(true).open(&table).unwrap().set_modified(later).unwrap();
@@ -824,7 +803,8 @@ fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
 /// hull.
 #[test]
 fn a_table_that_is_right_stays() {
-    let metres = folder("right").join("metres.csv");
+    let folder = folder("right");
+    let metres = folder.join("metres.csv");
     fs::write(&metres, wigley_table(|station| format!("{} m", 5.0 * station))).unwrap();
     let (_, outputs) = faired(&metres, &[("--job", "dimensions.Lpp", "100 m")]);
     let (rms, largest, _) = outputs.outcome.moves();
@@ -849,7 +829,7 @@ fn a_table_that_is_read_is_not_written_over() {
 #[test]
 fn ends_that_are_closed_stay_closed() {
     let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);
-    let hull: Value = serde_json::from_str(&file(&outputs, "hull.json")).unwrap();
+    let hull = json(file(&outputs, "hull.json"));
     let edge = |axis: &str| hull["surface"][axis][0].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
     let below: Vec<f64> = edge("y").into_iter().zip(edge("z")).filter(|(_, z)| *z < 9.7).map(|(y, _)| y).collect();
     assert!(below.len() > 15 && below.iter().all(|y| y.abs() < 1e-4), "{below:?}");
@@ -860,7 +840,7 @@ fn ends_that_are_closed_stay_closed() {
 #[test]
 fn the_bending_energy_is_minimised_within_what_is_held() {
     let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);
-    let result: Value = serde_json::from_str(&file(&outputs, "fairing.json")).unwrap();
+    let result = json(file(&outputs, "fairing.json"));
     let energies: Vec<f64> = result["bending"]["energies"].as_array().unwrap().iter().map(number).collect();
     println!("{energies:?}");
     assert!(energies.len() > 2 && energies.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + 1e-9)));
@@ -881,7 +861,7 @@ fn the_bending_energy_is_minimised_within_what_is_held() {
 #[test]
 fn lobes_are_taken_out_for_no_more_than_their_price() {
     let (_, outputs) = faired(&carried(TABLE), &[]);
-    let result: Value = serde_json::from_str(&file(&outputs, "fairing.json")).unwrap();
+    let result = json(file(&outputs, "fairing.json"));
     let curves = |kind: &str| result["inflections"][kind].as_array().unwrap().clone();
     let lines: Vec<Value> = ["waterlines", "stations"].into_iter().flat_map(curves).collect();
     let sum = |when: &str| lines.iter().map(|line| line[when].as_u64().unwrap()).sum::<u64>();

@@ -3,27 +3,10 @@
 use loftsman::fairing::curve::{
     CurvePoint, CurveSettings, CurveSuspect, FairStatus, InflectionWish, LineKind, contradictions, fair_curve,
 };
+use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
-fn kernel(mu: f64, t: f64) -> f64 {
-    let a = mu.abs().sqrt();
-    if mu > 0.0 {
-        1.0 - ((a * t).cosh() - 1.0) / (a.cosh() - 1.0)
-    } else {
-        1.0 - (1.0 - (a * t).cos()) / (1.0 - a.cos())
-    }
-}
-
-/// A waterline 100 m long, 8 m half-breadth; mu < -pi^2/4 makes a hollow end.
-fn waterline(aft: f64, forward: f64, x: f64) -> f64 {
-    8.0 * if x < 50.0 { kernel(aft, 1.0 - x / 50.0) } else { kernel(forward, x / 50.0 - 1.0) }
-}
-
-fn normal(random: &mut StdRng) -> f64 {
-    let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random_range(0.0..1.0));
-    (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-}
+use crate::support::{Folder, command, folder, json, normal, stderr, stdout, waterline};
 
 fn points(curve: impl Fn(f64) -> f64, from: f64, to: f64, count: usize, sigma: f64, seed: u64) -> Vec<CurvePoint> {
     let mut random = StdRng::seed_from_u64(seed);
@@ -252,37 +235,10 @@ fn true_curvature_makes_a_round_end_round() {
     assert!(errors[1].0 <= errors[0].0);
 }
 
-/// A folder of its own for one test.
-struct Folder(std::path::PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("loftsman-fair-curve-{name}-{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_loftsman"));
-        let output = command.current_dir(&self.0).arg("fair-curve").args(arguments).output().unwrap();
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.0.join(name), text).unwrap();
-    }
-
-    fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.0.join(name)).unwrap()
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
+/// Exit code, standard output and error of the command in a folder.
+fn run(folder: &Folder, arguments: &[&str]) -> (i32, String, String) {
+    let output = command(&[&["fair-curve"], arguments].concat()).current_dir(folder).output().unwrap();
+    (output.status.code().unwrap(), stdout(&output), stderr(&output))
 }
 
 fn csv(points: &[CurvePoint]) -> String {
@@ -293,15 +249,15 @@ fn csv(points: &[CurvePoint]) -> String {
 
 #[test]
 fn the_command_writes_curve_proof_and_picture() {
-    let folder = Folder::new("files");
-    folder.write("curve.csv", &csv(&points(|x| waterline(-9.0, 2.0, x), 0.0, 100.0, 21, 0.04, 2)));
+    let folder = folder("files");
+    folder.write("curve.csv", csv(&points(|x| waterline(-9.0, 2.0, x), 0.0, 100.0, 21, 0.04, 2)));
     let (code, page, error) =
-        folder.run(&["curve.csv", "-o", "out", "--area", "keep", "--centroid", "keep", "--lock", "50"]);
+        run(&folder, &["curve.csv", "-o", "out", "--area", "keep", "--centroid", "keep", "--lock", "50"]);
     assert_eq!((code, error.as_str()), (0, ""), "{page}");
     assert!(page.contains("status        optimal") && page.contains("proved"), "{page}");
-    let json: serde_json::Value = serde_json::from_str(&folder.read("out/fairing.json")).unwrap();
-    assert_eq!(json["status"], "optimal");
-    let entry = &json["inflections"]["curve"][0];
+    let fairing = json(folder.read("out/fairing.json"));
+    assert_eq!(fairing["status"], "optimal");
+    let entry = &fairing["inflections"]["curve"][0];
     assert_eq!(
         (entry["after"].as_u64(), entry["minimum"].as_u64(), &entry["certified"]),
         (Some(1), Some(1), &serde_json::Value::Bool(true))
@@ -310,8 +266,8 @@ fn the_command_writes_curve_proof_and_picture() {
     // Whichever bend the stretch begins with, one of the two proofs has as many witnesses as inflections are claimed.
     let proofs = entry["stretches"][0]["proof"].as_array().unwrap();
     assert_eq!(proofs.iter().map(|p| p["witnesses"].as_array().unwrap().len()).min(), Some(1));
-    assert!(json["certificate"]["gap"].as_f64().unwrap().abs() < 1e-7);
-    for line in json["constraints"].as_array().unwrap() {
+    assert!(fairing["certificate"]["gap"].as_f64().unwrap().abs() < 1e-7);
+    for line in fairing["constraints"].as_array().unwrap() {
         let target = line["target"].as_f64().unwrap();
         assert!(line["residual"].as_f64().unwrap().abs() < 1e-10 * target.abs(), "{line}");
     }
@@ -321,25 +277,25 @@ fn the_command_writes_curve_proof_and_picture() {
     assert!(
         locked.split(',').nth(3) == Some("!") && locked.split(',').nth(5).unwrap().parse::<f64>().unwrap().abs() < 1e-9
     );
-    assert!(std::fs::read(folder.0.join("out/fair-curve.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(std::fs::read(folder.join("out/fair-curve.png")).unwrap().starts_with(b"\x89PNG"));
     // The result is a curve that reads back, and it is fair already.
-    let (code, again, _) = folder.run(&["out/curve.csv", "--json"]);
+    let (code, again, _) = run(&folder, &["out/curve.csv", "--json"]);
     assert_eq!(code, 0);
-    let again: serde_json::Value = serde_json::from_str(&again).unwrap();
-    assert!(again["moves"]["max"].as_f64().unwrap() < json["moves"]["max"].as_f64().unwrap());
+    let again = json(&again);
+    assert!(again["moves"]["max"].as_f64().unwrap() < fairing["moves"]["max"].as_f64().unwrap());
     // Nothing is overwritten without being told.
-    assert_eq!(folder.run(&["curve.csv", "-o", "out"]).0, 6);
-    assert_eq!(folder.run(&["curve.csv", "-o", "out", "--force", "--no-figures", "-q"]).0, 0);
+    assert_eq!(run(&folder, &["curve.csv", "-o", "out"]).0, 6);
+    assert_eq!(run(&folder, &["curve.csv", "-o", "out", "--force", "--no-figures", "-q"]).0, 0);
 }
 
 /// What no sensible curve within the tolerances has is refused with the interval that it has, and the nearest curve.
 #[test]
 fn impossible_areas_centroids_and_slopes_are_refused() {
-    let folder = Folder::new("impossible");
-    folder.write("curve.csv", &csv(&points(|x| waterline(-9.0, -9.0, x), 0.0, 100.0, 21, 0.02, 2)));
+    let folder = folder("impossible");
+    folder.write("curve.csv", csv(&points(|x| waterline(-9.0, -9.0, x), 0.0, 100.0, 21, 0.02, 2)));
     let run = |option: &str, value: &str| {
-        let (code, page, error) = folder.run(&["curve.csv", "-o", "out", "--force", "--no-figures", option, value]);
-        let json: serde_json::Value = serde_json::from_str(&folder.read("out/fairing.json")).unwrap();
+        let (code, page, error) = run(&folder, &["curve.csv", "-o", "out", "--force", "--no-figures", option, value]);
+        let json = json(folder.read("out/fairing.json"));
         (code, page + &error, json)
     };
     for (option, value) in
@@ -363,12 +319,12 @@ fn impossible_areas_centroids_and_slopes_are_refused() {
 
 #[test]
 fn the_command_refuses_with_numbers() {
-    let folder = Folder::new("refuse");
-    folder.write("curve.csv", &csv(&points(|x| waterline(-9.0, -9.0, x), 0.0, 100.0, 21, 0.0, 2)));
-    let (code, page, error) = folder.run(&["curve.csv", "-o", "out", "--tolerance", "10 mm", "--inflections", "0"]);
+    let folder = folder("refuse");
+    folder.write("curve.csv", csv(&points(|x| waterline(-9.0, -9.0, x), 0.0, 100.0, 21, 0.0, 2)));
+    let (code, page, error) = run(&folder, &["curve.csv", "-o", "out", "--tolerance", "10 mm", "--inflections", "0"]);
     assert_eq!(code, 4, "{page}{error}");
     assert!(error.contains("E410") && error.contains("times as wide"), "{error}");
-    let json: serde_json::Value = serde_json::from_str(&folder.read("out/fairing.json")).unwrap();
+    let json = json(folder.read("out/fairing.json"));
     assert_eq!(json["status"], "infeasible");
     let widening = json["widening"].as_f64().unwrap();
     // Every file says that it is a compromise; the curve reads back, and what is had of it loses the mark.
@@ -377,7 +333,7 @@ fn the_command_refuses_with_numbers() {
     let rows = || written.lines().skip(1);
     assert!(rows().next().unwrap().ends_with(",status") && rows().skip(1).all(|row| row.ends_with(",infeasible")));
     assert!(folder.read("out/fair-curve.svg").contains("A COMPROMISE"));
-    assert_eq!(folder.run(&["out/curve.csv", "-o", "again"]).0, 0);
+    assert_eq!(run(&folder, &["out/curve.csv", "-o", "again"]).0, 0);
     let again = folder.read("again/curve.csv");
     assert_eq!(again.lines().count(), rows().count());
     assert!(again.lines().skip(1).all(|row| row.ends_with(",optimal")), "{again}");
@@ -385,23 +341,23 @@ fn the_command_refuses_with_numbers() {
     // With that tolerance, and not with one a hundredth smaller, it can be had.
     let with = |factor: f64| {
         let tolerance = format!("{} mm", 10.0 * widening * factor);
-        folder.run(&["curve.csv", "--tolerance", &tolerance, "--inflections", "0"]).0
+        run(&folder, &["curve.csv", "--tolerance", &tolerance, "--inflections", "0"]).0
     };
     assert_eq!((with(1.001), with(0.99)), (0, 4));
     // Locks that contradict a wish at any tolerance.
     let all = "0:100:5";
-    let (code, _, error) = folder.run(&["curve.csv", "--lock", all, "--inflections", "0"]);
+    let (code, _, error) = run(&folder, &["curve.csv", "--lock", all, "--inflections", "0"]);
     assert_eq!(code, 4, "{error}");
-    assert_eq!(folder.run(&["curve.csv", "--lock", "51"]).0, 2);
-    assert_eq!(folder.run(&["curve.csv", "--order", "7"]).0, 2);
+    assert_eq!(run(&folder, &["curve.csv", "--lock", "51"]).0, 2);
+    assert_eq!(run(&folder, &["curve.csv", "--order", "7"]).0, 2);
     folder.write("bad.csv", "x,y\n0,1\n1,abc\n2,3-13-1\n");
-    let (code, _, error) = folder.run(&["bad.csv"]);
+    let (code, _, error) = run(&folder, &["bad.csv"]);
     assert!(
         code == 3 && error.contains("bad.csv:3") && error.contains("bad.csv:4") && error.contains("E340"),
         "{error}"
     );
     folder.write("few.csv", "x,y\n0,1\n1,2\n2,3\n");
-    let (code, _, error) = folder.run(&["few.csv"]);
+    let (code, _, error) = run(&folder, &["few.csv"]);
     assert!(code == 3 && error.contains("E342"), "{error}");
 }
 
@@ -447,20 +403,20 @@ fn corners_that_nobody_declared_are_told() {
 
 #[test]
 fn suspects_are_left_out_and_listed_unless_they_are_kept() {
-    let files = Folder::new("suspects");
+    let files = folder("suspects");
     let (list, k) = with_error(3, 27.0);
-    files.write("curve.csv", &csv(&list));
-    let (code, page, _) = files.run(&["curve.csv", "-o", "out", "--area", "keep"]);
+    files.write("curve.csv", csv(&list));
+    let (code, page, _) = run(&files, &["curve.csv", "-o", "out", "--area", "keep"]);
     assert_eq!(code, 0);
     let place = format!("x = {:.3} m: given", list[k].x);
     assert!(page.contains(&place) && page.contains("left out; --keep-suspects takes it"), "{page}");
-    let json: serde_json::Value = serde_json::from_str(&files.read("out/fairing.json")).unwrap();
+    let json = json(files.read("out/fairing.json"));
     assert_eq!(json["suspects"][0]["left_out"], true);
     assert!(json["noise"]["sigma"].as_f64().unwrap() < 0.02, "{}", json["noise"]);
     // The area as given is that without it.
     assert!(json["constraints"][0]["residual"].as_f64().unwrap().abs() < 1e-9);
     let row = files.read("out/curve.csv").lines().find(|line| line.ends_with("suspect")).unwrap().to_owned();
     assert!((row.split(',').nth(5).unwrap().parse::<f64>().unwrap() + 0.27).abs() < 0.05, "{row}");
-    let (_, page, _) = files.run(&["curve.csv", "--keep-suspects"]);
+    let (_, page, _) = run(&files, &["curve.csv", "--keep-suspects"]);
     assert!(page.contains("taken as it is"), "{page}");
 }

@@ -4,43 +4,29 @@ use loftsman::fairing::bends::Line;
 use loftsman::fairing::constraint::{FixedLine, Rule};
 use loftsman::fairing::job::{Job, Tolerance};
 use loftsman::fairing::outcome::Outcome;
-use loftsman::hull::{Cell, Entry, Hull, OffsetTable, StatedParticulars, StationOffsets};
+use loftsman::hull::{Cell, Entry, Hull, OffsetTable, StatedParticulars};
 use loftsman::qp::Status;
+
+use crate::support::{carried, sampled, table_of, weyl_noise};
 
 /// 21 stations and 11 waterlines of a Wigley hull of 100 by 10 by 6.25 m in millimetres, with noise of this standard
 /// deviation \[m\] from a sequence of its own (Weyl); keel, stem and stern stay closed.
 fn wigley(noise: f64) -> OffsetTable {
     let waterlines: Vec<f64> = (0..11).map(|j| 0.625 * f64::from(j)).collect();
-    let mut count = 0;
-    let mut normal = || {
-        count += 1;
-        let uniform = |by: f64| (f64::from(count) * by).fract();
-        (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt() * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
-    };
-    let mut half = |x: f64, z: f64| {
+    let mut normal = weyl_noise();
+    let half = |x: f64, z: f64| {
         let y = 5.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - (1.0 - z / 6.25).powi(2));
-        let y = if y > 0.0 { (y + noise * normal()).max(0.0) } else { 0.0 };
-        Cell::from(Some((y * 1e3).round() / 1e3))
+        if y > 0.0 { (y + noise * normal()).max(0.0) } else { 0.0 }
     };
-    let stations = (0..21)
-        .map(|i| {
-            let x = 5.0 * f64::from(i);
-            StationOffsets {
-                half_breadths: waterlines.iter().map(|&z| half(x, z)).collect(),
-                keel_height: Some(0.0),
-                ..StationOffsets::new(format!("{i}"), x)
-            }
-        })
-        .collect();
-    let endings = waterlines.iter().map(|_| [Some(0.0), Some(100.0)]).collect();
-    let mut table = OffsetTable { waterlines, stations, endings, ..OffsetTable::default() };
+    let mut table = sampled(waterlines, 21, |i| 5.0 * i, 3, half);
+    table.stations.iter_mut().for_each(|station| station.keel_height = Some(0.0));
+    table.endings = vec![[Some(0.0), Some(100.0)]; 11];
     table.stated = StatedParticulars {
         length_between_perpendiculars: Some(100.0),
         breadth: Some(10.0),
         draught: Some(6.25),
         depth: Some(6.25),
     };
-    table.form.decimals = Some(3);
     table
 }
 
@@ -170,8 +156,7 @@ fn the_noise_is_that_of_the_table_at_any_weight() {
 #[test]
 fn any_waterline_may_be_locked() {
     for name in ["series60_cb060", "s175", "pdstrip_yacht"] {
-        let path = format!("{}/tests/data/{name}/offsets.csv", env!("CARGO_MANIFEST_DIR"));
-        let table = loftsman::exchange::read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table;
+        let table = table_of(carried("tests/data").join(name).join("offsets.csv"));
         for waterline in 0..table.waterlines.len() {
             let given = |i: &usize| table.stations[*i].half_breadths[waterline].value().is_some();
             let locked: Vec<(usize, usize)> = (0..table.stations.len()).filter(given).map(|i| (i, waterline)).collect();

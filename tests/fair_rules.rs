@@ -1,8 +1,5 @@
 //! Rules of a fairing for single lines and regions: each is kept where it says so, and its price is told.
 
-use std::path::Path;
-
-use loftsman::exchange::read_table;
 use loftsman::fairing::bends::Line;
 use loftsman::fairing::constraint::{Constraint, FixedLine, Rule, TangentPlace};
 use loftsman::fairing::held::HeldRule;
@@ -11,16 +8,15 @@ use loftsman::fairing::outcome::Outcome;
 use loftsman::fairing::proposals::Accepted;
 use loftsman::fairing::surface::with_half_breadths;
 use loftsman::fairing::{LineCourse, LineKind, ProposedLine};
-use loftsman::hull::{
-    Cell, Cut, FitMethod, Hull, OffsetTable, StationOffsets, transverse_inertia, transverse_inertia_gradient,
-};
+use loftsman::hull::{Cut, FitMethod, Hull, OffsetTable, transverse_inertia, transverse_inertia_gradient};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES, wetted_surface, wetted_surface_gradient};
 use loftsman::qp::Status;
 
+use crate::support::{carried, sampled, table_of, weyl_noise};
+
 /// The parent of Series 60 with C_B 0.60: 121.92 m between perpendiculars, B 16.256 m, T 6.5024 m.
 fn series60() -> OffsetTable {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
-    read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table
+    table_of(carried("tests/data/series60_cb060/offsets.csv"))
 }
 
 fn faired(rules: Vec<Rule>) -> Outcome {
@@ -227,8 +223,7 @@ fn disturbed(hull: &Hull, by: f64) -> Hull {
 fn gradients_are_those_of_finite_differences() {
     let table = series60();
     let level = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pdstrip_yacht/offsets.csv");
-    let yacht = read_table("offsets.csv", &std::fs::read(path).unwrap()).unwrap().table;
+    let yacht = table_of(carried("tests/data/pdstrip_yacht/offsets.csv"));
     let upright = Hull::fit(&yacht, &FitMethod::Graded).unwrap().hull;
     assert!(level.is_level() && !upright.is_level());
     for hull in [level, upright] {
@@ -287,50 +282,16 @@ fn metacentre_and_wetted_surface_are_held() {
     }
 }
 
-/// Noise of 2 mm from a sequence of its own (Weyl).
-fn noise() -> impl FnMut() -> f64 {
-    let mut count = 0;
-    move || {
-        count += 1;
-        let uniform = |by: f64| (f64::from(count) * by).fract();
-        0.002
-            * (-2.0 * uniform(0.754_877_666).max(1e-9).ln()).sqrt()
-            * (std::f64::consts::TAU * uniform(0.569_840_290)).cos()
-    }
-}
-
-/// A table of `count` stations at `x` of their number, written to a tenth of a millimetre.
-fn sampled(
-    waterlines: Vec<f64>,
-    count: i32,
-    x: impl Fn(f64) -> f64,
-    mut half: impl FnMut(f64, f64) -> f64,
-) -> OffsetTable {
-    let mut cell = |x: f64, z: f64| Cell::from(Some((half(x, z) * 1e4).round() / 1e4));
-    let stations = (0..count)
-        .map(|i| {
-            let x = x(f64::from(i));
-            StationOffsets {
-                half_breadths: waterlines.iter().map(|&z| cell(x, z)).collect(),
-                ..StationOffsets::new(format!("{i}"), x)
-            }
-        })
-        .collect();
-    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
-    table.form.decimals = Some(4);
-    table
-}
-
 /// 25 stations and 21 waterlines of a hull with a chine at 6 m, which the table does not declare and which turns the
-/// stations by `turn` of x, with noise.
+/// stations by `turn` of x, with noise of 2 mm.
 fn chined(turn: impl Fn(f64) -> f64) -> OffsetTable {
     let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
-    let mut noise = noise();
+    let mut noise = weyl_noise();
     let half = |x: f64, z: f64| {
         let y = (1.0 - 0.4 * (x / 50.0 - 1.0).powi(2)) * (6.0 + 0.5 * z - 0.02 * z * z) + turn(x) * (z - 6.0).max(0.0);
-        y + noise()
+        y + 0.002 * noise()
     };
-    sampled(waterlines, 25, |i| 4.0 * i + 2.0, half)
+    sampled(waterlines, 25, |i| 4.0 * i + 2.0, 4, half)
 }
 
 /// By how much the slope of a station is more above a height than below.
@@ -364,15 +325,15 @@ fn a_chine_ends_where_it_is_said_to_end() {
 #[test]
 fn a_chine_is_not_taken_for_typing_errors() {
     let waterlines: Vec<f64> = (0..9).map(f64::from).collect();
-    let mut noise = noise();
+    let mut noise = weyl_noise();
     let half = |x: f64, z: f64| {
         let own = 6.0 * (1.0 - (x / 50.0 - 1.0).powi(2)) * (1.0 - ((8.0 - z) / 8.0).powi(2));
         let part = (x - 32.0) / 36.0;
         let fades = if (0.0..1.0).contains(&part) { 0.2 * (std::f64::consts::PI * part).sin().powi(2) } else { 0.0 };
         let y = own - fades * (z - 4.0).abs() * (-((z - 4.0) / 2.5).powi(2)).exp();
-        if own > 0.0 { (y + noise()).max(0.0) } else { 0.0 }
+        if own > 0.0 { (y + 0.002 * noise()).max(0.0) } else { 0.0 }
     };
-    let table = sampled(waterlines, 21, |i| 5.0 * i, half);
+    let table = sampled(waterlines, 21, |i| 5.0 * i, 4, half);
     let outcome = Job::default().run(&table).unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     assert!(outcome.changes.iter().all(|change| !change.suspect), "{:?}", outcome.suspects);

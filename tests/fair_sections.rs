@@ -1,9 +1,6 @@
 //! Fairing of sections that are given as points: stations whose points rise from keel to deck have proved least numbers
 //! of inflections and are asked for them, as those of a table of offsets.
 
-#[path = "random/mod.rs"]
-mod random;
-
 use std::fmt::Write;
 
 use loftsman::exchange::read_table;
@@ -11,7 +8,8 @@ use loftsman::fairing::job::Job;
 use loftsman::fairing::outcome::Outcome;
 use loftsman::hull::Cut;
 use loftsman::qp::Status;
-use random::Random;
+
+use crate::random::Random;
 
 /// A boat of 20 x 4 x 1.5 m with sections y = 2 (1 - s^2) (1 - (1 - z/D)^2) over a keel that rises at the ends, s = 2
 /// x/L - 1, each of 14 points with errors of a standard deviation of 3 mm.

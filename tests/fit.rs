@@ -6,21 +6,13 @@
 use loftsman::exchange::read_table;
 use loftsman::hull::{Cell, FitMethod, Fitted, Functional, Hull, OffsetTable, StationOffsets};
 use proptest::prelude::*;
-use std::path::PathBuf;
 
-fn folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("LOFTSMAN_DATA").map_or_else(|| PathBuf::from("../shared/data"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no folder {}", folder.display());
-    None
-}
+use crate::support::{carried, shared_folder};
 
 /// A table as the data folder writes it: x, the columns of the profile, then half-breadths under the heights of
 /// waterlines.
 fn load(hull: &str, draught: f64) -> Option<OffsetTable> {
-    let text = std::fs::read_to_string(folder()?.join(hull).join("offsets.csv")).ok()?;
+    let text = std::fs::read_to_string(shared_folder()?.join(hull).join("offsets.csv")).ok()?;
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next()?.split(',').collect();
     let column = |name: &str| head.iter().position(|h| *h == name);
@@ -188,8 +180,8 @@ proptest! {
 
 /// A table of section outlines of the repository, or of the folder of published hulls.
 fn outlines(path: &str) -> Option<OffsetTable> {
-    let own = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(path);
-    let path = if own.is_file() { own } else { folder()?.join(path) };
+    let own = carried("tests/data").join(path);
+    let path = if own.is_file() { own } else { shared_folder()?.join(path) };
     let name = path.file_name()?.to_string_lossy().into_owned();
     Some(read_table(&name, &std::fs::read(&path).ok()?).expect("a readable table").table)
 }

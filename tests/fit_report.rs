@@ -1,15 +1,11 @@
 //! What `fit` and `check` tell beside the hull: points of sections, suspects, estimates, a surface that leaves its data.
 
-use std::path::{Path, PathBuf};
-
 use loftsman::hull::{FitMethod, Hull, Thinned, VolumeEstimate};
 use loftsman::report::{
     FitJob, FitOutputs, check_json, check_page, check_table, fit_outputs, fit_page, read_fit, read_table_file,
 };
 
-fn carried(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
+use crate::support::carried;
 
 fn fitted(file: &str, change: impl FnOnce(&mut FitJob)) -> (FitJob, FitOutputs, String) {
     let mut job = read_fit(&carried(file), None, None).expect("a table");

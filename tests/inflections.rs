@@ -5,28 +5,12 @@ use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-/// 1 - (cosh(a t) - 1) / (cosh a - 1) with mu = a^2, the cosine where mu < 0: one inflection at pi / (2 a) if mu <
-/// -pi^2 / 4.
-fn kernel(mu: f64, t: f64) -> f64 {
-    let a = mu.abs().sqrt();
-    match mu {
-        mu if mu > 1e-3 => 1.0 - ((a * t).cosh() - 1.0) / (a.cosh() - 1.0),
-        mu if mu < -1e-3 => 1.0 - (1.0 - (a * t).cos()) / (1.0 - a.cos()),
-        _ => 1.0 - t * t,
-    }
-}
+use crate::support::{normal, waterline};
 
-fn normal(random: &mut StdRng) -> f64 {
-    let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random_range(0.0..1.0));
-    (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-}
-
-/// A waterline of 100 m with the largest half-breadth 8 m at 50 m, at 21 stations.
-fn waterline(aft: f64, forward: f64) -> (Vec<f64>, Vec<f64>) {
+/// A waterline at 21 stations.
+fn offsets(aft: f64, forward: f64) -> (Vec<f64>, Vec<f64>) {
     let x: Vec<f64> = (0..21).map(|k| 5.0 * f64::from(k)).collect();
-    let y =
-        x.iter().map(|&x| 8.0 * if x < 50.0 { kernel(aft, 1.0 - x / 50.0) } else { kernel(forward, x / 50.0 - 1.0) });
-    let y = y.collect();
+    let y = x.iter().map(|&x| waterline(aft, forward, x)).collect();
     (x, y)
 }
 
@@ -95,7 +79,7 @@ fn the_truth_of_48_waterlines() {
             (1, false) => (full(&mut random), hollow(&mut random)),
             _ => (hollow(&mut random), hollow(&mut random)),
         };
-        let (x, mut y) = waterline(aft, forward);
+        let (x, mut y) = offsets(aft, forward);
         y.iter_mut().for_each(|y| *y += sigma * normal(&mut random));
         let bands = Bands::new(x, y, vec![3.0 * sigma; 21], vec![]).unwrap();
         let clock = std::time::Instant::now();

@@ -9,6 +9,8 @@ use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
 use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 use proptest::prelude::*;
 
+use crate::support::carried;
+
 /// Graph y(x) with its first three derivatives, positive where it turns to the left.
 fn graph(x: f64, [y, y1, y2, y3]: [f64; 4]) -> Local {
     let w = 1.0 + y1 * y1;
@@ -430,7 +432,7 @@ fn what_has_no_breadth_is_not_counted() {
     assert_eq!(inspection.curves.len(), 2);
     assert!(inspection.curves.iter().all(|curve| curve.without_breadth.abs() < 1e-12), "fine ends stay");
     // The end station of this table lies on the centreplane up to 6.5 m.
-    let table = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
+    let table = carried("tests/data/series60_cb060/offsets.csv");
     let hull = loftsman::report::read_source(&table).unwrap().hull;
     let planes = Planes { stations: vec![121.92], waterlines: vec![2.0, 4.0], ..Planes::default() };
     let inspection = Inspection::new(&hull, &planes, 5e-3);

@@ -2,8 +2,7 @@
 //! every file of `configs/methods` run by itself.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::PathBuf;
 
 use loftsman::hull::{
     Cell, Entry, FitError, FitMethod, Fitted, Hull, LeastSquares, NetKnots, OffsetStation, OffsetTable,
@@ -12,7 +11,8 @@ use loftsman::hull::{
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::report::{fit_outputs, read_fit};
 use loftsman::spline::{BsplineSurface, Parametrization};
-use serde_json::Value;
+
+use crate::support::{carried, folder, json, names_in, program, read_text, stderr, stdout};
 
 /// A table from a matrix; NaN is a blank cell.
 fn table(xs: &[f64], zs: &[f64], y: impl Fn(usize, usize) -> f64) -> OffsetTable {
@@ -287,7 +287,7 @@ fn the_hemisphere_of_1999() {
 /// waterline.
 #[test]
 fn the_hemisphere_as_a_hull() {
-    let job = read_fit(&methods_folder().join("seed004-hemisphere.toml"), None, None).unwrap();
+    let job = read_fit(&carried("configs/methods").join("seed004-hemisphere.toml"), None, None).unwrap();
     let fitted = Hull::fit(&job.table, &job.method.method).unwrap();
     let volume = CurvesOfForm::new(&fitted.hull, &[6.0], &Conventions::default()).rows[0].displacement_volume;
     let exact = 144.0 * std::f64::consts::PI;
@@ -301,21 +301,18 @@ fn the_hemisphere_as_a_hull() {
     }
 }
 
-fn methods_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/methods")
-}
-
 /// Every file of the folder runs by itself; its first line says what it shows; what it makes is a hull with numbers.
 #[test]
 fn every_method_file_runs() {
-    let mut files: Vec<PathBuf> = fs::read_dir(methods_folder()).unwrap().map(|e| e.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> =
+        fs::read_dir(carried("configs/methods")).unwrap().map(|e| e.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|e| e == "toml"));
     files.sort();
     assert!(files.len() >= 9);
     let mut kinds = Vec::new();
     for path in &files {
         let name = path.display();
-        let first = fs::read_to_string(path).unwrap().lines().next().unwrap().to_owned();
+        let first = read_text(path).lines().next().unwrap().to_owned();
         assert!(first.starts_with("# ") && first.len() > 20 && first.ends_with('.'), "{name}: {first}");
         let job = read_fit(path, None, None).unwrap_or_else(|e| panic!("{e}"));
         kinds.push(job.method.method.as_str());
@@ -339,7 +336,7 @@ fn every_method_file_runs() {
 /// published block coefficient 0.600 as their kind allows.
 #[test]
 fn volumes_of_series_60() {
-    let job = read_fit(&methods_folder().join("seed001-uniform-bicubic.toml"), None, None).unwrap();
+    let job = read_fit(&carried("configs/methods").join("seed001-uniform-bicubic.toml"), None, None).unwrap();
     let t = &job.table;
     let block = 121.92 * 16.256 * 6.5024;
     let volume = |method: FitMethod| {
@@ -463,42 +460,25 @@ fn what_cannot_be_fitted_is_said() {
     says(refused(&small, FitMethod::Bilinear), "half-breadths of the net, row 0, column 1: 2.36 m; with B 0.1 m");
 }
 
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// An empty folder of this test.
-fn folder(test: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("methods").join(test);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
 fn method_file(name: &str) -> String {
-    methods_folder().join(name).display().to_string()
+    carried("configs/methods").join(name).display().to_string()
 }
 
 #[test]
 fn fit_writes_its_files_and_a_page() {
-    let path = folder("fit").join("nubs");
+    let folder = folder("fit");
+    let path = folder.join("nubs");
     let target = path.to_str().unwrap();
     let output = program(&["fit", &method_file("seed000-least-squares.toml"), "-o", target]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let page = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = stdout(&output);
     println!("{page}");
     assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
     for words in ["least-squares, level chart", "20 cells, missed by 0.04", "0.0163 m RMS", "DISPVOL", "manifest.json"]
     {
         assert!(page.contains(words), "{words}: {page}");
     }
-    let mut names: Vec<String> =
-        fs::read_dir(&path).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
+    let names = names_in(&path);
     let expected = [
         "diagram-sheet.png",
         "fit.json",
@@ -513,8 +493,8 @@ fn fit_writes_its_files_and_a_page() {
         "sections.svg",
     ];
     assert_eq!(names, expected);
-    let read = |name: &str| fs::read_to_string(path.join(name)).unwrap();
-    let fit: Value = serde_json::from_str(&read("fit.json")).unwrap();
+    let read = |name: &str| read_text(path.join(name));
+    let fit = json(read("fit.json"));
     assert_eq!((fit["method"].as_str(), fit["chart"].as_str()), (Some("least-squares"), Some("level")));
     assert!((fit["cells"]["rms"].as_f64().unwrap() - 0.0163).abs() < 5e-5 && fit["cells"]["given"] == 20);
     assert_eq!(fit["inputs"][1]["file"], "seed000-fishing-vessel.csv");
@@ -532,19 +512,19 @@ fn fit_writes_its_files_and_a_page() {
     assert!((first - 0.89).abs() < 0.05 && (first - 0.89).abs() > 1e-4, "{first}");
     // The hull is one for the other commands.
     let hydro = program(&["hydro", target, "--draughts", "1.9", "--json"]);
-    let rows: Value = serde_json::from_slice(&hydro.stdout).unwrap();
+    let rows = json(&hydro.stdout);
     let (a, b) = (rows["rows"][0]["DISPVOL"].as_f64().unwrap(), fit["design"]["DISPVOL"].as_f64().unwrap());
     assert!((a - b).abs() < 1e-9 * b, "{a} {b}");
     // The same bytes again, and nothing overwritten without being told.
-    let again = folder("fit").join("again");
+    let again = folder.join("again");
     let output = program(&["fit", &method_file("seed000-least-squares.toml"), "-o", again.to_str().unwrap(), "-q"]);
     assert!(output.status.success() && output.stdout.is_empty());
-    let read = |name: &str| fs::read_to_string(again.join(name)).unwrap();
+    let read = |name: &str| read_text(again.join(name));
     assert_eq!(read("residuals.csv"), residuals);
     let output =
         program(&["fit", &method_file("seed000-bilinear.toml"), "-o", again.to_str().unwrap(), "--no-figures"]);
     assert_eq!(output.status.code(), Some(6));
-    assert!(text(&output.stderr).contains("E601"));
+    assert!(stderr(&output).contains("E601"));
 }
 
 #[test]
@@ -556,8 +536,8 @@ fn a_table_with_a_method_and_a_draught() {
         let arguments =
             ["fit", &table, "--method", method, "--draught", "1.3", "-o", target, "--no-figures", "--json", "--force"];
         let output = program(&arguments);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        let fit: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let fit = json(&output.stdout);
         assert_eq!((fit["method"].as_str(), fit["particulars"]["T"].as_f64()), (Some("bilinear"), Some(1.3)));
         assert_eq!(fit["inputs"][0]["file"], "seed000-fishing-vessel.csv");
         // The trapezoidal rule over the lower cell row.
@@ -569,17 +549,14 @@ fn a_table_with_a_method_and_a_draught() {
 #[test]
 fn messages_of_fit() {
     let path = folder("messages");
-    let write = |name: &str, text: &str| -> String {
-        fs::write(path.join(name), text).unwrap();
-        path.join(name).display().to_string()
-    };
+    let write = |name: &str, text: &str| path.write(name, text);
     let says = |arguments: &[&str], code: i32, words: &[&str]| {
         let mut all = vec!["fit"];
         all.extend(arguments);
         let target = path.join("out").display().to_string();
         all.extend(["-o", &target]);
         let output = program(&all);
-        let message = text(&output.stderr);
+        let message = stderr(&output);
         assert_eq!(output.status.code(), Some(code), "{message}");
         assert!(words.iter().all(|word| message.contains(word)), "{words:?}: {message}");
         assert!(!path.join("out").exists());

@@ -1,11 +1,10 @@
 //! The structured interior point against closed forms, its own conditions of optimality, Clarabel and the certificates.
 
-mod qp_problems;
-
 use loftsman::qp::{Engine, Problem, ProblemError, Settings, Solution, Solver, SparseRows, Status};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use qp_problems::{Shape, fairing, random};
+
+use crate::qp_problems::{Shape, fairing, random};
 
 const FREE: f64 = f64::INFINITY;
 

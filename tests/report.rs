@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
 use loftsman::plot::Sheet;
@@ -15,32 +15,18 @@ use loftsman::report::{
 use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
 
+use crate::support::{Folder, carried, command, folder, json, lasting_folder, program, read_text, stderr};
+
 /// Small pictures: what is tested here does not depend on their size.
 const SETTINGS: ReportSettings =
     ReportSettings { dots_per_inch: 24.0, sheet: Sheet::A3, combs: String::new(), date: None };
-
-fn program(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).args(arguments).stdin(Stdio::null()).output().unwrap()
-}
-
-/// An empty folder of this test.
-fn folder(test: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{test}"));
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn carried(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
 
 fn write(folder: &Path, files: &[OutputFile]) {
     Destination { folder, inputs: &[], force: true }.write(files).unwrap();
 }
 
 /// A generated hull in a folder of its own.
-fn generated(test: &str) -> PathBuf {
+fn generated(test: &str) -> Folder {
     let path = folder(test);
     let config = carried("configs/wigley.toml");
     let (design, bytes) = read_design(&config).unwrap();
@@ -49,11 +35,11 @@ fn generated(test: &str) -> PathBuf {
     path
 }
 
-/// The table of the Wigley hull with one wrong offset: 0.4 m too much.
-fn wrong_table() -> PathBuf {
-    let path = folder("fair-table").join("wigley/offsets.csv");
+/// The table of the Wigley hull with one wrong offset: 0.4 m too much. It is written into this folder.
+fn wrong_table(folder: &Path) -> PathBuf {
+    let path = folder.join("wigley/offsets.csv");
     fs::create_dir_all(path.parent().unwrap()).unwrap();
-    let text = fs::read_to_string(carried("tests/data/wigley/offsets.csv")).unwrap();
+    let text = read_text(carried("tests/data/wigley/offsets.csv"));
     let wrong = |line: &str| {
         let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
         cells[6] = format!("{:.6}", cells[6].parse::<f64>().unwrap() + 0.4);
@@ -69,8 +55,8 @@ fn wrong_table() -> PathBuf {
 fn faired() -> &'static (PathBuf, Vec<OutputFile>) {
     static FAIRED: OnceLock<(PathBuf, Vec<OutputFile>)> = OnceLock::new();
     FAIRED.get_or_init(|| {
-        let path = folder("fair");
-        let job = read_fair(&wrong_table(), &[]).unwrap();
+        let path = lasting_folder("report-faired");
+        let job = read_fair(&wrong_table(&folder("table")), &[]).unwrap();
         write(&path, &fair_outputs(&job, false).unwrap().files);
         let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
         (path, files)
@@ -151,7 +137,7 @@ fn every_result_becomes_a_report() {
     let path = generated("generate");
     let out = path.join("report");
     let output = program(&["report", path.to_str().unwrap(), "--dpi", "24"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     for name in expected(&HULL, &[]) {
         assert!(out.join(&name).is_file(), "{name}");
     }
@@ -172,7 +158,7 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     let path = folder("refused");
     let refused = |arguments: &[&str], code: i32, parts: &[&str]| {
         let output = program(&[&["report"], arguments].concat());
-        let message = String::from_utf8(output.stderr).unwrap();
+        let message = stderr(&output);
         assert_eq!(output.status.code(), Some(code), "{message}");
         for part in parts {
             assert!(message.contains(part), "{part} is not in {message}");
@@ -192,16 +178,14 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     let copy = |name: &str| fs::copy(fair.join(name), path.join(name)).map(drop).unwrap();
     copy("fairing.json");
     // A bare name: the folder is the one that the program stands in.
-    let here =
-        Command::new(env!("CARGO_BIN_EXE_loftsman")).args(["report", "fairing.json"]).current_dir(&path).output();
-    let message = String::from_utf8(here.unwrap().stderr).unwrap();
+    let message = stderr(&command(&["report", "fairing.json"]).current_dir(&path).output().unwrap());
     assert!(message.starts_with("E181 . found broken.json, fairing.json"), "{message}");
     copy("hull.json");
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected changes.csv, which `fair` writes"]);
     copy("changes.csv");
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected start.json"]);
     copy("start.json");
-    let changes = fs::read_to_string(fair.join("changes.csv")).unwrap();
+    let changes = read_text(fair.join("changes.csv"));
     let cut: String = changes.split_inclusive('\n').take(3).collect();
     let rows = changes.lines().count() - 1;
     let ends = format!("line 4: the file ends after 2 offsets, expected the {rows} of fairing.json");
@@ -215,7 +199,7 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
         refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv", part, "Run the command that wrote it again"]);
     }
     // Of a program that did not write how many there are.
-    let certificate = fs::read_to_string(fair.join("fairing.json")).unwrap();
+    let certificate = read_text(fair.join("fairing.json"));
     let count = format!("\"offsets\": {rows},");
     assert!(certificate.contains(&count));
     fs::write(path.join("fairing.json"), certificate.replace(&count, "")).unwrap();
@@ -223,7 +207,7 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv found 2 offsets that span no hull"]);
     copy("fairing.json");
     copy("changes.csv");
-    let start = fs::read_to_string(fair.join("start.json")).unwrap();
+    let start = read_text(fair.join("start.json"));
     fs::write(path.join("start.json"), start.replace("\"Lpp\":100.0", "\"Lpp\":90.0")).unwrap();
     let other = "another ship: found Lpp 90 m where hull.json has 100 m";
     refused(&[path.to_str().unwrap()], 3, &["E182", "start.json", other]);
@@ -273,7 +257,7 @@ fn what_is_missing_from_a_result_is_told() {
 fn a_result_that_was_changed_since_is_told() {
     let path = generated("stale");
     assert!(read_result(&path).unwrap().notes.is_empty());
-    let hull = fs::read_to_string(path.join("hull.json")).unwrap();
+    let hull = read_text(path.join("hull.json"));
     fs::write(path.join("hull.json"), hull + "\n").unwrap();
     let notes = read_result(&path).unwrap().notes;
     assert!(notes.len() == 1 && notes[0].contains("hull.json is not what the run wrote"), "{notes:?}");
@@ -307,14 +291,14 @@ fn what_fair_wrote_comes_back_as_it_was() {
     let (rms, largest, _) = record.moves();
     let near = |a: f64, b: &Value| (a - b.as_f64().unwrap()).abs() < 1e-12;
     assert!(near(rms, &fairing["moves"]["rms"]) && near(largest, &fairing["moves"]["max"]));
-    assert_eq!(text(files, "changes.csv"), fs::read_to_string(path.join("changes.csv")).unwrap());
+    assert_eq!(text(files, "changes.csv"), read_text(path.join("changes.csv")));
 }
 
 #[test]
 fn the_sheets_after_the_drawings_have_the_fair_table_the_inflections_and_the_notes() {
     let (path, files) = faired();
     let sheet = text(files, "faired-offsets.svg");
-    let table = fs::read_to_string(path.join("offsets.csv")).unwrap();
+    let table = read_text(path.join("offsets.csv"));
     let offsets = table.lines().filter(|line| !line.starts_with('#')).skip(1).flat_map(|line| line.split(',').skip(1));
     let mut compared = 0;
     for offset in offsets.filter(|offset| offset.parse::<f64>().is_ok()) {
@@ -325,7 +309,7 @@ fn the_sheets_after_the_drawings_have_the_fair_table_the_inflections_and_the_not
         compared > 400 && sheet.contains("left out as a suspect, the offset is that of the fair hull: 1"),
         "{compared}"
     );
-    let certificate: Value = serde_json::from_str(&fs::read_to_string(path.join("fairing.json")).unwrap()).unwrap();
+    let certificate = json(read_text(path.join("fairing.json")));
     let lines: usize = ["waterlines", "stations", "buttocks", "diagonals"]
         .iter()
         .map(|kind| certificate["inflections"][kind].as_array().unwrap().len())
@@ -371,7 +355,7 @@ fn tables_agree_in_their_notations_and_with_the_hull() {
         }
     }
     assert!(compared > 100, "{compared}");
-    let json: Value = serde_json::from_str(&text(files, "hydrostatics.json")).unwrap();
+    let json = json(text(files, "hydrostatics.json"));
     assert!(json["rows"].as_array().unwrap().len() > 10 && json["conventions"]["density"] == 1.025);
     let workbook = &files.iter().find(|file| file.name == "hydrostatics.xlsx").unwrap().contents;
     assert!(workbook.starts_with(b"PK"));
@@ -582,7 +566,7 @@ fn figures_look_as_the_kept_ones() {
         fs::create_dir_all(&golden).unwrap();
         fs::write(golden.join("structure.txt"), &told).unwrap();
     }
-    let kept = fs::read_to_string(golden.join("structure.txt")).unwrap();
+    let kept = read_text(golden.join("structure.txt"));
     for (a, b) in told.lines().zip(kept.lines()) {
         assert_eq!(a, b);
     }

@@ -17,28 +17,15 @@
 //! it they are not repaired, since what was meant is not known. With LOFTSMAN_REPORT set, the study writes
 //! reports/suspects/report.md and the example beside it.
 
-mod random;
-
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use loftsman::exchange::read_table;
 use loftsman::fairing::{Hypothesis, Suspects, suspects};
 use loftsman::hull::{Cell, Entry, Marks, OffsetTable, Written};
 use loftsman::units::Notation;
-use random::Random;
 
-fn shared() -> Option<PathBuf> {
-    let folder = std::env::var_os("LOFTSMAN_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    folder.is_dir().then_some(folder)
-}
-
-fn read(path: &Path) -> OffsetTable {
-    let bytes = std::fs::read(path).unwrap();
-    let name = path.display().to_string();
-    read_table(&name, &bytes).unwrap_or_else(|problems| panic!("{name}: {problems:?}")).table
-}
+use crate::random::Random;
+use crate::support::{carried, folder, read_text, shared_folder, table_of};
 
 fn scale(table: &mut OffsetTable, factor: f64) {
     table.waterlines.iter_mut().for_each(|z| *z *= factor);
@@ -54,27 +41,25 @@ fn scale(table: &mut OffsetTable, factor: f64) {
 }
 
 fn vlcc(folder: &Path) -> OffsetTable {
-    read(&folder.join("vlcc_roh/offsets.csv"))
+    table_of(folder.join("vlcc_roh/offsets.csv"))
 }
 
 /// The hulls of the study, with their names.
 fn hulls() -> Vec<(&'static str, OffsetTable)> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let own = carried("tests/data");
     let mut list: Vec<(&str, OffsetTable)> =
         ["series60_cb060", "series60_cb070", "series60_cb075", "s175", "wigley", "pdstrip_yacht"]
             .into_iter()
-            .map(|name| (name, read(&own.join(name).join("offsets.csv"))))
+            .map(|name| (name, table_of(own.join(name).join("offsets.csv"))))
             .collect();
-    if let Some(folder) = shared() {
+    if let Some(folder) = shared_folder() {
         for name in ["dtc", "dtmb5415", "coaster_sharif"] {
-            list.push((name, read(&folder.join(name).join("offsets.csv"))));
+            list.push((name, table_of(folder.join(name).join("offsets.csv"))));
         }
         let mut table = vlcc(&folder);
         let at = misprint(&table);
         table.stations[at.0].half_breadths[at.1].entry = Entry::Given(29.633);
         list.push(("vlcc_roh", table));
-    } else {
-        println!("skipped: the hulls of the shared folder (LOFTSMAN_DATA)");
     }
     for (name, table) in &mut list {
         if *name == "dtmb5415" {
@@ -101,7 +86,7 @@ fn misprint(table: &OffsetTable) -> (usize, usize) {
 
 #[test]
 fn the_misprint_of_the_vlcc_is_found_and_its_swap_named() {
-    let Some(folder) = shared() else { return println!("skipped: no shared folder (LOFTSMAN_DATA)") };
+    let Some(folder) = shared_folder() else { return };
     let table = vlcc(&folder);
     let found = suspects(&table);
     let first = &found.suspects[0];
@@ -440,7 +425,7 @@ fn study() -> Study {
 
 fn page(study: &Study) -> String {
     let mut text = String::from(
-        "# Suspect offsets: a study with planted errors\n\nMade by `LOFTSMAN_REPORT=1 cargo test --test suspects`. ",
+        "# Suspect offsets: a study with planted errors\n\nMade by `LOFTSMAN_REPORT=1 cargo test --test integration suspects::`. ",
     );
     text.push_str("What the tables are and what a noise level is: head of `tests/suspects.rs`.\n\n");
     let row = |text: &mut String, name: &str, c: &Count| {
@@ -511,7 +496,7 @@ fn planted_errors_are_found_and_hulls_are_left_alone() {
     let text = page(&study);
     println!("{text}");
     if std::env::var_os("LOFTSMAN_REPORT").is_some() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/suspects");
+        let folder = carried("reports/suspects");
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("report.md"), &text).unwrap();
         example(&folder);
@@ -525,9 +510,7 @@ fn planted_errors_are_found_and_hulls_are_left_alone() {
 
 /// A Series 60 parent with three errors, and what `check` makes of it.
 fn example(folder: &Path) {
-    let source =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv"))
-            .unwrap();
+    let source = read_text(carried("tests/data/series60_cb060/offsets.csv"));
     let wrong = source.replacen("6.7788", "6.7738", 1).replacen("5.1159", "5.1519", 1).replacen("7.1852", "1.7852", 1);
     std::fs::write(folder.join("series60-misprinted.csv"), &wrong).unwrap();
     let check = loftsman::report::check_table(&folder.join("series60-misprinted.csv")).unwrap();
@@ -537,10 +520,8 @@ fn example(folder: &Path) {
 
 #[test]
 fn accepting_changes_the_named_cells_and_nothing_else() {
-    let folder = std::env::temp_dir().join(format!("loftsman-check-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/series60_cb060/offsets.csv");
-    let source = std::fs::read_to_string(own).unwrap();
+    let folder = folder("accept");
+    let source = read_text(carried("tests/data/series60_cb060/offsets.csv"));
     let wrong = source.replacen("7.1852", "1.7852", 1).replacen("5.1159", "5.1519", 1);
     let path = folder.join("table.csv");
     std::fs::write(&path, &wrong).unwrap();
@@ -564,7 +545,6 @@ fn accepting_changes_the_named_cells_and_nothing_else() {
     assert!(failure.to_string().contains(&format!("E502 {} suspect", list.len())), "{failure}");
     let all: Vec<String> = list.iter().map(|s| s.id.clone()).collect();
     assert!(check.verdict(&all).is_ok());
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 fn first_row(text: &str, cell: &str) -> usize {

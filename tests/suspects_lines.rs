@@ -1,36 +1,17 @@
 //! Knuckles and tangent lines that `check` proposes where a table does not declare them.
 
-mod random;
-
-use std::path::Path;
-
 use loftsman::exchange::read_table;
 use loftsman::fairing::{LineCourse, LineKind, ProposedLine, proposed_lines, suspects};
-use loftsman::hull::{Cell, OffsetTable, StationOffsets};
-use random::Random;
+use loftsman::hull::OffsetTable;
 
-fn read(path: &Path) -> OffsetTable {
-    let bytes = std::fs::read(path).unwrap();
-    let name = path.display().to_string();
-    read_table(&name, &bytes).unwrap_or_else(|problems| panic!("{name}: {problems:?}")).table
-}
+use crate::random::Random;
+use crate::support::{carried, folder, sampled, table_of};
 
 /// 25 stations and 21 waterlines of a hull with half-breadths `half(x, z)`, normal noise and a tenth of a millimetre.
 fn made(half: impl Fn(f64, f64) -> f64, sigma: f64) -> OffsetTable {
     let mut random = Random(77);
     let waterlines: Vec<f64> = (0..21).map(|j| 0.5 * f64::from(j)).collect();
-    let mut offset = |x: f64, z: f64| Cell::from(Some(((half(x, z) + sigma * random.normal()) * 1e4).round() / 1e4));
-    let stations = (0..25)
-        .map(|i| {
-            let x = 4.0 * f64::from(i) + 2.0;
-            let mut station = StationOffsets::new(format!("{i}"), x);
-            station.half_breadths = waterlines.iter().map(|&z| offset(x, z)).collect();
-            station
-        })
-        .collect();
-    let mut table = OffsetTable { waterlines, stations, ..OffsetTable::default() };
-    table.form.decimals = Some(4);
-    table
+    sampled(waterlines, 25, |i| 4.0 * i + 2.0, 4, |x, z| half(x, z) + sigma * random.normal())
 }
 
 fn lines_of(table: &OffsetTable) -> Vec<ProposedLine> {
@@ -93,9 +74,9 @@ fn no_line_is_proposed_on_smooth_hulls() {
     for sigma in [0.0, 0.001, 0.005] {
         assert_eq!(lines_of(&made(smooth, sigma)), []);
     }
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let own = carried("tests/data");
     for name in ["series60_cb060", "series60_cb070", "series60_cb075", "s175", "wigley", "pdstrip_yacht"] {
-        let lines = lines_of(&read(&own.join(name).join("offsets.csv")));
+        let lines = lines_of(&table_of(own.join(name).join("offsets.csv")));
         assert!(lines.is_empty(), "{name}: {lines:?}");
     }
 }
@@ -111,10 +92,9 @@ fn proposed_lines_are_printed_and_written() {
             text.push_str(&format!(",{y:.4}"));
         }
     }
-    let path = std::env::temp_dir().join(format!("loftsman-lines-{}.csv", std::process::id()));
-    std::fs::write(&path, text + "\n").unwrap();
-    let check = loftsman::report::check_table(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
+    let folder = folder("printed");
+    folder.write("lines.csv", text + "\n");
+    let check = loftsman::report::check_table(&folder.join("lines.csv")).unwrap();
     let json = loftsman::report::check_json(&check);
     let line = &json["lines"][0];
     assert_eq!((line["kind"].as_str(), line["course"].as_str()), (Some("knuckle"), Some("waterline")), "{json}");

@@ -5,9 +5,6 @@
 //! true neighbours; what moves it less, or along the section, changes no section. Tables that must not be carried are
 //! read from the folder LOFTSMAN_DATA (or ../shared/data) and said to be skipped when it is absent.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use loftsman::exchange::{TableWriting, read_table, write_table};
 use loftsman::fairing::{PointNumber, height_suspects, point_suspects};
 use loftsman::hull::{Entry, OffsetStation, OffsetTable};
@@ -16,20 +13,18 @@ use loftsman::report::{accept, check_json, check_page, check_table, read_table_f
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+use crate::support::{carried, folder, read_text, shared_folder};
+
 /// Least distance of a planted error from the section, in noise levels of the table and in quanta.
 const LEAST: f64 = 10.0;
-
-fn carried(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
 
 fn tables() -> Vec<(&'static str, OffsetTable)> {
     let mut list = Vec::new();
     for name in ["s175", "pdstrip_yacht"] {
-        let file = carried(&format!("tests/data/{name}/sections.csv"));
+        let file = carried(format!("tests/data/{name}/sections.csv"));
         list.push((name, read_table_file(&file).expect("a table").0));
     }
-    let folder = std::env::var_os("LOFTSMAN_DATA").map_or_else(|| carried("../shared/data"), PathBuf::from);
+    let Some(folder) = shared_folder() else { return list };
     for (name, file) in
         [("dtc", "dtc/sections.csv"), ("dtmb5415", "dtmb5415/sections.csv"), ("moro", "moro_m16/M16_GG.bri")]
     {
@@ -170,15 +165,13 @@ fn clean_sections_are_silent() {
 
 #[test]
 fn a_swapped_digit_of_a_section_is_named_and_repaired() {
-    let text = fs::read_to_string(carried("tests/data/pdstrip_yacht/sections.csv")).unwrap();
+    let text = read_text(carried("tests/data/pdstrip_yacht/sections.csv"));
     // 0.4542 of point 4 of the first section of twelve points.
     let wrong = text.replacen("-6.519845,6,0.5982,0.7720", "-6.519845,6,0.9582,0.7720", 1);
     assert_ne!(text, wrong);
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("outlines");
-    fs::create_dir_all(&folder).unwrap();
-    let file = folder.join("sections.csv");
-    fs::write(&file, &wrong).unwrap();
-    let check = check_table(&file).unwrap();
+    let folder = folder("repaired");
+    folder.write("sections.csv", &wrong);
+    let check = check_table(&folder.join("sections.csv")).unwrap();
     let (page, json) = (check_page(&check), check_json(&check));
     assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
     assert!(page.contains("P1   station") && page.contains("digits swapped"), "{page}");

@@ -2,6 +2,8 @@
 
 use loftsman::exchange::{MOST_COLUMNS, Severity, TableProblem, read_table, read_table_with};
 
+use crate::support::{among, notes};
+
 fn problems(text: &str) -> Vec<String> {
     shown(read_table("t.csv", text.as_bytes()).err())
 }
@@ -15,21 +17,9 @@ fn shown(problems: Option<Vec<TableProblem>>) -> Vec<String> {
     problems.iter().filter(|p| p.severity == Severity::Error).map(ToString::to_string).collect()
 }
 
-fn notes(text: &str, toml: &str) -> Vec<String> {
-    let read = read_table_with("t.csv", text.as_bytes(), Some(("t.toml", toml)));
-    read.unwrap_or_else(|p| panic!("{}", p[0])).notes.iter().map(ToString::to_string).collect()
-}
-
 #[track_caller]
 fn one(text: &str, message: &str) {
     assert_eq!(problems(text), [message], "{text}");
-}
-
-/// One of the messages holds every part.
-#[track_caller]
-fn among(messages: &[String], parts: &[&str]) {
-    let found = messages.iter().any(|m| parts.iter().all(|part| m.contains(part)));
-    assert!(found, "{parts:?} in\n{}", messages.join("\n"));
 }
 
 const GOOD: &str = "x [m],0.5,1\n0,1,2\n10,2,3\n";

@@ -1,12 +1,12 @@
 //! Tables of offsets in files: workbooks, conventions beside a table, and the command that converts them.
 
 use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
 
 use loftsman::exchange::{Severity, TableWriting, read_table, write_table};
 use loftsman::hull::{Cell, TableLayout};
 use loftsman::units::Notation;
+
+use crate::support::{carried, convert, folder, read_text, stderr, stdout};
 
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0u32, |crc, &byte| {
@@ -156,18 +156,6 @@ fn workbooks_that_cannot_be_read() {
     }
 }
 
-/// A folder of its own for a test.
-fn folder(name: &str) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("table_files_{name}_{}", std::process::id()));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn convert(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).arg("convert").args(arguments).output().unwrap()
-}
-
 #[test]
 fn a_table_is_converted_and_the_rounding_reported() {
     let folder = folder("convert");
@@ -176,8 +164,8 @@ fn a_table_is_converted_and_the_rounding_reported() {
     fs::write(&table, text).unwrap();
     let path = table.display().to_string();
     let own = convert(&[&path]);
-    assert_eq!((own.status.code(), String::from_utf8(own.stdout).unwrap().as_str()), (Some(0), text));
-    let said = String::from_utf8(own.stderr).unwrap();
+    assert_eq!((own.status.code(), stdout(&own).as_str()), (Some(0), text));
+    let said = stderr(&own);
     assert!(
         said.contains("rounding: 4 offsets, 4 as they were written; largest change 0.000 mm, RMS 0.000 mm"),
         "{said}"
@@ -185,32 +173,31 @@ fn a_table_is_converted_and_the_rounding_reported() {
     let out = folder.join("mm.csv").display().to_string();
     let mm = convert(&[&path, &out, "--notation", "mm"]);
     assert_eq!(mm.status.code(), Some(0));
-    assert_eq!(fs::read_to_string(&out).unwrap(), "x\\z [mm],500,1000\n0,1234,2000\n10000,2000,3000\n");
-    let said = String::from_utf8(mm.stderr).unwrap();
+    assert_eq!(read_text(&out), "x\\z [mm],500,1000\n0,1234,2000\n10000,2000,3000\n");
+    let said = stderr(&mm);
     assert!(said.contains("largest change 0.400 mm, RMS 0.200 mm"), "{said}");
     assert_eq!(convert(&[&path, &out]).status.code(), Some(6));
     let unknown = convert(&[&path, &folder.join("boat.foo").display().to_string()]);
-    let said = String::from_utf8(unknown.stderr).unwrap();
+    let said = stderr(&unknown);
     assert_eq!(unknown.status.code(), Some(2), "{said}");
     assert!(said.contains("known are .csv, .xlsx, .step") && !folder.join("boat.foo").exists(), "{said}");
     // Conventions beside the table.
     fs::write(folder.join("boat.toml"), "[table]\nbreadths = \"full\"\n").unwrap();
     let half = convert(&[&path, "--notation", "m", "--layout", "tidy", "-q"]);
     let expected = "station,x [m],curve,z,y,flag\n0,0,WL,0.5,0.61720,\n0,0,WL,1,1.00000,\n10,10,WL,0.5,1.00000,\n10,10,WL,1,1.50000,\n";
-    assert_eq!(String::from_utf8(half.stdout).unwrap(), expected);
+    assert_eq!(stdout(&half), expected);
     assert!(half.stderr.is_empty());
     fs::write(folder.join("boat.toml"), "[table]\nbreadth = \"full\"\n").unwrap();
     let wrong = convert(&[&path]);
-    let said = String::from_utf8(wrong.stderr).unwrap();
+    let said = stderr(&wrong);
     assert_eq!(wrong.status.code(), Some(3));
     assert!(said.contains("E311") && said.contains("boat.toml:2") && said.contains("Did you mean breadths?"), "{said}");
     fs::write(folder.join("bad.csv"), "x [m],0.5,1\n0,3-11-9,1\n10,1,2\n").unwrap();
     let bad = convert(&[&folder.join("bad.csv").display().to_string(), "--notation", Notation::Feet.as_str()]);
-    let said = String::from_utf8(bad.stderr).unwrap();
+    let said = stderr(&bad);
     assert_eq!(bad.status.code(), Some(3));
     assert!(said.contains("bad.csv:2 column 2, '3-11-9': eighths are 0 to 7. Did you mean 3-11-0 or 4-0-1?"), "{said}");
     assert_eq!(convert(&[&path, "--layout", "round"]).status.code(), Some(2));
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 /// What a workbook says comes back from the workbook that is written of it: offsets, marks, texts, headers, comments.
@@ -227,7 +214,7 @@ fn workbooks_are_written_back() {
     assert_eq!(loftsman::exchange::workbook(&written.text, &again.form).unwrap(), bytes);
     // Every real table of the repository, and a sheet that stands for none.
     for name in ["wigley", "series60_cb060", "s175"] {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name).join("offsets.csv");
+        let path = carried("tests/data").join(name).join("offsets.csv");
         let Ok(text) = std::fs::read(&path) else { panic!("no {}", path.display()) };
         let csv = read_table("offsets.csv", &text).unwrap().table;
         let written = write_table(&csv, TableWriting::default());

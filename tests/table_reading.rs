@@ -1,8 +1,5 @@
 //! Reading of tables of offsets: published tables as they are, our own tables, random bytes.
 
-use std::fs;
-use std::path::PathBuf;
-
 use loftsman::exchange::{
     ReadTable, Severity, TableWriting, heights_csv, offsets_csv, read_table, read_table_with, write_table,
 };
@@ -13,23 +10,7 @@ use proptest::prelude::*;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-/// The folder with published hulls: `LOFTSMAN_DATA`, or `../shared/data` beside this package.
-fn data() -> Option<PathBuf> {
-    let folder = std::env::var_os("LOFTSMAN_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: {} is absent; set LOFTSMAN_DATA", folder.display());
-    None
-}
-
-fn read(name: &str, text: &str) -> ReadTable {
-    read_table(name, text.as_bytes()).unwrap_or_else(|problems| {
-        let list: Vec<String> = problems.iter().take(10).map(ToString::to_string).collect();
-        panic!("{name}:\n{}", list.join("\n"))
-    })
-}
+use crate::support::{read, read_text, shared_folder};
 
 /// Folder, stations, waterlines, first x, last x, highest waterline, largest half-breadth.
 const SHARED: [(&str, usize, usize, f64, f64, f64, f64); 13] = [
@@ -51,9 +32,9 @@ const SHARED: [(&str, usize, usize, f64, f64, f64, f64); 13] = [
 
 #[test]
 fn the_shared_tables_as_they_are() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = shared_folder() else { return };
     for (hull, stations, waterlines, first, last, highest, largest) in SHARED {
-        let text = fs::read_to_string(folder.join(hull).join("offsets.csv")).unwrap();
+        let text = read_text(folder.join(hull).join("offsets.csv"));
         let read = read(hull, &text);
         let t = &read.table;
         assert_eq!((t.stations.len(), t.waterlines.len()), (stations, waterlines), "{hull}");
@@ -89,22 +70,22 @@ fn the_shared_tables_as_they_are() {
 
 #[test]
 fn the_shared_tables_are_given_back_byte_for_byte() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = shared_folder() else { return };
     for (hull, ..) in SHARED {
-        let text = fs::read_to_string(folder.join(hull).join("offsets.csv")).unwrap();
+        let text = read_text(folder.join(hull).join("offsets.csv"));
         let written = write_table(&read(hull, &text).table, TableWriting::default());
         assert_eq!(written.text, text, "{hull}");
         assert!(written.rounding.largest <= 0.0 && written.rounding.kept == written.rounding.cells, "{hull}");
     }
-    let raw = fs::read_to_string(folder.join("vlcc_roh/raw_VLCC_offsets_from_Roh_2017.csv")).unwrap();
+    let raw = read_text(folder.join("vlcc_roh/raw_VLCC_offsets_from_Roh_2017.csv"));
     assert_eq!(write_table(&read("raw", &raw).table, TableWriting::default()).text, raw);
 }
 
 #[test]
 fn a_raw_table_in_millimetres_with_station_numbers() {
-    let Some(folder) = data() else { return };
-    let raw = fs::read_to_string(folder.join("vlcc_roh/raw_VLCC_offsets_from_Roh_2017.csv")).unwrap();
-    let table = fs::read_to_string(folder.join("vlcc_roh/offsets.csv")).unwrap();
+    let Some(folder) = shared_folder() else { return };
+    let raw = read_text(folder.join("vlcc_roh/raw_VLCC_offsets_from_Roh_2017.csv"));
+    let table = read_text(folder.join("vlcc_roh/offsets.csv"));
     let conventions = "[table]\nLpp = 320.0\nspaces = 20\n";
     let with = |name: &str, text: &str| {
         read_table_with(name, text.as_bytes(), Some(("vlcc.toml", conventions))).unwrap_or_else(|p| panic!("{}", p[0]))
@@ -123,9 +104,9 @@ fn a_raw_table_in_millimetres_with_station_numbers() {
 
 #[test]
 fn pairs_with_stray_brackets() {
-    let Some(folder) = data() else { return };
-    let raw = fs::read_to_string(folder.join("bodyplan_nithya/BodyPlan_raw.csv")).unwrap();
-    let clean = fs::read_to_string(folder.join("bodyplan_nithya/offsets.csv")).unwrap();
+    let Some(folder) = shared_folder() else { return };
+    let raw = read_text(folder.join("bodyplan_nithya/BodyPlan_raw.csv"));
+    let clean = read_text(folder.join("bodyplan_nithya/offsets.csv"));
     let (raw, clean) = (read("raw.csv", &raw).table, read("offsets.csv", &clean).table);
     assert_eq!(raw.waterlines, clean.waterlines);
     assert_eq!(raw.stations.len(), clean.stations.len());

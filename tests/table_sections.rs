@@ -2,19 +2,15 @@
 //! table are said at once; particulars that contradict a table are warned of.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use loftsman::exchange::{
-    ReadTable, Severity, TableProblem, TableWriting, read_table, read_table_with, write_britfair, write_freeship,
-    write_ghs, write_pdstrip, write_pias, write_table,
+    Severity, TableProblem, TableWriting, read_table, read_table_with, write_britfair, write_freeship, write_ghs,
+    write_pdstrip, write_pias, write_table,
 };
 use loftsman::hull::{OffsetTable, OutlinePoint, StationOffsets, TableLayout};
 use loftsman::units::Notation;
 
-fn read(name: &str, text: &str) -> ReadTable {
-    read_table(name, text.as_bytes()).unwrap_or_else(|p| panic!("{name}: {}", shown(&p)))
-}
+use crate::support::{among, carried, convert, folder, notes, program, read, read_text, stderr, stdout};
 
 fn shown(problems: &[TableProblem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
@@ -23,17 +19,6 @@ fn shown(problems: &[TableProblem]) -> String {
 fn errors(name: &str, bytes: &[u8]) -> Vec<String> {
     let problems = read_table(name, bytes).expect_err("the table is refused");
     problems.iter().filter(|p| p.severity == Severity::Error).map(ToString::to_string).collect()
-}
-
-fn notes(text: &str, toml: &str) -> Vec<String> {
-    let read = read_table_with("t.csv", text.as_bytes(), Some(("t.toml", toml)));
-    read.unwrap_or_else(|p| panic!("{}", shown(&p))).notes.iter().map(ToString::to_string).collect()
-}
-
-#[track_caller]
-fn among(messages: &[String], parts: &[&str]) {
-    let found = messages.iter().any(|m| parts.iter().all(|part| m.contains(part)));
-    assert!(found, "{parts:?} in\n{}", messages.join("\n"));
 }
 
 /// Largest distance of the points of two tables; infinite when they have not the same stations, branches and points
@@ -99,8 +84,8 @@ fn formats_with_a_writer_are_written_in_their_own() {
 
 #[test]
 fn points_without_a_writer_become_a_tidy_table() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/s175/sections.csv");
-    let first = read("sections.csv", &fs::read_to_string(path).unwrap()).table;
+    let path = carried("tests/data/s175/sections.csv");
+    let first = read("sections.csv", &read_text(path)).table;
     let points = first.stations.iter().flat_map(|s| s.outlines.iter().flatten()).count();
     assert!(points > 300, "{points}");
     let tidy = write_table(&first, TableWriting::default());
@@ -129,16 +114,6 @@ fn branches_and_particulars_outlive_a_tidy_table() {
     assert_eq!((again.stated, again.name.as_str()), (ship.stated, "small ship"));
 }
 
-fn convert(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_loftsman")).arg("convert").args(arguments).output().unwrap()
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("loftsman-{name}-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
 #[test]
 fn the_command_refuses_a_matrix_of_points() {
     let folder = folder("sections");
@@ -147,16 +122,15 @@ fn the_command_refuses_a_matrix_of_points() {
     let path = path.display().to_string();
     let own = convert(&[&path]);
     assert_eq!(own.status.code(), Some(0));
-    assert_eq!(String::from_utf8(own.stdout).unwrap(), write_britfair(&ship()));
-    let said = String::from_utf8(own.stderr).unwrap();
+    assert_eq!(stdout(&own), write_britfair(&ship()));
+    let said = stderr(&own);
     assert!(said.contains("rounding: 9 offsets") && !said.contains("not written"), "{said}");
     let matrix = convert(&[&path, "--layout", "matrix"]);
     assert_eq!(matrix.status.code(), Some(2));
     assert!(matrix.stdout.is_empty());
-    assert!(String::from_utf8(matrix.stderr).unwrap().contains("--layout tidy"));
+    assert!(stderr(&matrix).contains("--layout tidy"));
     let feet = convert(&[&path, "--notation", "mm"]);
-    assert!(String::from_utf8(feet.stderr).unwrap().contains("a tidy table of 9 points"));
-    fs::remove_dir_all(&folder).unwrap();
+    assert!(stderr(&feet).contains("a tidy table of 9 points"));
 }
 
 #[test]
@@ -170,13 +144,11 @@ fn notes_of_the_reading_reach_the_user() {
     fs::write(&path, text).unwrap();
     for job in [vec!["hydro", "--draughts", "1.5"], vec!["offsets", "--stations", "10", "--waterlines", "1"]] {
         let arguments = [&job[..1], &[path.to_str().unwrap()], &job[1..]].concat();
-        let out = Command::new(env!("CARGO_BIN_EXE_loftsman")).args(&arguments).output().unwrap();
-        let said = String::from_utf8(out.stderr).unwrap();
+        let said = stderr(&program(&arguments));
         for part in ["taken as millimetres", "rows are stations", "their order is turned", "W306"] {
             assert!(said.contains(part), "{arguments:?} {part}\n{said}");
         }
     }
-    fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -2,11 +2,9 @@
 //!
 //! With LOFTSMAN_REPORT set to a number of seeds, every case is run with as many and reports/truth/report.md is written.
 
-mod truth_hulls;
-
-use std::path::Path;
-
-use truth_hulls::{Case, Errors, LARGE, ROUGH, SIX_SIGMA, SMALL, Summary, cases};
+use crate::support::carried;
+use crate::truth_hulls::measure::{Summary, page};
+use crate::truth_hulls::{Case, Errors, LARGE, ROUGH, SIX_SIGMA, SMALL, cases};
 
 const SEEDS: u64 = 3;
 
@@ -120,7 +118,7 @@ fn the_page_of_all_cases() {
     let Some(seeds) = std::env::var("LOFTSMAN_REPORT").ok().and_then(|text| text.parse().ok()) else {
         return println!("skipped: LOFTSMAN_REPORT is no number of seeds");
     };
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/truth");
+    let folder = carried("reports/truth");
     std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("report.md"), truth_hulls::page(seeds)).unwrap();
+    std::fs::write(folder.join("report.md"), page(seeds)).unwrap();
 }

@@ -1,8 +1,8 @@
 //! Fitted tables against published figures: the tables carried here always, others when they are at hand.
 
-use std::path::{Path, PathBuf};
-
 use loftsman::report::{Case, Verdict, validate};
+
+use crate::support::{carried, shared_folder};
 
 fn summary(case: &Case) -> String {
     let lines = case.comparisons.iter().filter(|c| matches!(c.verdict, Verdict::Exceeded | Verdict::Missing));
@@ -18,7 +18,7 @@ fn judged(cases: &[Case]) -> usize {
 
 #[test]
 fn the_tables_carried_here_keep_the_tolerances_of_their_sources() {
-    let cases = validate(&[Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")]).expect("readable references");
+    let cases = validate(&[carried("tests/data")]).expect("readable references");
     let names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
     assert_eq!(names, ["pdstrip_yacht", "s175", "series60_cb060", "series60_cb070", "series60_cb075", "wigley"]);
     assert!(judged(&cases) >= 15, "{}", judged(&cases));
@@ -31,19 +31,9 @@ fn the_tables_carried_here_keep_the_tolerances_of_their_sources() {
     }
 }
 
-/// The folder named by LOFTSMAN_DATA, or ../shared/data beside the crate.
-fn other_tables() -> Option<PathBuf> {
-    let named = std::env::var_os("LOFTSMAN_DATA").map(PathBuf::from);
-    let folder = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"));
-    folder.is_dir().then_some(folder)
-}
-
 #[test]
 fn tables_that_may_not_be_carried_keep_their_tolerances() {
-    let Some(folder) = other_tables() else {
-        println!("skipped: no folder LOFTSMAN_DATA and no ../shared/data");
-        return;
-    };
+    let Some(folder) = shared_folder() else { return };
     let cases = validate(&[folder]).expect("readable references");
     for case in &cases {
         // A hull that cannot be made yet is told, not passed over in silence.

@@ -1,7 +1,5 @@
 //! Programs for tests and benches of `qp`: the fairing of a noisy Wigley hull, and random programs.
 
-#![allow(dead_code, reason = "tests and benches use different parts")]
-
 use loftsman::qp::{Problem, SparseRows};
 use loftsman::spline::{BsplineSurface, Gram, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -34,6 +32,7 @@ pub(crate) fn readings(offsets: [usize; 2], seed: u64) -> Vec<f64> {
 }
 
 /// The part of the objective that does not depend on the net: the weighted mean square of the readings.
+#[allow(dead_code, reason = "of the bench")]
 pub(crate) fn constant_part(readings: &[f64]) -> f64 {
     DATA * readings.iter().map(|y| y * y).sum::<f64>() / readings.len() as f64
 }

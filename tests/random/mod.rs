@@ -1,7 +1,5 @@
 //! Random numbers of tests and benches.
 
-#![allow(dead_code, reason = "each test draws what it needs")]
-
 /// A small generator with its own sequence (splitmix64), so that what is drawn is the same for ever.
 pub(crate) struct Random(pub(crate) u64);
 

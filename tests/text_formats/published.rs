@@ -3,16 +3,15 @@
 use super::{breadth, list, read, volume};
 use loftsman::exchange::{ReadTable, read_fractions, read_particulars, read_table};
 use loftsman::hull::StatedParticulars;
-use std::path::PathBuf;
 
-/// A file of the folder with published hulls: `LOFTSMAN_DATA`, or `../shared/data` beside this package.
+use crate::support::shared_folder;
+
+/// A file of the folder with published hulls.
 fn data(path: &str) -> Option<String> {
-    let folder = std::env::var_os("LOFTSMAN_DATA")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
-    let file = folder.join(path);
+    let file = shared_folder()?.join(path);
     let text = std::fs::read_to_string(&file).ok();
     if text.is_none() {
-        println!("skipped: {} is absent; set LOFTSMAN_DATA", file.display());
+        println!("skipped: {} is absent", file.display());
     }
     text
 }

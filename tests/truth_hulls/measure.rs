@@ -9,11 +9,11 @@ use loftsman::hull::{FitMethod, Hull, OffsetTable};
 use super::{Case, Truth, cases};
 
 /// Second differences below this part of the largest of the truth's line are none.
-pub const DEAD: f64 = 0.01;
+pub(crate) const DEAD: f64 = 0.01;
 
 impl Truth {
     /// Root of the mean square and largest distance of a hull to the truth \[m\].
-    pub fn errors(&self, hull: &Hull) -> [f64; 2] {
+    pub(crate) fn errors(&self, hull: &Hull) -> [f64; 2] {
         let (mut sum, mut most, mut count) = (0.0, 0.0_f64, 0);
         for i in 0..=200 {
             for j in 0..=100 {
@@ -30,14 +30,14 @@ impl Truth {
     }
 
     /// Largest error of the cells of a table \[m\].
-    pub fn largest(&self, table: &OffsetTable) -> f64 {
+    pub(crate) fn largest(&self, table: &OffsetTable) -> f64 {
         let rows = self.clean.stations.iter().zip(&table.stations);
         let cells = rows.flat_map(|(a, b)| a.half_breadths.iter().zip(&b.half_breadths));
         cells.filter_map(|(a, b)| Some((a.value()? - b.value()?).abs())).fold(0.0, f64::max)
     }
 
     /// Sign changes of the truth itself and of a hull: waterlines, sections, diagonals.
-    pub fn changes(&self, hull: &Hull) -> [[usize; 2]; 3] {
+    pub(crate) fn changes(&self, hull: &Hull) -> [[usize; 2]; 3] {
         let other = |x: f64, z: f64| hull.half_breadth(x, z);
         let [from, to] = [self.from, self.to];
         let (mut waterlines, mut sections, mut diagonals) = ([0; 2], [0; 2], [0; 2]);
@@ -60,7 +60,7 @@ impl Truth {
     }
 
     /// Fairs one table and measures.
-    pub fn measured(&self, case: &Case, seed: u64) -> Measured {
+    pub(crate) fn measured(&self, case: &Case, seed: u64) -> Measured {
         let table = self.table(case.errors, seed);
         let raw = Hull::fit(&table, &FitMethod::Graded).unwrap().hull;
         let started = cpu_seconds();
@@ -71,7 +71,6 @@ impl Truth {
         let lcb = Constraint::CentreOfBuoyancy(0.0).value(&outcome.after);
         let [a, b] = [self.errors(&raw), self.errors(&outcome.after)];
         Measured {
-            seed,
             rms: [a[0], b[0]],
             most: [a[1], b[1]],
             changes: [0, 1, 2].map(|k| [after[k][0], before[k][1], after[k][1]]),
@@ -132,7 +131,7 @@ fn turns(
 }
 
 /// CPU seconds of this thread where the system tells them, else of the clock.
-pub fn cpu_seconds() -> f64 {
+pub(crate) fn cpu_seconds() -> f64 {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(
@@ -142,27 +141,26 @@ pub fn cpu_seconds() -> f64 {
 }
 
 /// What became of one table.
-pub struct Measured {
-    pub seed: u64,
+pub(crate) struct Measured {
     /// Before and after \[m\].
-    pub rms: [f64; 2],
+    pub(crate) rms: [f64; 2],
     /// Before and after \[m\].
-    pub most: [f64; 2],
+    pub(crate) most: [f64; 2],
     /// Waterlines, sections, diagonals: truth, before, after.
-    pub changes: [[usize; 3]; 3],
+    pub(crate) changes: [[usize; 3]; 3],
     /// Relative.
-    pub volume: f64,
+    pub(crate) volume: f64,
     /// Over L.
-    pub lcb: f64,
+    pub(crate) lcb: f64,
     /// CPU time of the job \[s\].
-    pub seconds: f64,
+    pub(crate) seconds: f64,
     /// Largest error of a cell of the table \[m\].
-    pub largest: f64,
-    pub outcome: Outcome,
+    pub(crate) largest: f64,
+    pub(crate) outcome: Outcome,
 }
 
 /// The middle and the greatest of a list.
-pub fn spread(list: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn spread(list: impl Iterator<Item = f64>) -> [f64; 2] {
     let mut sorted: Vec<f64> = list.collect();
     sorted.sort_by(f64::total_cmp);
     let n = sorted.len();
@@ -170,33 +168,32 @@ pub fn spread(list: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Median and worst of what became of the tables of a case.
-pub struct Summary {
-    pub title: String,
-    pub tables: usize,
+pub(crate) struct Summary {
+    pub(crate) title: String,
+    pub(crate) tables: usize,
     /// Before and after \[m\].
-    pub rms: [[f64; 2]; 2],
+    pub(crate) rms: [[f64; 2]; 2],
     /// Before and after \[m\].
-    pub most: [[f64; 2]; 2],
+    pub(crate) most: [[f64; 2]; 2],
     /// Waterlines, sections, diagonals: truth, before, after.
-    pub changes: [[[f64; 2]; 3]; 3],
+    pub(crate) changes: [[[f64; 2]; 3]; 3],
     /// Energy after over energy before.
-    pub energy: [f64; 2],
-    pub volume: f64,
-    pub lcb: f64,
-    pub gap: f64,
-    pub programs: f64,
+    pub(crate) energy: [f64; 2],
+    pub(crate) volume: f64,
+    pub(crate) lcb: f64,
+    pub(crate) gap: f64,
+    pub(crate) programs: f64,
     /// CPU time of the job \[s\].
-    pub seconds: [f64; 2],
+    pub(crate) seconds: [f64; 2],
     /// Tables whose RMS grew, and whose largest error is beyond that of the interpolation and of the table's own cells.
-    pub worse: [usize; 2],
+    pub(crate) worse: [usize; 2],
     /// Jobs that did not end optimal.
-    pub failed: usize,
-    pub sigma: f64,
+    pub(crate) failed: usize,
 }
 
 impl Summary {
     /// Fairs the tables of a case with the seeds 1, 2, ...; rounding alone has but one table.
-    pub fn new(case: &Case, seeds: u64) -> Self {
+    pub(crate) fn new(case: &Case, seeds: u64) -> Self {
         let truth = (case.truth)();
         let count = if case.errors.is_random() { seeds } else { 1 };
         let list: Vec<Measured> = (1..=count).map(|seed| truth.measured(case, seed)).collect();
@@ -218,12 +215,11 @@ impl Summary {
                 list.iter().filter(|m| m.most[1] > m.most[0].max(m.largest)).count(),
             ],
             failed: list.iter().filter(|m| m.outcome.status != loftsman::qp::Status::Optimal).count(),
-            sigma: of(&|m| m.outcome.faired.sigma)[0],
         }
     }
 
     /// Head of the table that [`fmt::Display`] writes a row of.
-    pub fn head() -> &'static str {
+    pub(crate) fn head() -> &'static str {
         "| case | tables | RMS mm before > after | largest mm before > after | waterlines | sections | diagonals | energy after/before \
          | volume | LCB/L | gap | programs | CPU ms | worse RMS, larger maximum, not optimal |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
     }
@@ -245,9 +241,9 @@ impl fmt::Display for Summary {
 }
 
 /// The page of all cases.
-pub fn page(seeds: u64) -> String {
+pub(crate) fn page(seeds: u64) -> String {
     let mut text = format!(
-        "# Fairing against known truths\n\nMade by `LOFTSMAN_REPORT={seeds} cargo test --release --test truth`, {seeds} seeds a case; \
+        "# Fairing against known truths\n\nMade by `LOFTSMAN_REPORT={seeds} cargo test --release --test integration truth::`, {seeds} seeds a case; \
          `cargo bench --bench truth` prints the same rows, with 30. What the hulls and errors are: head of `tests/truth_hulls/mod.rs`. \
          a/b: median and worst case; changes of sign: truth, before, after (median/worst); before: the surface through the table; \
          displacement and LCB of the truth are given to the job; CPU time is that of the machine that made the page.\n\n\

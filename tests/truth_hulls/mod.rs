@@ -16,13 +16,7 @@
 //! distance along the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it
 //! is above a hundredth of the largest of the truth's own line.
 
-#![allow(dead_code, unused_imports, unreachable_pub, reason = "the bench and the test use different parts")]
-
-mod measure;
-#[path = "../random/mod.rs"]
-mod random;
-
-pub use measure::{Summary, page};
+pub(crate) mod measure;
 
 use std::path::Path;
 
@@ -36,16 +30,16 @@ use loftsman::hull::{
 use loftsman::parametric::ShipType;
 use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
 use loftsman::units::Notation;
-use random::Random;
+
+use crate::random::Random;
 
 /// A half-breadth over x and z \[m\].
 type HalfBreadth = Box<dyn Fn(f64, f64) -> Option<f64>>;
 
 /// A hull that is known.
-pub struct Truth {
-    pub length: f64,
-    pub breadth: f64,
-    pub draught: f64,
+pub(crate) struct Truth {
+    pub(crate) length: f64,
+    pub(crate) draught: f64,
     half: HalfBreadth,
     /// The table without errors.
     clean: OffsetTable,
@@ -59,7 +53,7 @@ pub struct Truth {
 
 /// What is wrong with a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Errors {
+pub(crate) enum Errors {
     /// Normal, standard deviation \[m\].
     Normal(f64),
     /// Rounded to multiples \[m\].
@@ -75,24 +69,24 @@ pub enum Errors {
 }
 
 /// Three gross errors.
-pub const LARGE: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.1, 0.15, 0.3] };
+pub(crate) const LARGE: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.1, 0.15, 0.3] };
 /// Three errors of ten to fifteen noise levels.
-pub const SMALL: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.02, 0.02, 0.03] };
+pub(crate) const SMALL: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.02, 0.02, 0.03] };
 /// Price of a change of curvature at which a table keeps what its noise does not explain: that of a degree of freedom
 /// in Mallows' criterion.
-pub const FAITHFUL: f64 = 2.0;
+pub(crate) const FAITHFUL: f64 = 2.0;
 /// One of six noise levels.
-pub const SIX_SIGMA: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.012] };
+pub(crate) const SIX_SIGMA: Errors = Errors::Outliers { noise: 0.002, sizes: &[0.012] };
 /// Gross errors among noise of 25 mm.
-pub const ROUGH: Errors = Errors::Outliers { noise: 0.025, sizes: &[0.25, 0.3, 0.5] };
+pub(crate) const ROUGH: Errors = Errors::Outliers { noise: 0.025, sizes: &[0.25, 0.3, 0.5] };
 
 impl Errors {
     /// Whether seeds matter.
-    pub fn is_random(self) -> bool {
+    pub(crate) fn is_random(self) -> bool {
         !matches!(self, Self::Rounded(_) | Self::Eighths)
     }
 
-    pub fn words(self) -> String {
+    pub(crate) fn words(self) -> String {
         match self {
             Self::Normal(sigma) => format!("noise {:.0} mm", sigma * 1e3),
             Self::Rounded(quantum) => format!("rounded to {:.0} mm", quantum * 1e3),
@@ -157,7 +151,6 @@ fn closed(
     }
     Truth {
         length,
-        breadth,
         draught,
         half: Box::new(move |x, z| Some(half(x, z))),
         clean,
@@ -168,7 +161,7 @@ fn closed(
     }
 }
 
-pub fn wigley() -> Truth {
+pub(crate) fn wigley() -> Truth {
     let (xs, zs) = (steps(100.0, 21), steps(6.25, 11));
     closed([100.0, 10.0, 6.25], [&xs, &zs], [&[], &[]], |x, z| {
         let (s, w) = (2.0 * x / 100.0 - 1.0, 1.0 - z / 6.25);
@@ -176,7 +169,7 @@ pub fn wigley() -> Truth {
     })
 }
 
-pub fn s_shaped() -> Truth {
+pub(crate) fn s_shaped() -> Truth {
     let (xs, zs) = (steps(100.0, 21), steps(6.0, 11));
     closed([100.0, 16.0, 6.0], [&xs, &zs], [&[50.0], &[4.0]], |x, z| {
         let (a, m, w) = ((x / 50.0 - 1.0).abs(), 12.0 * z / 6.0 - 8.0, 1.0 - z / 6.0);
@@ -189,7 +182,7 @@ pub fn s_shaped() -> Truth {
     })
 }
 
-pub fn middle_body() -> Truth {
+pub(crate) fn middle_body() -> Truth {
     let (xs, zs) = (steps(100.0, 21), steps(6.0, 13));
     closed([100.0, 16.0, 6.0], [&xs, &zs], [&[36.0, 64.0], &[17.0 / 3.0]], |x, z| {
         let (t, m, w) = ((((x - 50.0).abs() - 14.0) / 36.0).max(0.0), 3.0 * z - 17.0, 1.0 - z / 6.0);
@@ -206,14 +199,14 @@ pub fn middle_body() -> Truth {
 const RADIUS: f64 = 5.0;
 
 /// Heights of the tangent points of the bilge of [`bilge`] \[m\].
-pub fn tangents() -> [f64; 2] {
+pub(crate) fn tangents() -> [f64; 2] {
     let (slope, radius) = (30f64.to_radians(), RADIUS);
     let corner = 7.2 * slope.tan();
     let reach = radius * (0.5 * (0.5 * std::f64::consts::PI - slope)).tan();
     [corner - reach * slope.sin(), corner + reach]
 }
 
-pub fn bilge() -> Truth {
+pub(crate) fn bilge() -> Truth {
     let [low, high] = tangents();
     let zs = [0.0, 0.9, 1.8, low, 3.3, 4.0, 4.8, 5.6, 6.4, high, 8.0, 9.0];
     closed([100.0, 16.0, 9.0], [&steps(100.0, 21), &zs], [&[], &[low, high]], move |x, z| {
@@ -234,7 +227,6 @@ fn surface(hull: Hull, clean: OffsetTable) -> Truth {
     let (low, high) = (clean.waterlines[0], clean.waterlines[clean.waterlines.len() - 1]);
     Truth {
         length: p.length_between_perpendiculars,
-        breadth: p.breadth,
         draught: p.draught,
         volume: Constraint::Displacement(0.0).value(&hull),
         lcb: Constraint::CentreOfBuoyancy(0.0).value(&hull),
@@ -246,12 +238,12 @@ fn surface(hull: Hull, clean: OffsetTable) -> Truth {
 }
 
 /// The surface through a published table of `tests/data`, brought to 120 m where it is a model's.
-pub fn published(folder: &str) -> Truth {
+pub(crate) fn published(folder: &str) -> Truth {
     of_table(folder, |table| Hull::fit(table, &FitMethod::Graded).unwrap().hull)
 }
 
 /// The same table made fair: a hull with the features of a real ship and without the roughness of its table.
-pub fn faired(folder: &str) -> Truth {
+pub(crate) fn faired(folder: &str) -> Truth {
     of_table(folder, |table| Job::default().run(table).unwrap().after)
 }
 
@@ -290,23 +282,23 @@ fn generated(ship_type: ShipType, [length, breadth, draught, block, midship]: [f
     surface(hull, clean)
 }
 
-pub fn bulk_carrier() -> Truth {
+pub(crate) fn bulk_carrier() -> Truth {
     generated(ShipType::BulkCarrier, [217.0, 32.25, 12.2, 0.80, 0.99])
 }
 
 /// Of the size of the S-175, with a transom.
-pub fn container_ship() -> Truth {
+pub(crate) fn container_ship() -> Truth {
     generated(ShipType::Container, [175.0, 25.4, 9.5, 0.57, 0.98])
 }
 
 /// Fine, with rise of floor and an immersed transom.
-pub fn frigate() -> Truth {
+pub(crate) fn frigate() -> Truth {
     generated(ShipType::Frigate, [142.0, 19.06, 6.15, 0.50, 0.80])
 }
 
 impl Truth {
     /// The table with its errors: cells of the centreplane stay, as a draughtsman knows them.
-    pub fn table(&self, errors: Errors, seed: u64) -> OffsetTable {
+    pub(crate) fn table(&self, errors: Errors, seed: u64) -> OffsetTable {
         let mut random = Random(seed.wrapping_mul(7919).wrapping_add(31));
         let mut table = self.clean.clone();
         let rounded = |y: f64, quantum: f64| (y / quantum).round() * quantum;
@@ -360,13 +352,8 @@ impl Truth {
         table
     }
 
-    /// The half-breadth of a cell without errors \[m\].
-    pub fn cell(&self, station: usize, waterline: usize) -> Option<f64> {
-        self.clean.stations[station].half_breadths[waterline].value()
-    }
-
     /// The job that a user gives: the table, and displacement and LCB of the ship that is meant.
-    pub fn job(&self) -> Job {
+    pub(crate) fn job(&self) -> Job {
         let held = vec![Constraint::Displacement(self.volume), Constraint::CentreOfBuoyancy(self.lcb)];
         Job { holding: Holding::Given(held), ..Job::default() }
     }
@@ -404,21 +391,21 @@ fn swaps(table: &mut OffsetTable, cells: &[(usize, usize)], random: &mut Random)
 
 /// A case of the benchmark.
 #[derive(Debug, Clone, Copy)]
-pub struct Case {
+pub(crate) struct Case {
     /// Name of the truth.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Which truth.
-    pub truth: fn() -> Truth,
+    pub(crate) truth: fn() -> Truth,
     /// Which errors.
-    pub errors: Errors,
+    pub(crate) errors: Errors,
     /// Where the user says how noisy the table is, by a tolerance of three standard deviations: what forbidding a change
     /// of curvature may cost.
-    pub told: Option<f64>,
+    pub(crate) told: Option<f64>,
 }
 
 impl Case {
     /// The job for a hull.
-    pub fn job(&self, truth: &Truth) -> Job {
+    pub(crate) fn job(&self, truth: &Truth) -> Job {
         let mut job = truth.job();
         if let (Some(price), Errors::Normal(sigma)) = (self.told, self.errors) {
             (job.tolerance.table, job.price) = (Some(3.0 * sigma), price);
@@ -427,7 +414,7 @@ impl Case {
     }
 
     /// Truth and errors.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let told = match self.told {
             None => String::new(),
             Some(PRICE) => ", tolerance named".to_owned(),
@@ -454,7 +441,7 @@ fn fair_s175() -> Truth {
 }
 
 /// Every case of the benchmark. The third error is 0.5 % of B/2.
-pub fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     type Kind = (&'static str, fn() -> Truth, f64);
     let truths: [Kind; 9] = [
         ("Wigley", wigley, 0.025),

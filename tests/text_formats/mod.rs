@@ -12,9 +12,7 @@ use loftsman::exchange::{
 };
 use loftsman::hull::{Marks, OffsetTable, OutlinePoint, StationOffsets};
 
-fn read(name: &str, text: &str) -> ReadTable {
-    read_table(name, text.as_bytes()).unwrap_or_else(|problems| panic!("{name}: {}", list(&problems)))
-}
+use crate::support::read;
 
 fn list(problems: &[TableProblem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")

@@ -1,0 +1,47 @@
+//! The integration tests in one binary, which is compiled and linked once: one module a file. One of them alone is run
+//! by `cargo test --test integration families::`.
+//!
+//! A test that needs a process of its own (it sets variables of the environment, say) has to be a binary beside this
+//! one. None does.
+
+mod analytic_bodies;
+mod architecture;
+mod bending;
+mod bodies;
+mod charts;
+mod cli;
+mod codes;
+mod configs;
+mod errors;
+mod export;
+mod fair;
+mod fair_curve;
+mod fair_locks;
+mod fair_rules;
+mod fair_sections;
+mod families;
+mod fit;
+mod fit_features;
+mod fit_report;
+mod hemisphere;
+mod hydrostatics;
+mod inflections;
+mod inspect;
+mod methods;
+mod qp;
+mod qp_problems;
+mod random;
+mod report;
+mod sections;
+mod support;
+mod suspects;
+mod suspects_lines;
+mod suspects_outlines;
+mod table_errors;
+mod table_files;
+mod table_reading;
+mod table_sections;
+mod text_formats;
+mod truth;
+mod truth_hulls;
+mod validation;
