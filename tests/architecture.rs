@@ -1,7 +1,6 @@
 //! A module imports only from floors strictly below its own: never sideways, never upwards, never through the crate root.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
 const FLOORS: [(&str, usize); 15] = [
@@ -87,23 +86,9 @@ fn breaches(module: &str, file: &str, source: &str) -> Vec<String> {
         .collect()
 }
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(sources(&path));
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    files
-}
-
 #[test]
 fn every_import_goes_down() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let root = carried("src");
     let mut found = Vec::new();
     let mut count = 0;
     for path in sources(&root) {
@@ -114,10 +99,22 @@ fn every_import_goes_down() {
             continue;
         }
         count += 1;
-        found.extend(breaches(module, &format!("src/{}", inside.display()), &fs::read_to_string(&path).unwrap()));
+        found.extend(breaches(module, &format!("src/{}", inside.display()), &read_text(&path)));
     }
     assert!(count > 40, "only {count} sources were found");
     assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+/// A file that `tests/integration.rs` does not name would never be compiled.
+#[test]
+fn every_file_of_the_tests_is_a_module() {
+    let modules = read_text(carried("tests/integration.rs"));
+    for path in sources(&carried("tests")) {
+        let file = if path.ends_with("mod.rs") { path.parent().unwrap() } else { &path };
+        let name = file.file_stem().unwrap().display();
+        let top = file.parent().is_some_and(|folder| folder.ends_with("tests")) && !file.ends_with("integration.rs");
+        assert!(!top || modules.contains(&format!("\nmod {name};")), "{name}");
+    }
 }
 
 #[test]
