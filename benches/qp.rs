@@ -14,8 +14,8 @@
 mod qp_problems;
 
 use loftsman::fairing::least_bending::{LeastBending, least_bending};
-use loftsman::qp::{Engine, Problem, Settings, Solver};
-use qp_problems::{constant_part, fairing_of, readings, unbent};
+use loftsman::qp::{Problem, Settings, Solution, Solver};
+use qp_problems::{constant_part, fairing_of, readings, second_opinion, unbent};
 use std::process::Command;
 use std::time::Instant;
 
@@ -28,7 +28,7 @@ fn processor_seconds() -> Option<f64> {
     Some(1e-9 * text.split_whitespace().next()?.parse::<f64>().ok()?)
 }
 
-/// What an engine took and found.
+/// What a solver took and found.
 #[derive(Clone)]
 struct Run {
     seconds: f64,
@@ -39,14 +39,16 @@ struct Run {
     missed: [f64; 3],
 }
 
-/// The shortest of the turns of each engine, taken in turn.
+/// The shortest of the turns of each solver, taken in turn.
 fn race(problem: &Problem, rounds: usize) -> [Run; 2] {
     let none = Run { seconds: f64::INFINITY, processor: f64::INFINITY, iterations: 0, gap: 0.0, missed: [0.0; 3] };
     let mut result = [none.clone(), none];
     for _ in 0..rounds {
-        for (engine, result) in [Engine::Structured, Engine::Clarabel].into_iter().zip(&mut result) {
+        let ours = |problem: &Problem, settings: &Settings| problem.solve(settings).unwrap();
+        let solvers: [&dyn Fn(&Problem, &Settings) -> Solution; 2] = [&ours, &second_opinion::solve];
+        for (solve, result) in solvers.into_iter().zip(&mut result) {
             let (start, used) = (Instant::now(), processor_seconds());
-            let solution = problem.solve(&Settings { engine, ..Settings::default() }).unwrap();
+            let solution = solve(problem, &Settings::default());
             let seconds = start.elapsed().as_secs_f64();
             let processor = processor_seconds().zip(used).map_or(f64::NAN, |(now, then)| now - then);
             let gap = problem.certificate(&solution.x, &solution.multipliers, 0.0).gap;

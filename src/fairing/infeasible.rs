@@ -10,7 +10,7 @@
 
 use super::model::Row;
 use super::program::{Program, RowName};
-use crate::qp::{Engine, LeastFactor, ProblemError, RepeatedSolver, Settings, Solution, Status};
+use crate::qp::{LeastFactor, ProblemError, RepeatedSolver, Settings, Solution, Status};
 
 /// What a target may miss, relative, and still count as had.
 const HAD: f64 = 1e-9;
@@ -20,6 +20,9 @@ const VIOLATED: f64 = 1e-9;
 
 /// What the bound of a least factor may be off, relative, where the solver stalled before its tolerance was met.
 const PROVED: f64 = 1e-5;
+
+/// Weight of the square of a move \[1/m2\] against the factor, where the linear program stalls.
+const PROXIMAL: f64 = 1e-4;
 
 /// What one constraint could be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,8 +138,9 @@ fn least_factor(
     };
     let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
     if solution.status == Status::Limit && !found(&solution) {
-        // A linear program whose least factor is hardly more than what is had already may lose its way.
-        solution = problem.solve(&Settings { proof: false, engine: Engine::Clarabel, ..settings.clone() })?;
+        // A linear program whose least factor is hardly more than what is there already may lose its way.
+        let settings = Settings { proof: false, ..settings.clone() };
+        solution = problem.solve_by_proximal_points(&settings, &solution.x, PROXIMAL, found)?;
     }
     let found = found(&solution);
     let factor = solution.x.split_off(n)[0];

@@ -5,9 +5,7 @@
 //! (Golub & Van Loan 2013, section 4.3).
 
 use super::SingularMatrix;
-use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::{Accum, MatMut, MatRef, Par};
+use super::dense::{Block, divide_by_triangle, dot, factor_panel, subtract_product};
 
 /// Most columns of a panel.
 const BLOCK: usize = 48;
@@ -149,40 +147,19 @@ impl SymmetricBand {
             let (first, height) = (p * panels.block, panels.height());
             let (done, rest) = panels.values.split_at_mut((p + 1) * panels.block * height);
             let panel = &mut done[p * panels.block * height..];
-            for j in 0..columns {
-                let original = self.rows[(first + j) * (self.width + 1) + self.width];
-                let pivot = panel[j * height + j];
-                if !(pivot > 1e-15 * original && pivot.is_finite()) {
-                    return Err(SingularMatrix { column: first + j });
-                }
-                let root = pivot.sqrt();
-                panel[j * height..j * height + columns][j..].iter_mut().for_each(|value| *value /= root);
-                panel[j * height + j] = root;
-                let (left, right) = panel.split_at_mut((j + 1) * height);
-                let column = &left[j * height..j * height + columns];
-                for (k, other) in right.chunks_exact_mut(height).enumerate().take(columns - j - 1) {
-                    let factor = column[j + 1 + k];
-                    let below = other[j + 1 + k..columns].iter_mut().zip(&column[j + 1 + k..]);
-                    below.for_each(|(value, entry)| *value -= factor * entry);
-                }
-            }
             let below = Panels::reach(self.size, self.width, first + columns);
-            if below == 0 {
-                continue;
-            }
-            let panel = MatMut::from_column_major_slice_with_stride_mut(panel, columns + below, columns, height);
-            let (triangle, mut under) = panel.split_at_row_mut(columns);
-            solve_lower_triangular_in_place(triangle.as_ref(), under.as_mut().transpose_mut(), Par::Seq);
-            let under = under.as_ref();
+            let least = |j: usize| 1e-15 * self.rows[(first + j) * (self.width + 1) + self.width];
+            factor_panel(panel, [columns + below, columns], height, &least)
+                .map_err(|j| SingularMatrix { column: first + j })?;
+            let under = Block::new(panel, [columns + below, columns], height).rows_from(columns, below);
             for (q, panel) in rest.chunks_exact_mut(panels.block * height).enumerate() {
                 let offset = q * panels.block;
                 if offset >= below {
                     break;
                 }
                 let columns = panels.block.min(below - offset);
-                let target = MatMut::from_column_major_slice_with_stride_mut(panel, below - offset, columns, height);
-                let (tall, short) = (under.subrows(offset, below - offset), under.subrows(offset, columns));
-                matmul(target, Accum::Add, tall, short.transpose(), -1.0, Par::Seq);
+                let (tall, short) = (under.rows_from(offset, below - offset), under.rows_from(offset, columns));
+                subtract_product(panel, height, tall, short.transposed());
             }
         }
         Ok(BandedCholesky { panels })
@@ -243,11 +220,11 @@ impl Panels {
     }
 
     /// A panel: its diagonal block and the rows below.
-    fn panel(&self, p: usize) -> MatRef<'_, f64> {
+    fn panel(&self, p: usize) -> Block<'_> {
         let (first, columns, height) = (p * self.block, self.columns(p), self.height());
         let rows = columns + Self::reach(self.size, self.width, first + columns);
         let values = &self.values[first * height..(first + self.block) * height];
-        MatRef::from_column_major_slice_with_stride(values, rows, columns, height)
+        Block::new(values, [rows, columns], height)
     }
 }
 
@@ -301,40 +278,49 @@ impl BandedCholesky {
         let (n, w, block) = (self.panels.size, self.panels.width, self.panels.block);
         let mut inverse = Panels::zeros(n, w);
         let height = inverse.height();
-        let mut scaled = vec![0.0; w * block];
+        let [mut scaled, mut under_block] = [vec![0.0; w * block], vec![0.0; w * block]];
+        let [mut unit, mut negative] = [vec![0.0; block * block], vec![0.0; block * block]];
         for p in (0..inverse.count()).rev() {
             let columns = inverse.columns(p);
             let below = Panels::reach(n, w, p * block + columns);
             let factor = self.panels.panel(p);
-            let (triangle, under) = (factor.subrows(0, columns), factor.subrows(columns, below));
-            let mut y = MatMut::from_column_major_slice_mut(&mut scaled[..below * columns], below, columns);
-            y.copy_from(under);
-            solve_upper_triangular_in_place(triangle.transpose(), y.as_mut().transpose_mut(), Par::Seq);
-            let y = y.as_ref();
+            let (triangle, under) = (factor.rows_from(0, columns), factor.rows_from(columns, below));
+            // Y: columns of the block stand `below` apart.
+            let y = &mut scaled[..below * columns];
+            under.copy_to(y);
+            divide_by_triangle(y, below, below, triangle);
+            let y = Block::new(y, [below, columns], below);
             let (own, later) = inverse.values.split_at_mut((p + 1) * block * height);
             let own = &mut own[p * block * height..];
-            let own = MatMut::from_column_major_slice_with_stride_mut(own, columns + below, columns, height);
-            let (mut diagonal, mut under) = own.split_at_row_mut(columns);
             for (q, panel) in later.chunks_exact(block * height).enumerate() {
                 let offset = q * block;
                 if offset >= below {
                     break;
                 }
                 let across = block.min(below - offset);
-                let panel = MatRef::from_column_major_slice_with_stride(panel, below - offset, across, height);
-                let (near, far) = (y.subrows(offset, across), y.subrows(offset + across, below - offset - across));
-                matmul(under.as_mut().subrows_mut(offset, below - offset), Accum::Add, panel, near, -1.0, Par::Seq);
-                let turned = panel.subrows(across, below - offset - across).transpose();
-                matmul(under.as_mut().subrows_mut(offset, across), Accum::Add, turned, far, -1.0, Par::Seq);
+                let further = below - offset - across;
+                let panel = Block::new(panel, [below - offset, across], height);
+                let (near, far) = (y.rows_from(offset, across), y.rows_from(offset + across, further));
+                let target = &mut own[columns + offset..];
+                subtract_product(target, height, panel, near);
+                subtract_product(target, height, panel.rows_from(across, further).transposed(), far);
             }
-            (0..columns).for_each(|j| diagonal[(j, j)] = 1.0);
-            solve_lower_triangular_in_place(triangle, diagonal.as_mut(), Par::Seq);
-            solve_upper_triangular_in_place(triangle.transpose(), diagonal.as_mut(), Par::Seq);
-            matmul(diagonal.as_mut(), Accum::Add, y.transpose(), under.as_ref(), -1.0, Par::Seq);
+            // Z_JJ = (L^-1)'L^-1 - Y'Z_SJ: the product of -(L^-1)' and L^-1 is subtracted.
+            unit.fill(0.0);
+            (0..columns).for_each(|j| unit[j * block + j] = 1.0);
+            divide_by_triangle(&mut unit, columns, block, triangle);
+            negative.iter_mut().zip(&unit).for_each(|(negative, value)| *negative = -value);
+            let [lower, minus] = [&unit, &negative].map(|values| Block::new(values, [columns, columns], block));
+            for j in 0..columns {
+                under_block[j * below..(j + 1) * below].copy_from_slice(&own[j * height + columns..][..below]);
+            }
+            let under = Block::new(&under_block, [below, columns], below);
+            subtract_product(own, height, minus.transposed(), lower);
+            subtract_product(own, height, y.transposed(), under);
             // Both halves of the diagonal block are read by the panels before.
             for j in 0..columns {
                 for i in 0..j {
-                    diagonal[(i, j)] = diagonal[(j, i)];
+                    own[j * height + i] = own[i * height + j];
                 }
             }
         }
@@ -346,19 +332,6 @@ impl BandedCholesky {
         }
         band
     }
-}
-
-/// Scalar product in four strands, which the compiler turns into vector instructions.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut strands = [0.0; 4];
-    let (pairs, rest) = (a.chunks_exact(4).zip(b.chunks_exact(4)), a.len() / 4 * 4);
-    for (x, y) in pairs {
-        for (strand, (x, y)) in strands.iter_mut().zip(x.iter().zip(y)) {
-            *strand += x * y;
-        }
-    }
-    let tail: f64 = a[rest..].iter().zip(&b[rest..]).map(|(x, y)| x * y).sum();
-    (strands[0] + strands[1]) + (strands[2] + strands[3]) + tail
 }
 
 #[cfg(test)]

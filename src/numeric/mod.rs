@@ -3,6 +3,7 @@
 
 mod banded;
 mod cholesky;
+pub(crate) mod dense;
 mod least_squares;
 mod median;
 mod quadrature;

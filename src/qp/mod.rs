@@ -10,17 +10,17 @@
 //! the residuals and the violations from x and the multipliers alone. Knows no ship.
 
 mod certificate;
-mod clarabel;
 mod factor;
 mod problem;
 mod proof;
+mod proximal;
 mod repeated;
 mod sparse;
 mod structured;
 
 pub use certificate::Certificate;
 pub use factor::LeastFactor;
-pub use problem::{Engine, Problem, ProblemError, Progress, Settings, Solution, Status};
+pub use problem::{Problem, ProblemError, Progress, Settings, Solution, Status};
 pub use repeated::RepeatedSolver;
 pub use sparse::SparseRows;
 pub use structured::Solver;

@@ -49,21 +49,9 @@ pub enum ProblemError {
     },
 }
 
-/// Which solver works.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Engine {
-    /// Our own interior point: dense rows apart, patterns analysed once.
-    #[default]
-    Structured,
-    /// The conic interior point of Clarabel, a second opinion.
-    Clarabel,
-}
-
 /// How a problem is solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// The solver.
-    pub engine: Engine,
     /// Relative tolerance of gap and residuals.
     pub tolerance: f64,
     /// Most iterations.
@@ -75,7 +63,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { engine: Engine::default(), tolerance: 1e-10, iterations: 200, proof: true }
+        Self { tolerance: 1e-10, iterations: 200, proof: true }
     }
 }
 
@@ -178,10 +166,6 @@ impl Problem {
     /// # Errors
     /// [`ProblemError`] when shapes or numbers are wrong; not solving is a [`Status`].
     pub fn solve(&self, settings: &Settings) -> Result<Solution, ProblemError> {
-        self.check()?;
-        Ok(match settings.engine {
-            Engine::Structured => super::structured::Solver::new(self, settings)?.solve(),
-            Engine::Clarabel => super::clarabel::solve(self, settings),
-        })
+        Ok(super::structured::Solver::new(self, settings)?.solve())
     }
 }

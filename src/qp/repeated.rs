@@ -1,6 +1,6 @@
 //! One problem after the other, most of them with the pattern of the one before.
 
-use super::problem::{Engine, Problem, ProblemError, Settings, Solution};
+use super::problem::{Problem, ProblemError, Settings, Solution};
 use super::structured::Solver;
 
 /// Solves problems; orderings, the symbolic factorisation and an early iterate of one serve the next as long as the
@@ -29,9 +29,6 @@ impl<'a> RepeatedSolver<'a> {
     /// # Errors
     /// [`ProblemError`] when shapes or numbers are wrong; not solving is a status.
     pub fn solve(&mut self, problem: &Problem) -> Result<Solution, ProblemError> {
-        if self.settings.engine == Engine::Clarabel {
-            return problem.solve(self.settings);
-        }
         if let Some(solver) = &mut self.kept {
             match solver.update(problem) {
                 Ok(()) => return Ok(solver.solve()),

@@ -1,5 +1,7 @@
 //! Programs for tests and benches of `qp`: the fairing of a noisy Wigley hull, and random programs.
 
+pub(crate) mod second_opinion;
+
 use loftsman::qp::{Problem, SparseRows};
 use loftsman::spline::{BsplineSurface, Gram, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};

@@ -56,7 +56,7 @@ pub struct Solver {
     problem: Problem,
     settings: Settings,
     scaled: Scaled,
-    newton: Option<Newton>,
+    newton: Newton,
     kept: Option<Point>,
     /// The rows that bound the last solution, as long as limits alone have changed since.
     bound: Option<Vec<Binding>>,
@@ -130,7 +130,7 @@ impl Solver {
             progress: Vec::new(),
         };
         let mut progress = Vec::new();
-        let Some(newton) = &mut self.newton else { return failed };
+        let newton = &mut self.newton;
         if let Some((point, rounds)) = self.bound.take().and_then(|bound| active::resume(&self.scaled, newton, &bound))
         {
             let residuals = point.residuals(&self.scaled);

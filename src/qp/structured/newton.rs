@@ -63,11 +63,11 @@ pub(super) struct Newton {
 }
 
 impl Newton {
-    pub(super) fn new(scaled: &Scaled) -> Option<Self> {
+    pub(super) fn new(scaled: &Scaled) -> Self {
         let normal = Normal::new(&scaled.quadratic, &scaled.rows, &scaled.inside);
-        let factor = Factor::new(&normal, scaled.outside.len())?;
+        let factor = Factor::new(&normal);
         let m = scaled.rows.row_count();
-        Some(Self { normal, factor, schur: Schur::default(), weights: vec![0.0; m], factored: vec![0.0; m] })
+        Self { normal, factor, schur: Schur::default(), weights: vec![0.0; m], factored: vec![0.0; m] }
     }
 
     /// Factors for the weights W of the inequalities; false if N is not positive definite whatever is added.

@@ -3,9 +3,6 @@
 //! Every product a_ki a_kj of a row has its place in N looked up once; afterwards an assembly is one pass over the rows.
 
 use super::super::sparse::SparseRows;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 
 /// The lower triangle of N by columns, rows rising.
 pub(super) struct Normal {
@@ -53,16 +50,7 @@ fn pattern(quadratic: &SparseRows, rows: &SparseRows, inside: &[bool]) -> (Vec<u
 pub(super) fn elimination_order(quadratic: &SparseRows, rows: &SparseRows, inside: &[bool]) -> Vec<usize> {
     let n = quadratic.row_count();
     let (starts, indices) = pattern(quadratic, rows, inside);
-    let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-    if n > 0 {
-        let matrix = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &indices);
-        let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<usize>(n, indices.len()));
-        let stack = MemStack::new(&mut memory);
-        if amd::order_maybe_unsorted(&mut order, &mut inverse, matrix, amd::Control::default(), stack).is_err() {
-            return (0..n).collect();
-        }
-    }
-    order
+    amd::order(n, &starts, &indices, &amd::Control::default()).map_or_else(|_| (0..n).collect(), |(order, _, _)| order)
 }
 
 impl Normal {

@@ -1,11 +1,11 @@
-//! The conic interior point of Clarabel behind the face: rows scaled to unit size, two-sided rows split into two cones.
+//! The conic interior point of Clarabel as a second opinion: rows scaled to unit size, two-sided rows split into two cones.
 //!
 //! P and q are divided by the mean diagonal of P: without it the solver stalls (its tolerances are absolute where the
 //! objective is small).
 
-use super::problem::{Problem, Settings, Solution, Status};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use loftsman::qp::{Problem, Settings, Solution, Status};
 
 /// One row of the cone form: A_k x + s = b.
 struct ConeRow {
@@ -14,7 +14,8 @@ struct ConeRow {
     right: f64,
 }
 
-pub(super) fn solve(problem: &Problem, settings: &Settings) -> Solution {
+/// The answer of Clarabel.
+pub(crate) fn solve(problem: &Problem, settings: &Settings) -> Solution {
     let n = problem.linear.len();
     let m = problem.rows.row_count();
     let objective_scale = objective_scale(problem);
