@@ -17,14 +17,31 @@ pub(super) const CAP_HEIGHT: f64 = 0.729;
 /// Depth of descenders, as a part of the size.
 pub(super) const DESCENT: f64 = 0.236;
 
+/// Height of what stands highest on a line, as a part of the size (hhea table of the font: 1901 / 2048).
+pub(super) const ASCENT: f64 = 0.928;
+
+/// Units of the font in its size (head table).
+pub(super) const UNITS: f64 = 2048.0;
+
+/// Left, lower, right and upper edge of all glyphs, as parts of the size (head table).
+pub(super) const BOUNDS: [f64; 4] = [-2090.0 / UNITS, -948.0 / UNITS, 3673.0 / UNITS, 2524.0 / UNITS];
+
 /// Width taken for a character that the font does not have, as a part of the size.
 const MISSING_WIDTH: f64 = 0.6;
 
+fn metrics() -> &'static Metrics {
+    static METRICS: OnceLock<Metrics> = OnceLock::new();
+    METRICS.get_or_init(|| Metrics::new(DEJAVU_SANS).unwrap_or_default())
+}
+
 /// Width of `text` in units of the font size.
 pub(super) fn width(text: &str) -> f64 {
-    static METRICS: OnceLock<Metrics> = OnceLock::new();
-    let metrics = METRICS.get_or_init(|| Metrics::new(DEJAVU_SANS).unwrap_or_default());
-    text.chars().map(|c| metrics.advance(c)).sum()
+    text.chars().map(|c| metrics().advance(c)).sum()
+}
+
+/// Width of a glyph in units of the font size.
+pub(super) fn glyph_advance(glyph: u16) -> f64 {
+    metrics().advance_of(glyph).unwrap_or(MISSING_WIDTH)
 }
 
 /// Start codes, end codes, deltas and range offsets of the character map, and the advance widths.
@@ -102,10 +119,13 @@ impl Metrics {
         (glyph != 0).then_some(glyph)
     }
 
+    /// The last advance is that of all glyphs after it.
+    fn advance_of(&self, glyph: u16) -> Option<f64> {
+        self.advances.get(usize::from(glyph).min(self.advances.len().checked_sub(1)?)).copied()
+    }
+
     fn advance(&self, character: char) -> f64 {
-        self.glyph(character)
-            .and_then(|glyph| self.advances.get(usize::from(glyph).min(self.advances.len().checked_sub(1)?)).copied())
-            .unwrap_or(MISSING_WIDTH)
+        self.glyph(character).and_then(|glyph| self.advance_of(glyph)).unwrap_or(MISSING_WIDTH)
     }
 }
 
@@ -119,6 +139,19 @@ mod tests {
         for (text, units) in [(" ", 651.0), ("0", 1303.0), ("m", 1995.0), ("C", 1430.0), ("0m", 3298.0)] {
             assert!((width(text) - units / 2048.0).abs() < 1e-12, "{text}: {}", width(text) * 2048.0);
         }
+    }
+
+    #[test]
+    fn the_measures_of_the_typeface_are_those_of_the_font_file() {
+        let [head, hhea] = [b"head", b"hhea"].map(|tag| table(DEJAVU_SANS, tag).unwrap());
+        let part = |table: &'static [u8], at: usize| f64::from(u16_at(table, at).unwrap().cast_signed()) / UNITS;
+        assert!((part(head, 18) - 1.0).abs() < 1e-12);
+        for (side, bound) in BOUNDS.iter().enumerate() {
+            assert!((part(head, 36 + 2 * side) - bound).abs() < 1e-12, "{side}");
+        }
+        assert!((part(hhea, 4) - ASCENT).abs() < 5e-4 && (part(hhea, 6) + DESCENT).abs() < 5e-4);
+        let glyph = metrics().glyph('m').unwrap();
+        assert!((glyph_advance(glyph) - width("m")).abs() < 1e-12);
     }
 
     #[test]

@@ -4,14 +4,16 @@
 use super::figure::Svg;
 use super::sheet::{ROOM, Sheet, Titles, framed, has_room_for_caption, numbered_over};
 use super::{PlotError, caption};
-use krilla::geom::{Size, Transform};
-use krilla::metadata::Metadata;
-use krilla::page::PageSettings;
-use krilla::surface::Surface;
-use krilla::{Document, SerializeSettings};
-use krilla_svg::{SurfaceExt, SvgSettings};
+use document::{About, Document};
+use drawing::PageContent;
 use resvg::usvg::Tree;
 use std::sync::Arc;
+
+mod document;
+mod drawing;
+mod letters;
+#[cfg(test)]
+mod tests;
 
 /// Points of a PDF in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
@@ -28,13 +30,8 @@ fn size(tree: &Tree) -> [f64; 2] {
 }
 
 /// Draws with the upper left corner at `at` \[mm\].
-fn place(surface: &mut Surface<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), PlotError> {
-    let [width, height] = size(tree).map(|millimetres| (millimetres * POINTS) as f32);
-    let size = Size::from_wh(width, height).ok_or_else(|| error("a drawing has no size"))?;
-    surface.push_transform(&Transform::from_translate((at[0] * POINTS) as f32, (at[1] * POINTS) as f32));
-    surface.draw_svg(tree, size, SvgSettings::default()).ok_or_else(|| error("a drawing could not be placed"))?;
-    surface.pop();
-    Ok(())
+fn place(content: &mut PageContent<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), PlotError> {
+    content.place(tree, at.map(|millimetres| millimetres * POINTS))
 }
 
 /// A figure of the document.
@@ -82,18 +79,18 @@ impl Read<'_> {
     /// it.
     fn draw_framed(
         &self,
-        surface: &mut Surface<'_>,
+        content: &mut PageContent<'_>,
         [sheet, paper]: [Sheet; 2],
         corner: [f64; 2],
         number: [usize; 2],
     ) -> Result<(), PlotError> {
         let frame = framed(sheet, paper, &Titles { number, ..self.titles });
-        place(surface, frame.tree()?.as_ref(), corner)?;
+        place(content, frame.tree()?.as_ref(), corner)?;
         let [width, height] = self.size;
         // A figure covers what is under it: it stays off the frame.
         let left = corner[0] + 0.5 * (sheet.size()[0] - width);
         let top = corner[1] + sheet.frame().top + 1.0 + 0.5 * (sheet.room()[1] - height).max(0.0);
-        place(surface, &self.tree, [left, top])
+        place(content, &self.tree, [left, top])
     }
 }
 
@@ -101,16 +98,9 @@ impl Read<'_> {
 fn page(
     document: &mut Document,
     paper: [f64; 2],
-    draw: impl FnOnce(&mut Surface<'_>) -> Result<(), PlotError>,
+    draw: impl FnOnce(&mut PageContent<'_>) -> Result<(), PlotError>,
 ) -> Result<(), PlotError> {
-    let [width, height] = paper.map(|millimetres| (millimetres * POINTS) as f32);
-    let settings = PageSettings::from_wh(width, height).ok_or_else(|| error("a page has no size"))?;
-    let mut page = document.start_page_with(settings);
-    let mut surface = page.surface();
-    draw(&mut surface)?;
-    surface.finish();
-    page.finish();
-    Ok(())
+    document.page(paper.map(|millimetres| millimetres * POINTS), draw)
 }
 
 /// The caption of two figures on one sheet.
@@ -124,12 +114,12 @@ fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet, number
     let title = format!("{}. {}", upper.title, lower.title);
     let caption = joint_caption(pair);
     let titles = Titles { title: &title, caption: &caption, number, ..*upper };
-    page(document, sheet.size(), |surface| {
-        place(surface, framed(sheet, sheet, &titles).tree()?.as_ref(), [0.0, 0.0])?;
+    page(document, sheet.size(), |content| {
+        place(content, framed(sheet, sheet, &titles).tree()?.as_ref(), [0.0, 0.0])?;
         let spare = sheet.room()[1] - pair[0].size[1] - pair[1].size[1];
         let mut top = sheet.frame().top + 1.0 + spare / 3.0;
         for figure in pair {
-            place(surface, &figure.tree, [0.5 * (sheet.size()[0] - figure.size[0]), top])?;
+            place(content, &figure.tree, [0.5 * (sheet.size()[0] - figure.size[0]), top])?;
             top += figure.size[1] + spare / 3.0;
         }
         Ok(())
@@ -139,13 +129,13 @@ fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet, number
 /// A figure on a page of its own.
 fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet, number: [usize; 2]) -> Result<(), PlotError> {
     let (paper, fits) = if figure.fits(sheet.room()) { (sheet.size(), true) } else { (figure.size, false) };
-    page(document, paper, |surface| {
+    page(document, paper, |content| {
         if fits {
-            return figure.draw_framed(surface, [sheet, sheet], [0.0, 0.0], number);
+            return figure.draw_framed(content, [sheet, sheet], [0.0, 0.0], number);
         }
-        place(surface, &figure.tree, [0.0, 0.0])?;
+        place(content, &figure.tree, [0.0, 0.0])?;
         let titles = Titles { number, ..figure.titles };
-        place(surface, numbered_over(sheet, &titles).tree()?.as_ref(), [0.0, 0.0])
+        place(content, numbered_over(sheet, &titles).tree()?.as_ref(), [0.0, 0.0])
     })
 }
 
@@ -159,9 +149,7 @@ fn draw_alone(document: &mut Document, figure: &Read<'_>, sheet: Sheet, number: 
 /// # Errors
 /// [`PlotError::Svg`], [`PlotError::Pdf`].
 pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) -> Result<Vec<u8>, PlotError> {
-    let mut document = Document::new_with(SerializeSettings::default());
-    let metadata = Metadata::new().title(heading.ship.to_owned()).creator(caption::program()).language("en".to_owned());
-    document.set_metadata(metadata);
+    let mut document = Document::new();
     let read = |figure: &Page<'a>| -> Result<Read<'a>, PlotError> {
         let tree = figure.svg.tree()?;
         let Heading { ship, source, date } = *heading;
@@ -176,18 +164,18 @@ pub fn write_pdf<'a>(heading: &Heading<'a>, figures: &[Page<'a>], sheet: Sheet) 
         match figures {
             [one] if !is_small(one) => draw_alone(&mut document, one, sheet, number)?,
             [upper, lower] if !is_small(upper) => draw_pair(&mut document, [upper, lower], sheet, number)?,
-            four => page(&mut document, sheet.size(), |surface| {
+            four => page(&mut document, sheet.size(), |content| {
                 let [wide, high] = Sheet::A3.size();
                 let spare = [0.5 * (sheet.size()[0] - 2.0 * wide), 0.5 * (sheet.size()[1] - 2.0 * high)];
                 for (k, figure) in four.iter().enumerate() {
                     let corner = [spare[0] + wide * (k % 2) as f64, spare[1] + high * (k / 2) as f64];
-                    figure.draw_framed(surface, [Sheet::A3, sheet], corner, number)?;
+                    figure.draw_framed(content, [Sheet::A3, sheet], corner, number)?;
                 }
                 Ok(())
             })?,
         }
     }
-    document.finish().map_err(|found| error(format!("{found:?}")))
+    document.finish(&About { title: heading.ship, creator: &caption::program(), language: "en" })
 }
 
 /// The figures of each sheet: one, two over each other, or up to four small ones.
