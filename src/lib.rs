@@ -69,10 +69,15 @@
 //!
 //! The floors of the library and what belongs where are in `ARCHITECTURE.md`.
 #![cfg_attr(
+    not(all(feature = "pdf", feature = "workbooks")),
+    allow(dead_code, reason = "parts of drawings and tables serve documents and workbooks alone")
+)]
+#![cfg_attr(
     not(test),
     warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)
 )]
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod config;
 pub mod exchange;

@@ -9,7 +9,7 @@ use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair,
 use serde_json::Value;
 
 use crate::random::Random;
-use crate::support::{carried, command, folder, json, names_in, program, read_text, stderr, stdout};
+use crate::support::{Folder, carried, command, folder, json, names_in, program, read_text, stderr, stdout};
 
 const TABLE: &str = "tests/data/series60_cb060/offsets.csv";
 const YACHT: &str = "tests/data/pdstrip_yacht/offsets.csv";
@@ -47,22 +47,27 @@ fn displacement_and_block_coefficient_may_both_be_asked_for() {
 }
 
 /// The area amidships says C_M again: 106 m2 over 16.256 m times 6.828 m is 0.955.
+fn with_midship_coefficient(coefficient: &str) -> Result<FairOutputs, String> {
+    let path = folder(coefficient);
+    let text = format!(
+        "table.file = {:?}\n[hold]\nsection_areas = [[60.96, 106]]\nCm = {coefficient}\n[tolerance]\ntable = \"60 mm\"\n",
+        carried(TABLE)
+    );
+    let job = path.write("j.toml", text);
+    fair_outputs(&read_fair(Path::new(&job), &[]).unwrap(), false).map_err(|refused| refused.to_string())
+}
+
 #[test]
+#[ignore = "takes 15 s"]
 fn an_area_amidships_and_a_midship_coefficient_are_one_wish() {
-    let path = folder("amidships");
-    let job = path.join("j.toml");
-    let run = |coefficient: &str| {
-        let text = format!(
-            "table.file = {:?}\n[hold]\nsection_areas = [[60.96, 106]]\nCm = {coefficient}\n[tolerance]\ntable = \"60 mm\"\n",
-            carried(TABLE)
-        );
-        fs::write(&job, text).unwrap();
-        fair_outputs(&read_fair(&job, &[]).unwrap(), false)
-    };
-    let outputs = run("0.955").unwrap();
+    let outputs = with_midship_coefficient("0.955").unwrap();
     let held: Vec<&str> = outputs.outcome.held.iter().map(|held| held.constraint.key()).collect();
     assert_eq!(held, ["displacement", "lcb", "section_area"]);
-    let apart = run("0.97").err().unwrap().to_string();
+}
+
+#[test]
+fn an_area_amidships_and_another_midship_coefficient_are_refused() {
+    let apart = with_midship_coefficient("0.97").err().unwrap();
     assert!(apart.contains("E170") && apart.contains("j.toml:4:6 hold.Cm: a section area of 106.000 m2"), "{apart}");
 }
 
@@ -76,6 +81,7 @@ fn a_length_that_is_none_of_the_hull_is_refused() {
 
 /// At the end of what the tolerances allow some of the programs have answers that are no hulls: they are left alone.
 #[test]
+#[ignore = "takes 96 s"]
 fn a_target_at_the_end_of_its_interval_is_no_fault_of_the_table() {
     let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[("--lcb", "hold.LCB", "85.5395 m AP")]);
     assert!(!outputs.outcome.held.is_empty());
@@ -223,6 +229,7 @@ fn targets_are_met_and_locks_hold() {
 }
 
 #[test]
+#[ignore = "takes 46 s"]
 fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     let folder = folder("infeasible");
     let out = folder.join("out");
@@ -298,6 +305,7 @@ fn a_small_wish_bends_no_line_more_often() {
 
 /// Two targets that are both out of reach: no single one would do, and each has its interval.
 #[test]
+#[ignore = "takes 44 s"]
 fn targets_that_are_out_of_reach_together_have_intervals() {
     let options = [("--displacement", "hold.displacement", "8600 t"), ("--lcb", "hold.LCB", "+3 %")];
     let (_, outputs) = faired(&carried("configs/methods/series60-cb060.csv"), &options);
@@ -323,6 +331,7 @@ fn targets_that_are_out_of_reach_together_have_intervals() {
 /// Half a per cent of displacement more than the tolerances leave, and ten times as much as there is: no waves, the
 /// nearest fair hull within the tolerances and an interval that holds what was written.
 #[test]
+#[ignore = "takes 71 s"]
 fn targets_out_of_reach_give_the_nearest_fair_hull() {
     let table = carried(TABLE);
     for target in ["8300 t", "83000 t"] {
@@ -396,17 +405,17 @@ fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
 }
 
 /// Whatever cannot be had is told at the line of the job that asks for it, or at the option.
+/// Exit code and messages of a job with this text; its file is called `job.toml` in them.
+fn answer_to_job(folder: &Folder, table: &str, text: &str, options: &[&str]) -> (Option<i32>, String) {
+    let job = folder.write("job.toml", format!("[table]\nfile = {:?}\n{text}", carried(table).display().to_string()));
+    let out = folder.join("out").display().to_string();
+    let output = program(&[&["fair", &job, "-o", &out, "--force", "--no-figures"], options].concat());
+    (output.status.code(), stderr(&output).replace(&format!("{}/", folder.display()), ""))
+}
+
 #[test]
 fn refusals_name_the_line_of_the_job() {
     let folder = folder("places");
-    let job = folder.join("job.toml");
-    let said = |table: &str, text: &str, options: &[&str]| {
-        fs::write(&job, format!("[table]\nfile = {:?}\n{text}", carried(table).display().to_string())).unwrap();
-        let (job, out) = (job.display().to_string(), folder.join("out").display().to_string());
-        let arguments = [&["fair", &job, "-o", &out, "--force", "--no-figures"], options].concat();
-        let output = program(&arguments);
-        (output.status.code(), stderr(&output).replace(&format!("{}/", folder.display()), ""))
-    };
     let refused = [
         (TABLE, "[lines]\naccept = [\"L9\"]\n", [].as_slice(), "E180 job.toml:4:10 lines.accept: L9 is not proposed"),
         (TABLE, "", &["--accept-lines", "L9"], "E180 --accept-lines lines.accept: L9 is not proposed"),
@@ -422,14 +431,20 @@ fn refusals_name_the_line_of_the_job() {
         (TABLE, "", &["--draught", "50"], "E175 --draught dimensions.T: the design draught of 50.000 m"),
     ];
     for (table, text, options, expected) in refused {
-        let (code, said) = said(table, text, options);
+        let (code, said) = answer_to_job(&folder, table, text, options);
         assert!(code == Some(3) && said.contains(expected), "{expected}: {said}");
     }
+}
+
+#[test]
+#[ignore = "takes 84 s"]
+fn what_is_infeasible_names_the_line_of_the_job() {
+    let folder = folder("infeasible-places");
     let text = "[tolerance]\ntable = \"1 mm\"\n[shape]\nconvex = [\n  \"waterline 6.5024\",\n]\nconcave = [\"waterline 6.5024\"]\n";
-    let (code, words) = said(TABLE, text, &[]);
+    let (code, words) = answer_to_job(&folder, TABLE, text, &[]);
     let expected = "given up was the waterline at z = 6.502 m convex (job.toml:7), the waterline at z = 6.502 m concave (job.toml:9)";
     assert!(code == Some(4) && words.contains(expected) && words.contains("no tolerances were found"), "{words}");
-    let (code, words) = said(TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "8600 t"]);
+    let (code, words) = answer_to_job(&folder, TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "8600 t"]);
     assert_eq!(code, Some(4));
     assert!(
         words.contains(" LCB (job.toml:4) without") && words.contains(" displacement (--displacement) w"),
@@ -439,6 +454,7 @@ fn refusals_name_the_line_of_the_job() {
 
 /// A section area with a band that is out of reach: the tolerances that would do are told, and they do.
 #[test]
+#[ignore = "takes 136 s"]
 fn the_least_tolerances_for_a_section_area_are_found() {
     let folder = folder("widening");
     let run = |tolerance: f64| {
@@ -466,6 +482,7 @@ fn the_least_tolerances_for_a_section_area_are_found() {
 /// A tolerance that is less than what the surface through the table passes B/2 by between offsets leaves no room to do better:
 /// it may stay there, and no line bends more often for it.
 #[test]
+#[ignore = "takes 14 s"]
 fn tolerances_below_the_swings_of_the_start_harm_nothing() {
     let folder = folder("tight");
     let out = folder.join("out");
@@ -838,6 +855,7 @@ fn ends_that_are_closed_stay_closed() {
 /// What is minimised falls with every step, and with it the bending energy here; all that is held holds, and no line
 /// bends more often.
 #[test]
+#[ignore = "takes 11 s"]
 fn the_bending_energy_is_minimised_within_what_is_held() {
     let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);
     let result = json(file(&outputs, "fairing.json"));

@@ -110,6 +110,7 @@ fn tangents_are_met() {
 }
 
 #[test]
+#[ignore = "takes 14 s"]
 fn a_flat_of_side_is_flat() {
     let outcome = faired(vec![Rule::FlatOfSide { x: [54.864, 67.056], z: [6.0, 9.7536] }]);
     let half = 0.5 * outcome.after.particulars().breadth;
@@ -193,6 +194,7 @@ fn rules_that_name_nothing_are_refused_all_at_once() {
 }
 
 #[test]
+#[ignore = "takes 21 s"]
 fn contradictory_rules_are_infeasible_and_say_which() {
     let line = Line::Waterline(6.5024);
     let rules = vec![Rule::Monotone { line, over: [80.0, 115.0], rising: true }, Rule::Fixed(FixedLine::Stern)];

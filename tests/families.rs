@@ -254,10 +254,20 @@ fn random_wishes(random: &mut StdRng) -> Wishes {
 }
 
 #[test]
+fn random_designs_are_exact_or_say_why_not() {
+    check_random_designs(150);
+}
+
+#[test]
+#[ignore = "takes 21 s"]
 fn a_thousand_random_designs_are_exact_or_say_why_not() {
+    check_random_designs(1000);
+}
+
+fn check_random_designs(count: usize) {
     let mut random = StdRng::seed_from_u64(20_261_121);
     let (mut built, mut refused) = (0, 0);
-    for k in 0..1000 {
+    for k in 0..count {
         let wishes = random_wishes(&mut random);
         match cosh::generate("random", &wishes) {
             Ok(generated) => {
@@ -279,7 +289,7 @@ fn a_thousand_random_designs_are_exact_or_say_why_not() {
         }
     }
     println!("{built} built, {refused} refused");
-    assert!(built > 830, "{built} of 1000 built, {refused} refused");
+    assert!(100 * built > 83 * count, "{built} of {count} built, {refused} refused");
 }
 
 fn refusal(wishes: &Wishes) -> Vec<Infeasible> {

@@ -9,6 +9,8 @@ mod fault;
 mod hgf;
 mod hull_json;
 mod hydrostatics;
+#[cfg(feature = "workbooks")]
+mod hydrostatics_workbook;
 mod manifest;
 mod mesh;
 mod number;
@@ -31,10 +33,12 @@ pub use fairing_read::{FairingFile, FairingFileError, read_changes, read_fairing
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, json_message, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};
+#[cfg(feature = "workbooks")]
+pub use hydrostatics_workbook::hydrostatics_workbook;
 pub use manifest::{Manifest, ManifestEntry, read_manifest_input, read_manifest_outputs, sha256};
 pub use mesh::{write_gdf, write_glb, write_nemoh, write_obj, write_pnl, write_stl, write_stl_ascii};
 pub use offsets::{heights_csv, offsets_csv};
-pub use report_tables::{diagonals_csv, hydrostatics_workbook, micrometres, section_areas_csv};
+pub use report_tables::{diagonals_csv, micrometres, section_areas_csv};
 pub use residuals::residuals_csv;
 pub use scene::scene_json;
 pub use section::{section_csv, section_json};

@@ -1,12 +1,12 @@
 //! The list of figures, what they are made of, and the finished drawing.
 
 use super::canvas::Canvas;
+use super::png::Drawing;
 use super::sheet::Sheet;
 use super::{diagram_sheet, hydrostatics, lines, outline, png, sectional_area, sections};
 use crate::fairing::record::FairRecord;
 use crate::hull::Hull;
 use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
-use resvg::usvg::Tree;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
@@ -40,6 +40,9 @@ pub enum PlotError {
     /// The PDF could not be written.
     #[error("the PDF could not be written: {0}")]
     Pdf(String),
+    /// The library was built without a feature.
+    #[error("this needs the feature `{0}` of the library")]
+    Feature(&'static str),
     /// The picture could not be packed.
     #[error("the picture could not be written as PNG: {0}")]
     Png(String),
@@ -101,7 +104,7 @@ impl FigureInputs<'_> {
 pub struct Svg {
     text: String,
     /// As it was read for a picture or a document.
-    tree: OnceLock<Arc<Tree>>,
+    tree: OnceLock<Arc<Drawing>>,
 }
 
 impl fmt::Debug for Svg {
@@ -122,7 +125,7 @@ impl Svg {
     }
 
     /// The drawing as resvg reads it, which takes as long as some pictures do: once.
-    pub(super) fn tree(&self) -> Result<Arc<Tree>, PlotError> {
+    pub(super) fn tree(&self) -> Result<Arc<Drawing>, PlotError> {
         if let Some(tree) = self.tree.get() {
             return Ok(Arc::clone(tree));
         }

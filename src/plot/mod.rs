@@ -33,8 +33,17 @@ mod lines;
 mod lines_grid;
 mod map_legend;
 mod outline;
+mod pages;
 mod pareto;
+#[cfg(feature = "pdf")]
 mod pdf;
+#[cfg(not(feature = "pdf"))]
+#[path = "no_pdf.rs"]
+mod pdf;
+#[cfg(feature = "pictures")]
+mod png;
+#[cfg(not(feature = "pictures"))]
+#[path = "no_png.rs"]
 mod png;
 mod profile;
 #[cfg(test)]
@@ -73,8 +82,9 @@ pub use figure::{Figure, FigureInputs, PlotError, Svg};
 /// The embedded typeface, DejaVu Sans, as the file of its font.
 pub const FONT: &[u8] = font::DEJAVU_SANS;
 
+pub use pages::{Heading, Page};
 pub use pareto::pareto_figure;
-pub use pdf::{Heading, Page, write_pdf};
+pub use pdf::write_pdf;
 pub use scale::{DRAWING_SCALES, sheet_scale};
 pub use sheet::Sheet;
 pub use smoothing::smoothing_figure;

@@ -1,9 +1,8 @@
 //! Figures on the pages of a PDF at true size: vectors, and text in the embedded font. No dates: the same figures give
 //! the same bytes.
 
-use super::figure::Svg;
 use super::sheet::{ROOM, Sheet, Titles, framed, has_room_for_caption, numbered_over};
-use super::{PlotError, caption};
+use super::{Heading, Page, PlotError, caption};
 use document::{About, Document};
 use drawing::PageContent;
 use resvg::usvg::Tree;
@@ -32,28 +31,6 @@ fn size(tree: &Tree) -> [f64; 2] {
 /// Draws with the upper left corner at `at` \[mm\].
 fn place(content: &mut PageContent<'_>, tree: &Tree, at: [f64; 2]) -> Result<(), PlotError> {
     content.place(tree, at.map(|millimetres| millimetres * POINTS))
-}
-
-/// A figure of the document.
-#[derive(Debug, Clone, Copy)]
-pub struct Page<'a> {
-    /// What the title block calls it.
-    pub title: &'a str,
-    /// What to look for; three lines of the title block.
-    pub caption: &'a str,
-    /// The drawing.
-    pub svg: &'a Svg,
-}
-
-/// What all title blocks of a document say.
-#[derive(Debug, Clone, Copy)]
-pub struct Heading<'a> {
-    /// Name of the ship.
-    pub ship: &'a str,
-    /// What the drawings were made from, with its hash.
-    pub source: &'a str,
-    /// The date, as it was given.
-    pub date: Option<&'a str>,
 }
 
 /// A figure that was read, with its size \[mm\].

@@ -5,6 +5,9 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 use std::sync::{Arc, OnceLock};
 
+/// A drawing as it was read.
+pub(super) type Drawing = Tree;
+
 /// Largest side of a picture [pixels].
 const LARGEST_SIDE: f64 = 20_000.0;
 

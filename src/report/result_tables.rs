@@ -7,8 +7,8 @@ use super::page::{conventions_line, fixed};
 use super::result::JobResult;
 use super::result_page::Table;
 use crate::exchange::{
-    conventions_json, diagonals_csv, heights_csv, hydrostatics_csv, hydrostatics_workbook, micrometres, offsets_csv,
-    row_json, section_areas_csv,
+    conventions_json, diagonals_csv, heights_csv, hydrostatics_csv, micrometres, offsets_csv, row_json,
+    section_areas_csv,
 };
 use crate::fairing::inspect::Planes;
 use crate::hull::{Entry, Hull, OffsetTable, default_buttocks, default_stations, default_waterlines};
@@ -152,9 +152,12 @@ pub(super) fn report_tables(result: &JobResult, curves: &CurvesOfForm) -> Result
     let rows: Vec<serde_json::Value> = curves.rows.iter().map(row_json).collect();
     let json = serde_json::json!({ "conventions": conventions_json(&curves.conventions), "rows": rows });
     files.push(json_file("hydrostatics.json", &json)?);
-    let contents = hydrostatics_workbook(curves, &conventions(result))
-        .map_err(|error| Failure::Internal(format!("hydrostatics.xlsx: {error}")))?;
-    files.push(OutputFile { name: "hydrostatics.xlsx".to_owned(), contents });
+    #[cfg(feature = "workbooks")]
+    {
+        let contents = crate::exchange::hydrostatics_workbook(curves, &conventions(result))
+            .map_err(|error| Failure::Internal(format!("hydrostatics.xlsx: {error}")))?;
+        files.push(OutputFile { name: "hydrostatics.xlsx".to_owned(), contents });
+    }
     if let Some(text) = &result.changes {
         files.push(OutputFile::text("changes.csv", text.clone()));
     }

@@ -34,6 +34,11 @@ mod seaway;
 mod sections;
 mod settings;
 mod tidy;
+#[cfg(feature = "workbooks")]
+mod workbook;
+#[cfg(not(feature = "workbooks"))]
+#[path = "no_workbook.rs"]
+mod workbook;
 mod write;
 mod xlsx;
 
@@ -50,8 +55,9 @@ pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
 pub use ratio::read_with as read_fractions;
+pub use workbook::workbook;
 pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table};
-pub use xlsx::{MOST_UNPACKED, workbook};
+pub use xlsx::MOST_UNPACKED;
 
 use self::grid::Grid;
 use self::problem::{Field, Place, Problems};
@@ -136,7 +142,7 @@ pub fn read_table_with<'a>(
 fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Option<OffsetTable> {
     let mut sheet = None;
     let (grid, text) = if xlsx::is_xlsx(bytes) {
-        let (grid, name) = xlsx::grid(bytes, problems)?;
+        let (grid, name) = workbook::grid(bytes, problems)?;
         problems.note(format!("sheet '{name}' of the workbook"));
         sheet = Some(name);
         settings.comments(&grid.comments, problems);

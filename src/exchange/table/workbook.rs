@@ -1,0 +1,248 @@
+//! The first sheet with fields of an XLSX workbook, as the rows of a CSV file, and the text of a table as a workbook.
+//!
+//! A row that begins with `#` is a comment, as in CSV. In a workbook that is written, plain decimal numbers are
+//! numbers, shown with their digits, and all else is text; the same table gives the same bytes.
+//!
+//! Cells are taken one by one, so that a sheet that claims a million rows costs nothing. Packed workbooks that say to
+//! hold more than [`MOST_UNPACKED`] bytes are refused; a workbook that lies about it is not recognised.
+
+use std::io::{Cursor, Read as _};
+
+use calamine::{DataRef, Reader as _, Xlsx};
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
+use zip::ZipArchive;
+
+use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
+use super::problem::{Field, Place, Problems};
+use super::xlsx::MOST_UNPACKED;
+use crate::hull::TableForm;
+
+/// Sum of the sizes that the directory of the archive states.
+fn unpacked(bytes: &[u8]) -> u64 {
+    let mut sum = 0u64;
+    let mut at = 0;
+    while let Some(found) = bytes[at..].windows(4).position(|w| w == b"PK\x01\x02") {
+        at += found;
+        if let Some(&[a, b, c, d]) = bytes.get(at + 24..at + 28) {
+            sum = sum.saturating_add(u64::from(u32::from_le_bytes([a, b, c, d])));
+        }
+        at += 4;
+    }
+    sum
+}
+
+/// The most texts that a part of shared texts says it has: memory is set aside for so many before any is read.
+fn claimed_texts(bytes: &[u8]) -> u64 {
+    const CLAIM: &[u8] = b"uniqueCount";
+    let Ok(mut archive) = ZipArchive::new(Cursor::new(bytes)) else { return 0 };
+    let mut most = 0;
+    for k in 0..archive.len() {
+        let Ok(part) = archive.by_index(k) else { continue };
+        if !part.name().is_ok_and(|name| name.to_lowercase().ends_with("sharedstrings.xml")) {
+            continue;
+        }
+        let mut text = Vec::new();
+        // What cannot be unpacked is told by the reader of the workbook.
+        let _ = part.take(MOST_UNPACKED).read_to_end(&mut text);
+        let places = text.windows(CLAIM.len()).enumerate().filter(|(_, window)| *window == CLAIM).map(|(at, _)| at);
+        for at in places {
+            let digits = text[at + CLAIM.len()..].iter().copied().skip_while(|c| b" \t\r\n=\"'".contains(c));
+            let number = digits.take_while(u8::is_ascii_digit);
+            most = number.fold(0_u64, |n, c| n.saturating_mul(10).saturating_add(u64::from(c - b'0'))).max(most);
+        }
+    }
+    most
+}
+
+/// The rows of a workbook, and the name of their sheet.
+pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
+    let stated = unpacked(bytes);
+    if bytes.len() > LARGEST_TABLE || stated > MOST_UNPACKED {
+        let message = format!(
+            "{} bytes, unpacked {stated}; a workbook has at most {LARGEST_TABLE}, unpacked {MOST_UNPACKED}",
+            bytes.len()
+        );
+        problems.error("E312", Place::FILE, message, "");
+        return None;
+    }
+    let claimed = claimed_texts(bytes);
+    if claimed > MOST_CELLS as u64 {
+        let message =
+            format!("the workbook says that it has {claimed} shared texts; a table has at most {MOST_CELLS} cells");
+        problems.error("E312", Place::FILE, message, "");
+        return None;
+    }
+    let failed = |error: String| format!("not a workbook that can be read: {error}");
+    let mut book = match Xlsx::new(Cursor::new(bytes)) {
+        Ok(book) => book,
+        Err(error) => {
+            problems.error("E300", Place::FILE, failed(error.to_string()), "Give the table as XLSX or CSV");
+            return None;
+        }
+    };
+    let sheets = book.sheet_names();
+    for sheet in sheets {
+        let mut reader = match book.worksheet_cells_reader(&sheet) {
+            Ok(reader) => reader,
+            // A sheet of a chart has no cells.
+            Err(_) => continue,
+        };
+        let mut grid = Grid { separator: ',', ..Grid::default() };
+        let mut cells = 0usize;
+        loop {
+            let cell = match reader.next_cell() {
+                Ok(Some(cell)) => cell,
+                Ok(None) => break,
+                Err(error) => {
+                    problems.error("E300", Place::FILE, failed(error.to_string()), "");
+                    return None;
+                }
+            };
+            let (row, column) = cell.get_position();
+            let (row, column) = (row as usize, column as usize);
+            let mut field = Field { text: String::new(), row: row + 1, column: column + 1 };
+            field.text = match cell.get_value() {
+                DataRef::Int(n) => n.to_string(),
+                DataRef::Float(n) if n.is_finite() => n.to_string(),
+                DataRef::Float(_) | DataRef::Empty => continue,
+                DataRef::String(text) => text.clone(),
+                DataRef::SharedString(text) => (*text).to_owned(),
+                DataRef::Bool(truth) => truth.to_string(),
+                DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_) => {
+                    let message = "the cell is a date; spreadsheets make dates of feet-inches-eighths".to_owned();
+                    problems.error("E301", &field, message, "Format the cells as text before typing 3-4-5");
+                    continue;
+                }
+                DataRef::Error(error) => {
+                    problems.error("E301", &field, format!("the cell holds the error {error}"), "");
+                    continue;
+                }
+            };
+            cells += 1;
+            if row >= MOST_ROWS || column >= MOST_COLUMNS || cells > MOST_CELLS || field.text.len() > LONGEST_FIELD {
+                let message = format!(
+                    "a table has at most {MOST_ROWS} rows, {MOST_COLUMNS} columns, {MOST_CELLS} cells and {LONGEST_FIELD} \
+                     bytes in a cell"
+                );
+                problems.error("E312", &field, message, "");
+                return None;
+            }
+            place(&mut grid, field, &mut cells, problems)?;
+        }
+        if !grid.rows.iter().all(Vec::is_empty) {
+            comments(&mut grid);
+            even(&mut grid);
+            return Some((grid, sheet));
+        }
+    }
+    if !problems.any_errors() {
+        problems.error("E300", Place::FILE, "no sheet of the workbook has cells".to_owned(), "");
+    }
+    None
+}
+
+/// Takes the rows that begin with `#` out, as comments.
+fn comments(grid: &mut Grid) {
+    for row in &mut grid.rows {
+        if let Some(comment) = row.first().and_then(|field| field.text.trim_start().strip_prefix('#')) {
+            grid.comments.push((row[0].row, comment.trim().to_owned()));
+            row.clear();
+        }
+    }
+}
+
+/// The text of a table, as `write_table` makes it for `form`, as a workbook with one sheet.
+///
+/// # Errors
+/// What the text or the name of the sheet has that a workbook cannot hold, in words.
+pub fn workbook(text: &str, form: &TableForm) -> Result<Vec<u8>, String> {
+    let mut problems = Problems::new("");
+    let Some(grid) = super::grid::split(text, Some(form.separator), &mut problems) else {
+        return Err("the table is larger than a sheet".to_owned());
+    };
+    let failed = |error: XlsxError| error.to_string();
+    let mut book = Workbook::new();
+    // The same table, the same bytes.
+    let made = ExcelDateTime::from_ymd(2000, 1, 1).map_err(failed)?;
+    book.set_properties(&DocProperties::new().set_creation_datetime(&made));
+    let sheet = book.add_worksheet();
+    sheet.set_name(form.sheet.as_deref().unwrap_or("offsets")).map_err(failed)?;
+    let place = |field: &Field| -> Result<(u32, u16), String> {
+        let column = u16::try_from(field.column - 1).map_err(|_| "more columns than a sheet has".to_owned())?;
+        Ok((u32::try_from(field.row - 1).map_err(|_| "more rows than a sheet has".to_owned())?, column))
+    };
+    for (line, comment) in &grid.comments {
+        let row = u32::try_from(line - 1).map_err(|_| "more rows than a sheet has".to_owned())?;
+        sheet.write_string(row, 0, format!("# {comment}")).map_err(failed)?;
+    }
+    for field in grid.rows.iter().flatten().filter(|field| !field.text.is_empty()) {
+        let (row, column) = place(field)?;
+        match number(&field.text, form.decimal_comma) {
+            Some((value, digits)) => {
+                let shown = if digits == 0 { "0".to_owned() } else { format!("0.{}", "0".repeat(digits)) };
+                sheet.write_number_with_format(row, column, value, &Format::new().set_num_format(shown))
+            }
+            None => sheet.write_string(row, column, &field.text),
+        }
+        .map_err(failed)?;
+    }
+    book.save_to_buffer().map_err(failed)
+}
+
+/// The value and the digits after the decimal sign of a plain decimal number.
+fn number(text: &str, decimal_comma: bool) -> Option<(f64, usize)> {
+    let text = if decimal_comma { text.replace(',', ".") } else { text.to_owned() };
+    let digits = text.strip_prefix('-').unwrap_or(&text);
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let plain = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
+    // A leading zero, as of a frame 007, belongs to a name.
+    let named = whole.len() > 1 && whole.starts_with('0');
+    if whole.is_empty() || named || !plain(whole) || !plain(part) || digits.len() > 15 {
+        return None;
+    }
+    text.parse().ok().map(|value| (value, part.len()))
+}
+
+/// Puts a field into its row; blank fields fill the row before it, and count as cells.
+fn place(grid: &mut Grid, field: Field, cells: &mut usize, problems: &mut Problems) -> Option<()> {
+    while grid.rows.len() < field.row {
+        grid.rows.push(Vec::new());
+    }
+    let row = &mut grid.rows[field.row - 1];
+    while row.len() < field.column - 1 {
+        row.push(Field { text: String::new(), row: field.row, column: row.len() + 1 });
+        *cells += 1;
+        if *cells > MOST_CELLS {
+            problems.error("E312", &field, format!("more than {MOST_CELLS} cells"), "");
+            return None;
+        }
+    }
+    if row.len() >= field.column {
+        let at = field.column - 1;
+        row[at] = field;
+    } else {
+        row.push(field);
+    }
+    Some(())
+}
+
+/// Sheets leave out empty cells at the ends of rows: the rows of each block become equally long, as far as its header
+/// goes.
+fn even(grid: &mut Grid) {
+    for row in &mut grid.rows {
+        if row.iter().all(Field::is_blank) {
+            row.clear();
+        }
+    }
+    let mut width = 0;
+    for row in &mut grid.rows {
+        if row.is_empty() {
+            width = 0;
+            continue;
+        }
+        width = width.max(row.len());
+        while row.len() < width {
+            row.push(Field { text: String::new(), row: row[0].row, column: row.len() + 1 });
+        }
+    }
+}
