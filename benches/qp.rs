@@ -39,13 +39,16 @@ struct Run {
     missed: [f64; 3],
 }
 
+fn ours(problem: &Problem, settings: &Settings) -> Solution {
+    problem.solve(settings).unwrap()
+}
+
 /// The shortest of the turns of each solver, taken in turn.
 fn race(problem: &Problem, rounds: usize) -> [Run; 2] {
     let none = Run { seconds: f64::INFINITY, processor: f64::INFINITY, iterations: 0, gap: 0.0, missed: [0.0; 3] };
     let mut result = [none.clone(), none];
     for _ in 0..rounds {
-        let ours = |problem: &Problem, settings: &Settings| problem.solve(settings).unwrap();
-        let solvers: [&dyn Fn(&Problem, &Settings) -> Solution; 2] = [&ours, &second_opinion::solve];
+        let solvers: [fn(&Problem, &Settings) -> Solution; 2] = [ours, second_opinion::solve];
         for (solve, result) in solvers.into_iter().zip(&mut result) {
             let (start, used) = (Instant::now(), processor_seconds());
             let solution = solve(problem, &Settings::default());
