@@ -504,6 +504,7 @@ fn tolerances_below_the_swings_of_the_start_harm_nothing() {
 
 /// The whole sectional-area curve: the table's own within a band, or from a file beside the job.
 #[test]
+#[ignore = "takes 8 s"]
 fn a_sectional_area_curve_is_held() {
     let folder = folder("areas");
     let run = |areas: &str| {
@@ -559,6 +560,7 @@ fn a_sectional_area_curve_is_held() {
 /// Sections of a hull with y = (B/2)(1 - s^2)(1 - w^2) as points at heights of their own, 5 mm of noise on the
 /// half-breadths.
 #[test]
+#[ignore = "takes 8 s"]
 fn sections_given_as_points_are_faired() {
     use std::fmt::Write;
     let mut random = Random(5);
@@ -601,6 +603,7 @@ fn sections_given_as_points_are_faired() {
 }
 
 #[test]
+#[ignore = "takes 11 s"]
 fn a_misprint_is_left_out_and_listed() {
     let table = carried("reports/suspects/series60-misprinted.csv");
     let (job, outputs) = faired(&table, &[]);

@@ -50,6 +50,7 @@ fn slope(hull: &Hull, [x, z]: [f64; 2], station: bool) -> f64 {
 }
 
 #[test]
+#[ignore = "takes 10 s"]
 fn fixed_lines_do_not_move_and_others_do() {
     let lines = [FixedLine::Line(Line::Station(30.48)), FixedLine::Line(Line::Waterline(6.5024)), FixedLine::Stem];
     let outcome = faired(lines.into_iter().map(Rule::Fixed).collect());
