@@ -374,7 +374,7 @@ fn with_error(seed: u64, off: f64) -> (Vec<CurvePoint>, usize) {
 fn a_point_that_contradicts_all_others_is_suspected() {
     let settings = CurveSettings::default();
     let (mut false_alarms, mut found) = (0, 0);
-    for seed in 0..20 {
+    for seed in 0..40 {
         let (clean, _) = with_error(seed, 0.0);
         false_alarms += usize::from(!contradictions(&clean, &settings).unwrap().suspects.is_empty());
         let (wrong, k) = with_error(seed, 15.0);
@@ -386,7 +386,7 @@ fn a_point_that_contradicts_all_others_is_suspected() {
         locked[k].locked = true;
         assert!(contradictions(&locked, &settings).unwrap().suspects.iter().all(|s| s.index != k), "{seed}");
     }
-    assert!(false_alarms <= 1 && found >= 19, "{false_alarms} {found}");
+    assert!(false_alarms <= 2 && found >= 38, "{false_alarms} {found}");
 }
 
 #[test]
