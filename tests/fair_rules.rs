@@ -258,6 +258,7 @@ fn gradients_are_those_of_finite_differences() {
 }
 
 #[test]
+#[ignore = "takes 6 s"]
 fn metacentre_and_wetted_surface_are_held() {
     let table = series60();
     let free = faired(Vec::new());
@@ -348,6 +349,7 @@ fn a_chine_is_not_taken_for_typing_errors() {
 }
 
 #[test]
+#[ignore = "takes 6 s"]
 fn an_undeclared_chine_is_proposed_and_taken() {
     let table = chined(|_| 0.35);
     let run = |accepted: Accepted| Job { accepted, ..Job::default() }.run(&table);
