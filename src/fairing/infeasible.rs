@@ -21,7 +21,7 @@ const VIOLATED: f64 = 1e-9;
 /// What the bound of a least factor may be off, relative, where the solver stalled before its tolerance was met.
 const PROVED: f64 = 1e-5;
 
-/// Weight of the square of a move \[1/m2\] against the factor, where the linear program stalls.
+/// Weight of the squares of all unknowns of a step, half-breadths and factor alike, where the linear program stalls.
 const PROXIMAL: f64 = 1e-4;
 
 /// What one constraint could be.
@@ -130,19 +130,19 @@ fn least_factor(
     }
     let problem = factor.into_problem();
     // Where many limits meet, the multipliers stall at what is proof enough of a factor.
-    let found = |solution: &Solution| {
+    let proved = |solution: &Solution| {
         let certificate = problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let gap = (certificate.primal - certificate.dual).abs();
-        let proved = certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs();
-        solution.status == Status::Optimal || proved
+        certificate.max_violation <= VIOLATED && gap <= PROVED * certificate.primal.abs()
     };
-    let mut solution = problem.solve(&Settings { proof: false, ..settings.clone() })?;
-    if solution.status == Status::Limit && !found(&solution) {
+    let settings = Settings { proof: false, ..settings.clone() };
+    let mut solution = problem.solve(&settings)?;
+    let mut found = solution.status == Status::Optimal || proved(&solution);
+    if solution.status == Status::Limit && !found {
         // A linear program whose least factor is hardly more than what is there already may lose its way.
-        let settings = Settings { proof: false, ..settings.clone() };
-        solution = problem.solve_by_proximal_points(&settings, &solution.x, PROXIMAL, found)?;
+        solution = problem.solve_by_proximal_points(&settings, &solution.x, PROXIMAL, proved)?;
+        found = proved(&solution);
     }
-    let found = found(&solution);
     let factor = solution.x.split_off(n)[0];
     Ok(found.then_some((factor, solution.x)))
 }
