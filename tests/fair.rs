@@ -46,7 +46,7 @@ fn displacement_and_block_coefficient_may_both_be_asked_for() {
     assert!(apart.starts_with("E170 --cb hold.Cb: a displacement of 8170.00 m3 is C_B 0.60"), "{apart}");
 }
 
-/// The area amidships says C_M again: 106 m2 over 16.256 m times 6.828 m is 0.955.
+/// A job with a section area of 106 m2 amidships and this C_M.
 fn with_midship_coefficient(coefficient: &str) -> Result<FairOutputs, String> {
     let path = folder(coefficient);
     let text = format!(
@@ -57,6 +57,7 @@ fn with_midship_coefficient(coefficient: &str) -> Result<FairOutputs, String> {
     fair_outputs(&read_fair(Path::new(&job), &[]).unwrap(), false).map_err(|refused| refused.to_string())
 }
 
+/// The area amidships gives C_M again: 106 m2 over 16.256 m times 6.828 m is 0.955.
 #[test]
 #[ignore = "takes 15 s"]
 fn an_area_amidships_and_a_midship_coefficient_are_one_wish() {
@@ -404,7 +405,6 @@ fn rules_and_lines_that_the_hull_does_not_have_are_refused() {
     assert!(!Path::new(&out).exists());
 }
 
-/// Whatever cannot be had is told at the line of the job that asks for it, or at the option.
 /// Exit code and messages of a job with this text; its file is called `job.toml` in them.
 fn answer_to_job(folder: &Folder, table: &str, text: &str, options: &[&str]) -> (Option<i32>, String) {
     let job = folder.write("job.toml", format!("[table]\nfile = {:?}\n{text}", carried(table).display().to_string()));
@@ -413,6 +413,7 @@ fn answer_to_job(folder: &Folder, table: &str, text: &str, options: &[&str]) -> 
     (output.status.code(), stderr(&output).replace(&format!("{}/", folder.display()), ""))
 }
 
+/// Messages name the line of the job that asks for what is refused, or the option.
 #[test]
 fn refusals_name_the_line_of_the_job() {
     let folder = folder("places");

@@ -68,7 +68,8 @@ pub(crate) fn subtract_product(target: &mut [f64], stride: usize, a: Block<'_>, 
     if rows == 0 || columns == 0 || a.columns() == 0 {
         return;
     }
-    // The left factor stands upright: nalgebra 0.34 reads the wrong entries of a small one that lies.
+    // The left factor stands upright: of a small one that lies, `axcpy` of nalgebra 0.34 takes the span of a column in
+    // memory for its length, and writes past the target.
     let mut upright = Vec::new();
     let a = if a.strides[0] == 1 {
         a

@@ -95,7 +95,7 @@ pub(crate) fn carried(file: impl AsRef<Path>) -> PathBuf {
 }
 
 /// The folder with published hulls that are not carried here: `LOFTSMAN_DATA`, or `../shared/data` beside this package;
-/// where there is none, that is told.
+/// where there is none, prints a line.
 pub(crate) fn shared_folder() -> Option<PathBuf> {
     let folder = std::env::var_os("LOFTSMAN_DATA").map_or_else(|| carried("../shared/data"), PathBuf::from);
     if folder.is_dir() {
@@ -150,7 +150,7 @@ pub(crate) fn read(name: &str, text: &str) -> ReadTable {
     })
 }
 
-/// What is told of a table and of what stands beside it.
+/// The notes on a table and on what stands beside it.
 #[track_caller]
 pub(crate) fn notes(text: &str, beside: &str) -> Vec<String> {
     let read = read_table_with("t.csv", text.as_bytes(), Some(("t.toml", beside)));

@@ -44,7 +44,7 @@ impl Letters {
     /// Writes the font as `id`, its parts as what `next` gives.
     pub(super) fn write(&self, pdf: &mut Pdf, id: Ref, next: &mut Ref) -> Result<(), PlotError> {
         let file = subset(font::DEJAVU_SANS, 0, &self.glyphs).map_err(error)?;
-        // A subset is told from others by six letters: those of its hash.
+        // A subset differs from others in six letters: those of its hash.
         let digest = Sha256::digest(&file);
         let tag: String = digest.iter().take(6).map(|byte| char::from(b'A' + byte % 26)).collect();
         let name = format!("{tag}+DejaVuSans");
