@@ -50,12 +50,12 @@ fn files_are_not_overwritten_unasked() {
     let wrong = program(&["export", hull.as_str(), "-f", "dwg"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(stderr(&wrong).contains(
-        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan"
+        "step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl, ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan"
     ));
 }
 
 /// The files of a small box. After a wanted change of a writer they are remade by
-/// `loftsman export configs/box.toml -f FORMATS -o tests/golden --across 1 --panel 25m --force`.
+/// `loftsman export configs/box.toml -f FORMATS -o tests/golden --divisions-across 1 --panel 25m --force`.
 #[test]
 fn files_are_those_of_the_golden_folder() {
     let hull = read_source(&config("box.toml")).unwrap().hull;

@@ -113,7 +113,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "lcurve.svg",
         "manifest.json",
         "offsets.csv",
-        "start.json",
+        "fitted-hull.json",
         "summary.json",
     ];
     assert_eq!(names, expected);
@@ -656,7 +656,7 @@ fn what_is_not_what_was_hoped_for_is_warned_of() {
     let folder = folder("hoped");
     let out = folder.join("out").display().to_string();
     let yacht = carried(YACHT).display().to_string();
-    let output = program(&["fair", &yacht, "-o", &out, "--no-figures", "--no-signs", "--order", "4"]);
+    let output = program(&["fair", &yacht, "-o", &out, "--no-figures", "--allow-inflections", "--order", "4"]);
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("W402") && said.contains("waterline 0.900 m 5 > 6"), "{said}");
@@ -861,7 +861,7 @@ fn ends_that_are_closed_stay_closed() {
 #[test]
 #[ignore = "takes 11 s"]
 fn the_bending_energy_is_minimised_within_what_is_held() {
-    let (_, outputs) = faired(&carried(TABLE), &[("--bending", "energy.bending", "true")]);
+    let (_, outputs) = faired(&carried(TABLE), &[("--exact-bending-energy", "energy.exact_bending", "true")]);
     let result = json(file(&outputs, "fairing.json"));
     let energies: Vec<f64> = result["bending"]["energies"].as_array().unwrap().iter().map(number).collect();
     println!("{energies:?}");

@@ -183,8 +183,12 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     copy("hull.json");
     refused(&[path.to_str().unwrap()], 3, &["E181", "expected changes.csv, which `fair` writes"]);
     copy("changes.csv");
-    refused(&[path.to_str().unwrap()], 3, &["E181", "expected start.json"]);
-    copy("start.json");
+    refused(&[path.to_str().unwrap()], 3, &["E181", "expected fitted-hull.json"]);
+    // The name that an older program gave it.
+    fs::copy(fair.join("fitted-hull.json"), path.join("start.json")).unwrap();
+    assert!(read_result(&path).is_ok());
+    fs::remove_file(path.join("start.json")).unwrap();
+    copy("fitted-hull.json");
     let changes = read_text(fair.join("changes.csv"));
     let cut: String = changes.split_inclusive('\n').take(3).collect();
     let rows = changes.lines().count() - 1;
@@ -207,11 +211,11 @@ fn what_is_no_result_is_refused_with_file_found_expected_and_remedy() {
     refused(&[path.to_str().unwrap()], 3, &["E182", "changes.csv found 2 offsets that span no hull"]);
     copy("fairing.json");
     copy("changes.csv");
-    let start = read_text(fair.join("start.json"));
-    fs::write(path.join("start.json"), start.replace("\"Lpp\":100.0", "\"Lpp\":90.0")).unwrap();
+    let start = read_text(fair.join("fitted-hull.json"));
+    fs::write(path.join("fitted-hull.json"), start.replace("\"Lpp\":100.0", "\"Lpp\":90.0")).unwrap();
     let other = "another ship: found Lpp 90 m where hull.json has 100 m";
-    refused(&[path.to_str().unwrap()], 3, &["E182", "start.json", other]);
-    copy("start.json");
+    refused(&[path.to_str().unwrap()], 3, &["E182", "fitted-hull.json", other]);
+    copy("fitted-hull.json");
     for (lines, part) in [
         ("buttock 99", "'buttock 99' does not cut the hull"),
         ("station 5, diagonal 99", "'diagonal 99' does not cut the hull"),

@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     /// Formats, with commas between them: step, iges, dxf, stl, stl-ascii, obj, glb, gdf, nemoh, pnl,
-    /// gf, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
+    /// ghs, britfair, pias, pdstrip, freeship, delftship, ftm, michlet, csv, xlsx, dxf-plan
     #[arg(short, long, value_delimiter = ',', value_parser = format, value_name = "LIST", required = true)]
     format: Vec<ExportFormat>,
     /// Folder for the files [default: out/<name of the input>]
@@ -33,8 +33,8 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     deviation: Option<f64>,
     /// Edges of a mesh across deck, bottom and transom, about
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
-    across: u16,
+    #[arg(long, alias = "across", value_parser = clap::value_parser!(u16).range(1..=1000), value_name = "N", default_value_t = 8)]
+    divisions_across: u16,
     /// Height above the base line that is z = 0 in the files: a length up to a hundred depths, or `waterline` for the
     /// design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
@@ -70,7 +70,7 @@ sharper (the end of a flat bottom, a deck to a point); the page tells whether th
 how many triangles are below the bound elsewhere (where a face is narrower than the deviation over a length), and its volume against the hull's.
 gdf (WAMIT), nemoh, pnl (HAMS): panels of the wetted surface below --draught, the half y >= 0 with its plane of symmetry, z = 0 on \
 the waterline, normals into the water, no lid; every panel is planar unless --flatness allows more. The page tells how even they are, and their volume and area against the hull's.
-gf (GHS), britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
+ghs, britfair, pias, pdstrip (below the draught), freeship (text that FREE!ship and DELFTship import): sections at the default \
 stations as points within the deviation. ftm (FREE!ship, DELFTship): the control net of a subdivision surface through points of the \
 hull, with its knuckles as creases; michlet: half-breadths below --draught, from the bow aft, from the lowest point up. csv, xlsx, delftship (table of DELFTship): half-breadths over stations and waterlines, with the ends of the waterlines. These, in \
 their own frames, have z = 0 on the base line.
@@ -83,7 +83,9 @@ enum Datum {
 }
 
 pub(super) fn format(text: &str) -> Result<ExportFormat, String> {
-    let found = ExportFormat::ALL.into_iter().find(|format| format.name() == text.trim());
+    // `gf` was the name of `ghs`.
+    let name = if text.trim() == "gf" { "ghs" } else { text.trim() };
+    let found = ExportFormat::ALL.into_iter().find(|format| format.name() == name);
     found.ok_or_else(|| {
         let names: Vec<&str> = ExportFormat::ALL.iter().map(|format| format.name()).collect();
         format!("expected one of {}", names.join(", "))
@@ -127,7 +129,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         unit: arguments.unit,
         dxf: arguments.dxf,
         deviation: arguments.deviation,
-        across: usize::from(arguments.across),
+        across: usize::from(arguments.divisions_across),
         datum,
         draught: arguments.draught,
         panel: arguments.panel,

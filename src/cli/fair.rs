@@ -80,18 +80,24 @@ pub(super) struct Arguments {
     /// Take knuckles and tangent lines that are proposed: "L1,L2", or "all"
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
-    /// What forbidding the changes of curvature of a line may cost at most: sum of squares of moves over the noise squared [default: 12]
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, conflicts_with = "no_signs")]
-    sign_price: Option<String>,
-    /// Do not forbid changes of curvature that are noise
-    #[arg(long)]
-    no_signs: bool,
+    /// Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared [default: 12]
+    #[arg(
+        long,
+        alias = "sign-price",
+        value_name = "NUMBER",
+        allow_hyphen_values = true,
+        conflicts_with = "allow_inflections"
+    )]
+    inflection_cost: Option<String>,
+    /// Do not remove inflections that are noise
+    #[arg(long, alias = "no-signs")]
+    allow_inflections: bool,
     /// Minimise the energy of true curvature: refresh its metric at the answer while the functional falls
     #[arg(long)]
     true_curvature: bool,
-    /// Minimise the bending energy of the surface at last: the integral of k1^2 + k2^2 over its area
-    #[arg(long)]
-    bending: bool,
+    /// Minimise the exact bending energy of the surface at last: the integral of k1^2 + k2^2 over its area
+    #[arg(long, alias = "bending")]
+    exact_bending_energy: bool,
     #[command(flatten)]
     files: RunFiles,
     /// Run again whenever one of the files that were read changes; files of the run before are overwritten
@@ -102,8 +108,8 @@ pub(super) struct Arguments {
 const AFTER: &str = "\
 Held are displacement, LCB and CM of the surface through the table unless something else is said; a target that is given \
 replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
-[shape], [energy], [suspects], [signs]: `loftsman schema job`.
-Files: hull.json, start.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
+[shape], [energy], [suspects], [inflections]: `loftsman schema job`.
+Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
 manifest.json, figures.
 Exit code 4 when the wishes cannot all be had within the tolerances; the best compromise is written, marked.
@@ -133,7 +139,7 @@ impl Arguments {
             ("--order", "energy.order", &self.order),
             ("--anisotropy", "energy.anisotropy", &self.anisotropy),
             ("--weight", "energy.weight", &self.weight),
-            ("--sign-price", "signs.price", &self.sign_price),
+            ("--inflection-cost", "inflections.cost", &self.inflection_cost),
             ("--accept-lines", "lines.accept", &self.accept_lines),
         ];
         let said = |(option, key, value): (&'static str, &'static str, &Option<String>)| {
@@ -152,9 +158,9 @@ impl Arguments {
         }
         let flags = [
             (self.keep_suspects, "--keep-suspects", "suspects.exclude", "false"),
-            (self.no_signs, "--no-signs", "signs.impose", "false"),
+            (self.allow_inflections, "--allow-inflections", "inflections.remove", "false"),
             (self.true_curvature, "--true-curvature", "energy.true_curvature", "true"),
-            (self.bending, "--bending", "energy.bending", "true"),
+            (self.exact_bending_energy, "--exact-bending-energy", "energy.exact_bending", "true"),
         ];
         for (_, option, key, value) in flags.into_iter().filter(|(flag, ..)| *flag) {
             options.push((option, key, value.to_owned()));

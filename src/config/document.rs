@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::diagnostic::{Diagnostic, Severity, position};
+use super::job::RENAMED;
 use super::keys::{KEYS, Key};
 
 /// Files longer than this are not design files \[bytes\].
@@ -161,8 +162,12 @@ impl<'a> Document<'a> {
         for (name, value) in table {
             let full = if path.is_empty() { name.get_ref().to_string() } else { format!("{path}.{}", name.get_ref()) };
             let lower = full.to_lowercase();
-            let is_table = self.keys.iter().any(|k| under(k.table, &lower));
-            let known = self.keys.iter().find(|k| k.path().to_lowercase() == lower);
+            let renamed = |(_, new): &&(&str, &str)| self.keys.iter().any(|k| k.path() == *new);
+            let mut renamed = RENAMED.iter().filter(renamed);
+            let is_table = self.keys.iter().any(|k| under(k.table, &lower))
+                || renamed.clone().any(|(old, _)| old.rsplit_once('.').is_some_and(|(table, _)| table == lower));
+            let path_now = renamed.find(|(old, _)| *old == lower).map_or(lower.clone(), |(_, new)| (*new).to_owned());
+            let known = self.keys.iter().find(|k| k.path().to_lowercase() == path_now);
             match (value.get_ref(), known) {
                 (DeValue::Table(inner), None) if is_table => {
                     self.tables.push((lower.clone(), name.span().start));

@@ -23,6 +23,7 @@ mod spot;
 use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Wish};
 pub use keys::JOB_KEYS;
+pub(super) use keys::RENAMED;
 pub use place::Place;
 use ranges::{anisotropy, density, positive, price, weight};
 pub use shape::RuleMark;
@@ -83,7 +84,7 @@ pub struct JobFile {
     pub price: Option<f64>,
     /// Whether the energy is that of true curvature.
     pub true_curvature: Option<bool>,
-    /// `energy.bending`.
+    /// `energy.exact_bending`.
     pub bending: Option<bool>,
     /// Where the values of the keys stand; of a key that is said twice the last counts.
     places: Vec<Place>,
@@ -174,10 +175,10 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
         keep_flat: document.switch("flat.keep"),
-        signs: document.switch("signs.impose"),
+        signs: document.switch("inflections.remove"),
         price: price(document),
         true_curvature: document.switch("energy.true_curvature"),
-        bending: document.switch("energy.bending"),
+        bending: document.switch("energy.exact_bending"),
         places: document.entries.iter().map(|e| Place::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };

@@ -411,7 +411,7 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradiction
         "infeasible": infeasible(fair),
         "suspects": suspects,
         "corners": corners,
-        "work": { "qps": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
+        "work": { "solves": fair.work[0], "iterations": fair.work[1], "refreshes": fair.refreshes, "seconds": json_number(Some(seconds)) },
     })
 }
 

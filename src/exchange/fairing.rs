@@ -250,7 +250,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
                 "target": number(target), "before": number(held.before), "after": number(held.after),
                 "residual": number(held.after - target), "multiplier": number(held.multiplier),
                 "price": number(held.price), "words": priced(&(held.constraint.words() + at), held.price),
-                "had": had,
+                "satisfied": had,
             });
             if let Constraint::SectionArea { x, band, .. } = held.constraint {
                 member["x"] = number(x);
@@ -292,7 +292,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
     let signs = faired.patterns.as_ref().map(|patterns| {
         let rows = faired.program.names.iter().filter(|name| matches!(name, RowName::Sign(..))).count();
         let lobes: usize = patterns.iter().map(|pattern| pattern.flipped.len()).sum();
-        json!({ "imposed": rows, "lobes_taken_out": lobes, "price": number(faired.price) })
+        json!({ "imposed": rows, "removed": lobes, "price": number(faired.price) })
     });
     json!({
         "name": table.name,
@@ -308,18 +308,18 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "constraints": constraints,
         "rules": rules,
         // Largest relative error of what is not linear, before its first new linearisation and after each.
-        "settled": faired.settled.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
+        "nonlinear_residuals": faired.settled.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
         "inflections": {
             // What departs less from its chord is no inflection [m].
             "dead_band": number(outcome.resolution),
-            // What forbidding one may cost [squares of the noise].
-            "dearest": number(faired.dearest),
+            // Greatest cost of removing one [squares of the noise].
+            "max_cost": number(faired.dearest),
             "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },
         "signs": signs,
         // The greatest jump of curvature across lines of the net where the surface through the table has none [1/m].
-        "jump": json_number(outcome.jump),
+        "max_curvature_jump": json_number(outcome.jump),
         // By how much the half-breadth passes the greatest of the table, or B/2, before and after [m].
         "beyond_half_breadth": outcome.beyond.map(number),
         "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
@@ -350,7 +350,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "excluded": outcome.changes.iter().filter(|change| change.suspect).map(|c| place(table, c)).collect::<Vec<_>>(),
         "notes": outcome.notes,
         "convergence": convergence,
-        "work": { "qps": faired.programs, "iterations": faired.iterations },
+        "work": { "solves": faired.programs, "iterations": faired.iterations },
     })
 }
 

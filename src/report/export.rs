@@ -104,7 +104,7 @@ impl ExportFormat {
             Self::Gdf => "gdf",
             Self::Nemoh => "nemoh",
             Self::Pnl => "pnl",
-            Self::Ghs => "gf",
+            Self::Ghs => "ghs",
             Self::Britfair => "britfair",
             Self::Pias => "pias",
             Self::Pdstrip => "pdstrip",

@@ -155,8 +155,15 @@ fn fitted(table: &OffsetTable) -> Result<Hull, FitError> {
 }
 
 /// Files that every fairing writes, besides the table.
-const FILES: [&str; 7] =
-    ["hull.json", "start.json", "changes.csv", "control-polygon.csv", "fairing.json", "summary.json", "manifest.json"];
+const FILES: [&str; 7] = [
+    "hull.json",
+    "fitted-hull.json",
+    "changes.csv",
+    "control-polygon.csv",
+    "fairing.json",
+    "summary.json",
+    "manifest.json",
+];
 
 impl FairJob {
     /// Names of the files that the job writes, whatever comes of it; figures are not among them.
@@ -362,10 +369,10 @@ pub fn fair_outputs_telling(job: &FairJob, figures: bool, progress: Progress<'_>
     let name_of_hull = marked_name(outcome.after.name(), compromise);
     outcome.after = outcome.after.with_name(name_of_hull);
     let summary = summary(job, &outcome, &rows, &rounding);
-    let [start, hull] = [&outcome.before, &outcome.after].map(|hull| write_hull(hull, &job.conventions));
+    let [fitted, hull] = [&outcome.before, &outcome.after].map(|hull| write_hull(hull, &job.conventions));
     let mut files = vec![
         OutputFile::text("hull.json", hull.map_err(|e| Failure::Internal(format!("hull.json: {e}")))?),
-        OutputFile::text("start.json", start.map_err(|e| Failure::Internal(format!("start.json: {e}")))?),
+        OutputFile::text("fitted-hull.json", fitted.map_err(|e| Failure::Internal(format!("fitted-hull.json: {e}")))?),
         OutputFile::table(&name, written.text, &job.table.form)?,
         OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
         OutputFile::text("control-polygon.csv", control_polygon_csv(&outcome)),

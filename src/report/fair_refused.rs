@@ -102,12 +102,12 @@ impl FairOutputs {
             Status::Limit if self.outcome.faired.stalled() => (
                 "E403",
                 "what is held of metacentre or wetted surface did not come to its target; what was written is the nearest",
-                "Look at constraints and settled in fairing.json, widen the tolerance or move the target".to_owned(),
+                "Look at constraints and nonlinear_residuals in fairing.json, widen the tolerance or move the target".to_owned(),
             ),
             Status::Unbounded | Status::Limit => (
                 "E402",
                 "the solver stopped before the optimum was proved; what was written is its best point",
-                "Widen the tolerances, wish for less, or leave the signs of curvature alone (signs.impose = false); the residuals are in fairing.json".to_owned(),
+                "Widen the tolerances, wish for less, or leave the signs of curvature alone (inflections.remove = false); the residuals are in fairing.json".to_owned(),
             ),
         };
         Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))

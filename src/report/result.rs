@@ -43,6 +43,9 @@ pub struct JobResult {
     pub folder: Option<PathBuf>,
 }
 
+/// Names of the surface through a table in the folder of `fair`, the present one and the one before.
+const FITTED_HULLS: [&str; 2] = ["fitted-hull.json", "start.json"];
+
 const REMEDY: &str =
     "Give the folder that `generate`, `fit` or `fair` wrote, a JSON file in it, or the file of `hydro --json`";
 
@@ -207,9 +210,10 @@ fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
                 let message = format!("found {found} that span no hull; expected breadth at several x and heights");
                 return Err(unread(&folder.join("changes.csv"), &message));
             }
-            let before = reader.hull("start.json", "`fair`")?.hull;
+            let file = FITTED_HULLS.into_iter().find(|name| folder.join(name).is_file()).unwrap_or(FITTED_HULLS[0]);
+            let before = reader.hull(file, "`fair`")?.hull;
             if let Some(message) = another_ship(&before, &hull) {
-                return Err(unread(&folder.join("start.json"), &message));
+                return Err(unread(&folder.join(file), &message));
             }
             let after = hull.clone();
             let lambda = chosen.lambda;
@@ -321,7 +325,7 @@ fn missing(folder: &Path, written: &[ManifestEntry], faired: bool) -> Vec<String
     for (name, lack) in LACKS {
         let listed = written.iter().any(|entry| entry.file == name);
         // Without a manifest the other files of a fairing tell that there was one.
-        let known = listed || (name == "fairing.json" && there("start.json"));
+        let known = listed || (name == "fairing.json" && FITTED_HULLS.into_iter().any(there));
         // The targets of a fairing stand in its certificate.
         if known && !there(name) && !(faired && name == "summary.json") {
             notes.push(format!("{} is missing: the report has {lack}", folder.join(name).display()));

@@ -210,7 +210,7 @@ pub(super) fn constraints(fairing: &Value) -> Table {
     let heads = ["wish", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
     let mut table = Table::new(&heads, 2);
     for held in list(&fairing["constraints"]) {
-        let missed = held["had"] == Value::Bool(false);
+        let missed = [&held["satisfied"], &held["had"]].contains(&&Value::Bool(false));
         let name = text(&held["name"]);
         table.rows.push((
             missed,
@@ -255,7 +255,8 @@ fn residual(value: &Value, scale: f64) -> String {
 
 /// What forbidding a change of curvature was allowed to cost.
 fn dearest(fairing: &Value) -> f64 {
-    fairing["inflections"]["dearest"].as_f64().unwrap_or(PRICE)
+    let inflections = &fairing["inflections"];
+    inflections["max_cost"].as_f64().or(inflections["dearest"].as_f64()).unwrap_or(PRICE)
 }
 
 /// How often every line bends, before, after, at least, and what was asked of it.

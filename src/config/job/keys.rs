@@ -168,7 +168,7 @@ pub const JOB_KEYS: &[Key] = &[
     ),
     key(
         "energy",
-        "bending",
+        "exact_bending",
         Kind::Switch,
         &[],
         "Whether the bending energy of the surface, the integral of k1^2 + k2^2 over its area, is minimised at last. Default: false.",
@@ -201,18 +201,19 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "The same for lines across which the curvature breaks: edges of flats and of straight parts.",
     ),
+    key("inflections", "remove", Kind::Switch, &[], "Whether inflections that are noise are removed. Default: true."),
     key(
-        "signs",
-        "impose",
-        Kind::Switch,
-        &[],
-        "Whether changes of curvature that are noise are forbidden. Default: true.",
-    ),
-    key(
-        "signs",
-        "price",
+        "inflections",
+        "cost",
         Kind::Number,
         &[],
-        "What forbidding a change of curvature may cost at most: sum of squares of moves over the noise squared. Default: 12; 2 keeps what noise of the size of tolerance.table / 3 does not explain.",
+        "Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared. Default: 12; 2 keeps what noise of the size of tolerance.table / 3 does not explain.",
     ),
+];
+
+/// Keys that had another name before, old and new; the old one is accepted.
+pub(in crate::config) const RENAMED: [(&str, &str); 3] = [
+    ("signs.impose", "inflections.remove"),
+    ("signs.price", "inflections.cost"),
+    ("energy.bending", "energy.exact_bending"),
 ];

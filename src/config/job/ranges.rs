@@ -50,9 +50,9 @@ const MOST_PRICE: f64 = 1e6;
 
 /// What a sign may cost.
 pub(super) fn price(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("signs.price")?;
+    let value = document.number("inflections.cost")?;
     let expected = format!("a positive number, {MOST_PRICE:.0e} at most");
-    allowed(document, "signs.price", value, value > 0.0 && value <= MOST_PRICE, &expected)
+    allowed(document, "inflections.cost", value, value > 0.0 && value <= MOST_PRICE, &expected)
 }
 
 /// Greatest smoothing weight: nothing but the energy is left well below it.

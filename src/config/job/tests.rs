@@ -28,11 +28,11 @@ fn table() -> OffsetTable {
 
 #[test]
 fn everything_is_read() {
-    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\norder = 4\nanisotropy = 1\nweight = 0.01\ntrue_curvature = true\nbending = true\n\
+    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\norder = 4\nanisotropy = 1\nweight = 0.01\ntrue_curvature = true\nexact_bending = true\n\
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
-                [suspects]\nexclude = false\n[flat]\nkeep = false\n[signs]\nimpose = false\nprice = 2.5";
+                [suspects]\nexclude = false\n[flat]\nkeep = false\n[inflections]\nremove = false\ncost = 2.5";
     let file = read_job("j.toml", text).unwrap();
     assert_eq!((file.table.as_deref(), file.stated.draught), (Some("a.csv"), Some(4.0)));
     let job = file.for_table(&table(), 100.0).unwrap();
@@ -65,10 +65,21 @@ fn everything_is_read() {
 #[test]
 fn a_price_that_no_program_can_carry_is_refused() {
     for text in ["0", "-1", "1e7", "1e308"] {
-        let problems = read_job("j.toml", &format!("[signs]\nprice = {text}")).unwrap_err();
+        let problems = read_job("j.toml", &format!("[inflections]\ncost = {text}")).unwrap_err();
         assert_eq!(problems.iter().map(|problem| problem.code).collect::<Vec<_>>(), ["E124"], "{text}");
     }
-    assert_eq!(read_job("j.toml", "[signs]\nprice = 1e6").unwrap().price, Some(1e6));
+    assert_eq!(read_job("j.toml", "[inflections]\ncost = 1e6").unwrap().price, Some(1e6));
+}
+
+#[test]
+fn a_key_that_was_renamed_is_read_by_its_old_name() {
+    let old = "[energy]\nbending = true\n[signs]\nimpose = false\nprice = 2.5";
+    let new = "[energy]\nexact_bending = true\n[inflections]\nremove = false\ncost = 2.5";
+    let values = |text: &str| read_job("j.toml", text).map(|job| (job.bending, job.signs, job.price));
+    assert_eq!(values(old), values(new));
+    assert_eq!(values(old).unwrap(), (Some(true), Some(false), Some(2.5)));
+    let codes: Vec<_> = values("[signs]\nother = 1").unwrap_err().iter().map(|problem| problem.code).collect();
+    assert_eq!(codes, ["E121"]);
 }
 
 #[test]
@@ -135,7 +146,7 @@ fn places_without_hull_and_tolerances_of_nothing_are_refused() {
 fn all_problems_of_a_file_at_once() {
     let found = messages(
         "tabel.file = \"a\"\n[tolerance]\ntable = -1\nstations = { \"5\" = \"1 t\" }\ncells = { \"5\" = 1 }\n[lock]\ncells = [\"5\", true]\n\
-         [hold]\ndisplacement = \"frei\"\nCb = 1.2\nLCB = 3\nCm = 0.9\nwaterplane_area = \"5 %\"\nsection_areas = [[1]]\ncm = 0.8\n[signs]\nimpose = 1\n\
+         [hold]\ndisplacement = \"frei\"\nCb = 1.2\nLCB = 3\nCm = 0.9\nwaterplane_area = \"5 %\"\nsection_areas = [[1]]\ncm = 0.8\n[inflections]\nremove = 1\n\
          [energy]\norder = 7\nweight = -1",
     );
     let expected = [
@@ -151,7 +162,7 @@ fn all_problems_of_a_file_at_once() {
         "E123 j.toml:13:19 hold.waterplane_area: \"5 %\" is a percentage, expected an area",
         "E122 j.toml:14:18 hold.section_areas: an item is [1.0]. Expected a list of [x, area]",
         "E126 j.toml:15:1 hold.cm is written a second time",
-        "E122 j.toml:17:10 signs.impose is 1, expected true or false",
+        "E122 j.toml:17:10 inflections.remove is 1, expected true or false",
         "E122 j.toml:19:9 energy.order is 7, expected a whole number from 2 to 4",
         "E124 j.toml:20:10 energy.weight is -1.",
     ];
