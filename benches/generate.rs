@@ -1,32 +1,32 @@
-//! The whole generator, from wishes to the exact hull, without tables and drawings.
+//! The whole generator, from requested to the exact hull, without tables and drawings.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
 use loftsman::parametric::ucl_cosh;
 use std::hint::black_box;
 
-fn wishes(ship: ShipType, dimensions: [f64; 4], block: f64, midship: f64) -> Wishes {
-    Wishes {
+fn requested(ship: ShipType, dimensions: [f64; 4], block: f64, midship: f64) -> DesignTargets {
+    DesignTargets {
         ship_type: Some(ship),
         length: dimensions[0],
         breadth: Some(dimensions[1]),
         draught: Some(dimensions[2]),
         depth: Some(dimensions[3]),
         block_coefficient: Some(block),
-        midship_coefficient: Some(MidshipWish::Value(midship)),
-        ..Wishes::default()
+        midship_coefficient: Some(MidshipTarget::Value(midship)),
+        ..DesignTargets::default()
     }
 }
 
 fn generate(c: &mut Criterion) {
     let mut group = c.benchmark_group("generate");
-    for (name, wishes) in [
-        ("bulk carrier", wishes(ShipType::BulkCarrier, [217.0, 32.25, 12.2, 18.0], 0.80, 0.99)),
-        ("frigate", wishes(ShipType::Frigate, [142.0, 19.06, 6.15, 12.0], 0.50, 0.80)),
-        ("fishing vessel", wishes(ShipType::Fishing, [21.04, 6.86, 2.5, 3.7], 0.50, 0.80)),
+    for (name, requested) in [
+        ("bulk carrier", requested(ShipType::BulkCarrier, [217.0, 32.25, 12.2, 18.0], 0.80, 0.99)),
+        ("frigate", requested(ShipType::Frigate, [142.0, 19.06, 6.15, 12.0], 0.50, 0.80)),
+        ("fishing vessel", requested(ShipType::Fishing, [21.04, 6.86, 2.5, 3.7], 0.50, 0.80)),
     ] {
-        group.bench_function(name, |b| b.iter(|| cosh::generate("bench", black_box(&wishes))));
+        group.bench_function(name, |b| b.iter(|| cosh::generate("bench", black_box(&requested))));
     }
     let raw = ucl_cosh::Parameters {
         length: 100.0,

@@ -9,7 +9,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use loftsman::hull::{Hull, PrincipalParticulars};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets};
 use loftsman::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::hint::black_box;
 
@@ -53,8 +53,8 @@ fn canoe(mixed: bool) -> Hull {
 }
 
 fn tables(criterion: &mut Criterion) {
-    let wishes = Wishes { ship_type: Some(ShipType::Frigate), length: 100.0, ..Wishes::default() };
-    let frigate = cosh::generate("frigate", &wishes).unwrap().hull;
+    let requested = DesignTargets { ship_type: Some(ShipType::Frigate), length: 100.0, ..DesignTargets::default() };
+    let frigate = cosh::generate("frigate", &requested).unwrap().hull;
     let depth = frigate.particulars().depth;
     let mut group = criterion.benchmark_group("hydrostatics");
     for (name, hull, top) in [

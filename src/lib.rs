@@ -5,23 +5,23 @@
 //!
 //! ```
 //! use loftsman::parametric::ShipType;
-//! use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+//! use loftsman::parametric::cosh::{self, MidshipTarget, DesignTargets};
 //!
-//! let wishes = Wishes {
+//! let requested = DesignTargets {
 //!     ship_type: Some(ShipType::BulkCarrier),
 //!     length: 217.0,
 //!     breadth: Some(32.25),
 //!     draught: Some(12.2),
 //!     block_coefficient: Some(0.80),
-//!     midship_coefficient: Some(MidshipWish::Value(0.99)),
-//!     ..Wishes::default()
+//!     midship_coefficient: Some(MidshipTarget::Value(0.99)),
+//!     ..DesignTargets::default()
 //! };
-//! let ship = cosh::generate("bulk carrier", &wishes).expect("feasible");
+//! let ship = cosh::generate("bulk carrier", &requested).expect("feasible");
 //! for target in &ship.targets {
 //!     assert!((target.achieved - target.requested).abs() < 1e-10 * target.requested.max(1.0));
 //! }
-//! // What cannot be had is refused with numbers.
-//! let refused = cosh::generate("no ship", &Wishes { block_coefficient: Some(0.995), ..wishes }).unwrap_err();
+//! // What is infeasible is refused with numbers.
+//! let refused = cosh::generate("no ship", &DesignTargets { block_coefficient: Some(0.995), ..requested }).unwrap_err();
 //! assert!(refused.iter().any(|problem| problem.message.contains("Cb")));
 //! ```
 //!

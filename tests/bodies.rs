@@ -426,7 +426,7 @@ fn files_are_converted_by_the_endings_of_their_names() {
     assert_eq!(program(&["convert", &hull, &place("box.stl")]).status.code(), Some(6));
     let refused = program(&["convert", &hull, &place("new.stl"), "--input-unit", "mm"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("leave out what is said of it: units"));
+    assert!(stderr(&refused).contains("leave out its conventions: units"));
     // Units and axes of a body on the command line stand over the file.
     let volume = |flags: &[&str]| {
         let told = run(&[&["hydro", &place("box.obj"), "--draughts", "1", "--csv"], flags].concat());

@@ -152,7 +152,7 @@ fn values() {
     says(&with("dimensions.B = \"14 kn\""), "E123 hull.toml:2:16 dimensions.B: \"14 kn\" is a speed");
     says(&with("dimensions.B = \"3-11-9\""), "E123 hull.toml:2:16 dimensions.B: '3-11-9': eighths must be 0 to 7");
     says(&with("dimensions.B = nan"), "E123 hull.toml:2:16 dimensions.B is NaN, expected a finite number");
-    says(&with("form.LCB = 0.8"), "E123 hull.toml:2:12 form.LCB is 0.8, and its unit is not said. Write \"+0.8 %\"");
+    says(&with("form.LCB = 0.8"), "E123 hull.toml:2:12 form.LCB is 0.8, and its unit is missing. Write \"+0.8 %\"");
     says(&with("form.LCB = \"x AP\""), "E123 hull.toml:2:12 form.LCB: 'x' is not a number");
     says(&with("output.draughts = \"1:9\""), "E123 hull.toml:2:19 output.draughts: item 1: a range is from:to:step");
     says(&with("output.draughts = []"), "E123 hull.toml:2:19 output.draughts: the list is empty");

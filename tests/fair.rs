@@ -60,7 +60,7 @@ fn with_midship_coefficient(coefficient: &str) -> Result<FairOutputs, String> {
 /// The area amidships gives C_M again: 106 m2 over 16.256 m times 6.828 m is 0.955.
 #[test]
 #[ignore = "takes 15 s"]
-fn an_area_amidships_and_a_midship_coefficient_are_one_wish() {
+fn an_area_amidships_and_a_midship_coefficient_are_one_target() {
     let outputs = with_midship_coefficient("0.955").unwrap();
     let held: Vec<&str> = outputs.outcome.held.iter().map(|held| held.constraint.key()).collect();
     assert_eq!(held, ["displacement", "lcb", "section_area"]);
@@ -231,7 +231,7 @@ fn targets_are_met_and_locks_hold() {
 
 #[test]
 #[ignore = "takes 46 s"]
-fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
+fn infeasible_targets_end_with_4_and_are_written() {
     let folder = folder("infeasible");
     let out = folder.join("out");
     let table = carried(TABLE).display().to_string();
@@ -252,7 +252,7 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     assert!(stderr(&output).contains("C_B (--cb) alone would have to give by"), "{}", stderr(&output));
     // Every file says that it is a compromise.
     let read = |name: &str| read_text(out.join(name));
-    let mark = "# compromise: not all that was wished is held; fairing.json says what is not";
+    let mark = "# compromise: not all targets are met; fairing.json lists those that are not";
     let written = read("offsets.csv");
     assert_eq!(written.lines().next(), Some(mark));
     for name in ["hull.json", "summary.json"] {
@@ -261,7 +261,7 @@ fn wishes_that_cannot_be_had_end_with_4_and_are_written() {
     }
     let changes = read("changes.csv");
     assert!(changes.lines().skip(1).all(|line| line.ends_with(",infeasible")), "{changes}");
-    // A table of a compromise that is faired in its turn loses the mark when all that is wished is held.
+    // A table of a compromise that is faired in its turn loses the mark when all targets are met.
     let again = folder.join("again");
     let table = out.join("offsets.csv").display().to_string();
     let output = program(&["fair", &table, "-o", again.to_str().unwrap(), "--no-figures"]);
@@ -292,10 +292,10 @@ fn targets_other_than_the_table_s_are_had_by_a_smooth_move() {
     assert!((0.3..1.0).contains(&widening), "{widening}");
 }
 
-/// A wish that is as small as an error of the table is a smooth move too where lines would bend more often for it: with the
+/// A target that is as small as an error of the table is a smooth move too where lines would bend more often for it: with the
 /// errors alone as the way there, one station and five buttocks of this one do.
 #[test]
-fn a_small_wish_bends_no_line_more_often() {
+fn a_small_change_of_target_bends_no_line_more_often() {
     for displacement in ["8385 t", "8380 t"] {
         let (_, outputs) = faired(&carried(TABLE), &[("--displacement", "hold.displacement", displacement)]);
         outputs.verdict().unwrap();
@@ -470,12 +470,14 @@ fn the_least_tolerances_for_a_section_area_are_found() {
     };
     let (code, said, widening) = run(0.01);
     assert!(
-        code == Some(4) && said.contains(" times as wide (263.9 mm where it is widest now 10.0 mm) would do, by waves"),
+        code == Some(4)
+            && said
+                .contains(" times as wide (263.9 mm where it is widest now 10.0 mm) would do, but distorts the hull"),
         "{said}"
     );
     let widening = widening.unwrap();
     let (code, said, _) = run(0.01 * widening * 1.002);
-    // By waves: all was had, and nobody should sign it unseen.
+    // Distorted: all targets are met, and nobody should sign it unseen.
     assert!(code == Some(0) && said.contains("W401"), "{code:?} {said}");
     assert_eq!(run(0.01 * widening * 0.99).0, Some(4));
 }
@@ -730,7 +732,7 @@ fn a_job_file_is_told_all_that_is_wrong_with_it() {
     assert_eq!(output.status.code(), Some(3));
     let said = stderr(&output);
     for (line, words) in
-        [(4, "hold.Cbb is not a key of a job. Did you mean Cb?"), (5, "its unit is not said"), (7, "\"3\" is no cell")]
+        [(4, "hold.Cbb is not a key of a job. Did you mean Cb?"), (5, "its unit is missing"), (7, "\"3\" is no cell")]
     {
         assert!(said.contains(&format!("job.toml:{line}:")) && said.contains(words), "{words}: {said}");
     }

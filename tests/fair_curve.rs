@@ -329,7 +329,7 @@ fn the_command_refuses_with_numbers() {
     let widening = json["widening"].as_f64().unwrap();
     // Every file says that it is a compromise; the curve reads back, and what is had of it loses the mark.
     let written = folder.read("out/curve.csv");
-    assert!(written.starts_with("# compromise: not all that was wished is held;"), "{written}");
+    assert!(written.starts_with("# compromise: not all targets are met;"), "{written}");
     let rows = || written.lines().skip(1);
     assert!(rows().next().unwrap().ends_with(",status") && rows().skip(1).all(|row| row.ends_with(",infeasible")));
     assert!(folder.read("out/fair-curve.svg").contains("A COMPROMISE"));
@@ -344,7 +344,7 @@ fn the_command_refuses_with_numbers() {
         run(&folder, &["curve.csv", "--tolerance", &tolerance, "--inflections", "0"]).0
     };
     assert_eq!((with(1.001), with(0.99)), (0, 4));
-    // Locks that contradict a wish at any tolerance.
+    // Locks that contradict a target at any tolerance.
     let all = "0:100:5";
     let (code, _, error) = run(&folder, &["curve.csv", "--lock", all, "--inflections", "0"]);
     assert_eq!(code, 4, "{error}");

@@ -2,22 +2,22 @@
 
 use loftsman::hull::{Functional, Hull};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
-use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
 use loftsman::parametric::{Generated, Infeasible, Origin, ShipType, analytic, ucl_cosh};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-fn wishes(ship: ShipType, length: f64) -> Wishes {
-    Wishes { ship_type: Some(ship), length, ..Wishes::default() }
+fn requested(ship: ShipType, length: f64) -> DesignTargets {
+    DesignTargets { ship_type: Some(ship), length, ..DesignTargets::default() }
 }
 
 /// Particulars of the design examples, with Cwp and LCB of the first three given.
-fn examples() -> Vec<(&'static str, Wishes)> {
-    let value = |cm| Some(MidshipWish::Value(cm));
+fn examples() -> Vec<(&'static str, DesignTargets)> {
+    let value = |cm| Some(MidshipTarget::Value(cm));
     vec![
         (
             "bulk carrier",
-            Wishes {
+            DesignTargets {
                 breadth: Some(32.25),
                 draught: Some(12.2),
                 depth: Some(17.5),
@@ -25,12 +25,12 @@ fn examples() -> Vec<(&'static str, Wishes)> {
                 midship_coefficient: value(0.99),
                 waterplane_coefficient: Some(0.885),
                 lcb: Some(217.0 * 0.522),
-                ..wishes(ShipType::BulkCarrier, 217.0)
+                ..requested(ShipType::BulkCarrier, 217.0)
             },
         ),
         (
             "container ship",
-            Wishes {
+            DesignTargets {
                 breadth: Some(32.2),
                 draught: Some(10.8),
                 depth: Some(19.0),
@@ -39,37 +39,37 @@ fn examples() -> Vec<(&'static str, Wishes)> {
                 waterplane_coefficient: Some(0.79),
                 transom_breadth: Some(0.8),
                 lcb: Some(230.0 * 0.4902),
-                ..wishes(ShipType::Container, 230.0)
+                ..requested(ShipType::Container, 230.0)
             },
         ),
         (
             "fishing vessel",
-            Wishes {
+            DesignTargets {
                 breadth: Some(6.86),
                 draught: Some(2.5),
                 depth: Some(3.7),
                 block_coefficient: Some(0.50),
                 midship_coefficient: value(0.80),
-                ..wishes(ShipType::Fishing, 21.04)
+                ..requested(ShipType::Fishing, 21.04)
             },
         ),
         (
             "frigate",
-            Wishes {
+            DesignTargets {
                 breadth: Some(19.06),
                 draught: Some(6.15),
                 depth: Some(10.5),
                 block_coefficient: Some(0.50),
                 midship_coefficient: value(0.80),
                 flare: Some(14f64.to_radians()),
-                ..wishes(ShipType::Frigate, 142.0)
+                ..requested(ShipType::Frigate, 142.0)
             },
         ),
-        ("yacht", wishes(ShipType::Yacht, 12.0)),
-        ("tug", wishes(ShipType::Tug, 30.0)),
-        ("ferry", wishes(ShipType::RoRo, 160.0)),
-        ("coaster", Wishes { block_coefficient: Some(0.72), ..wishes(ShipType::GeneralCargo, 80.0) }),
-        ("nothing but a length", Wishes { length: 100.0, ..Wishes::default() }),
+        ("yacht", requested(ShipType::Yacht, 12.0)),
+        ("tug", requested(ShipType::Tug, 30.0)),
+        ("ferry", requested(ShipType::RoRo, 160.0)),
+        ("coaster", DesignTargets { block_coefficient: Some(0.72), ..requested(ShipType::GeneralCargo, 80.0) }),
+        ("nothing but a length", DesignTargets { length: 100.0, ..DesignTargets::default() }),
     ]
 }
 
@@ -140,8 +140,8 @@ fn inflections(hull: &Hull, v: f64, dead_band: f64) -> usize {
 
 #[test]
 fn examples_hit_their_coefficients_and_are_ships() {
-    for (label, wishes) in examples() {
-        let generated = cosh::generate(label, &wishes).unwrap_or_else(|e| panic!("{label}: {e:?}"));
+    for (label, requested) in examples() {
+        let generated = cosh::generate(label, &requested).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         check_targets(label, &generated);
         check_shape(label, &generated.hull);
         let (low, high) = generated.hull.surface().v().domain();
@@ -159,15 +159,15 @@ fn examples_hit_their_coefficients_and_are_ships() {
 #[test]
 fn a_hard_chine_is_a_knuckle() {
     // So low a coefficient leaves no room for a bilge: floor and side meet at a chine, a triple knot.
-    let wishes = Wishes {
+    let requested = DesignTargets {
         breadth: Some(3.0),
         draught: Some(0.6),
         depth: Some(1.6),
         block_coefficient: Some(0.40),
-        midship_coefficient: Some(MidshipWish::Value(0.549)),
-        ..wishes(ShipType::Yacht, 10.0)
+        midship_coefficient: Some(MidshipTarget::Value(0.549)),
+        ..requested(ShipType::Yacht, 10.0)
     };
-    let generated = cosh::generate("chine", &wishes).unwrap_or_else(|e| panic!("{e:?}"));
+    let generated = cosh::generate("chine", &requested).unwrap_or_else(|e| panic!("{e:?}"));
     check_targets("chine", &generated);
     check_shape("chine", &generated.hull);
     let radius = generated.values.iter().find(|v| v.key == "bilge_radius").unwrap().value;
@@ -175,24 +175,24 @@ fn a_hard_chine_is_a_knuckle() {
 }
 
 #[test]
-fn wishes_for_the_ends_are_met() {
-    let base = Wishes {
+fn targets_for_the_ends_are_met() {
+    let base = DesignTargets {
         breadth: Some(32.2),
         draught: Some(10.8),
         depth: Some(19.0),
         block_coefficient: Some(0.65),
-        midship_coefficient: Some(MidshipWish::Value(0.98)),
-        ..wishes(ShipType::Container, 230.0)
+        midship_coefficient: Some(MidshipTarget::Value(0.98)),
+        ..requested(ShipType::Container, 230.0)
     };
-    let hull = |w: Wishes| cosh::generate("ends", &w).unwrap_or_else(|e| panic!("{e:?}")).hull;
+    let hull = |w: DesignTargets| cosh::generate("ends", &w).unwrap_or_else(|e| panic!("{e:?}")).hull;
 
     // Breadth of the transom at the deck.
-    let h = hull(Wishes { transom_breadth: Some(0.7), ..base.clone() });
+    let h = hull(DesignTargets { transom_breadth: Some(0.7), ..base.clone() });
     let aft = h.endings(19.0).unwrap()[0];
     assert!((h.half_breadth(aft, 19.0).unwrap() / 16.1 - 0.7).abs() < 1e-4);
 
     // Lowest point, overhang and cut-up of the stern; rake and forefoot of the stem.
-    let h = hull(Wishes {
+    let h = hull(DesignTargets {
         transom_height: Some(9.0),
         stern_overhang: Some(5.0),
         cut_up: Some(20.0),
@@ -208,29 +208,30 @@ fn wishes_for_the_ends_are_met() {
     assert!((h.endings(18.8).unwrap()[1] - (230.0 + 8.0 * 15f64.to_radians().tan())).abs() < 1e-3);
 
     // Mean flare at 0.9 Lpp.
-    let h = hull(Wishes { flare: Some(20f64.to_radians()), ..base.clone() });
+    let h = hull(DesignTargets { flare: Some(20f64.to_radians()), ..base.clone() });
     let flare = ((h.half_breadth(207.0, 19.0).unwrap() - h.half_breadth(207.0, 10.8).unwrap()) / 8.2).atan();
     assert!((flare.to_degrees() - 20.0).abs() < 0.02, "{}", flare.to_degrees());
 
     // Sheer, to the parabolas of the deck line.
-    let h = hull(Wishes { sheer_fore: Some(2.0), sheer_aft: Some(1.0), ..base.clone() });
+    let h = hull(DesignTargets { sheer_fore: Some(2.0), sheer_aft: Some(1.0), ..base.clone() });
     assert!((h.deck_height(230.0) - 21.0).abs() < 1e-9 && (h.deck_height(0.0) - 20.0).abs() < 1e-9);
     assert!((h.deck_height(115.0) - 19.0).abs() < 1e-9);
 
     // A parallel body is prismatic.
-    let h = hull(Wishes { parallel_body: Some([100.0, 130.0]), ..base.clone() });
+    let h = hull(DesignTargets { parallel_body: Some([100.0, 130.0]), ..base.clone() });
     for z in [0.0, 1.0, 5.0, 10.8] {
         let y: Vec<f64> = [100.0, 107.0, 115.0, 130.0].iter().map(|&x| h.half_breadth(x, z).unwrap()).collect();
         assert!(y.iter().all(|v| (v - y[0]).abs() < 1e-12), "{z}: {y:?}");
     }
 
     // Limit of the half angle of entrance.
-    let g = cosh::generate("angle", &Wishes { maximum_half_entrance: Some(12f64.to_radians()), ..base }).unwrap();
+    let g =
+        cosh::generate("angle", &DesignTargets { maximum_half_entrance: Some(12f64.to_radians()), ..base }).unwrap();
     let angle = g.values.iter().find(|v| v.key == "entrance_half_angle").unwrap().value;
     assert!(angle <= 12.0 + 1e-6, "{angle}");
 }
 
-fn random_wishes(random: &mut StdRng) -> Wishes {
+fn random_targets(random: &mut StdRng) -> DesignTargets {
     let ship = ShipType::ALL[random.random_range(0..ShipType::ALL.len())];
     let preset = ship.preset();
     let mut between = |low: f64, high: f64| low + (high - low) * random.random::<f64>();
@@ -240,16 +241,16 @@ fn random_wishes(random: &mut StdRng) -> Wishes {
     let block = between(preset.block[1], preset.block[2]);
     let midship = (preset.midship + between(-0.02, 0.004)).max(block + 0.05).min(0.998);
     let part = between(0.0, 1.0);
-    Wishes {
+    DesignTargets {
         breadth: Some(breadth),
         draught: Some(draught),
         depth: Some(draught * between(1.15, 2.0)),
         block_coefficient: Some(block),
-        midship_coefficient: Some(MidshipWish::Value(midship)),
+        midship_coefficient: Some(MidshipTarget::Value(midship)),
         lcb: (part > 0.4).then_some(length * (0.5 + (preset.lcb_percent + between(-1.0, 1.0)) / 100.0)),
         waterplane_coefficient: (part > 0.8).then_some((1.0 + 2.0 * block) / 3.0 + between(-0.03, 0.05)),
         transom_breadth: (part < 0.1).then_some(between(0.5, 0.9)),
-        ..wishes(ship, length)
+        ..requested(ship, length)
     }
 }
 
@@ -268,18 +269,18 @@ fn check_random_designs(count: usize) {
     let mut random = StdRng::seed_from_u64(20_261_121);
     let (mut built, mut refused) = (0, 0);
     for k in 0..count {
-        let wishes = random_wishes(&mut random);
-        match cosh::generate("random", &wishes) {
+        let requested = random_targets(&mut random);
+        match cosh::generate("random", &requested) {
             Ok(generated) => {
                 built += 1;
                 check_targets(&format!("design {k}"), &generated);
                 if k % 10 == 0 {
-                    check_shape(&format!("design {k} {wishes:?}"), &generated.hull);
+                    check_shape(&format!("design {k} {requested:?}"), &generated.hull);
                 }
             }
             Err(problems) => {
                 refused += 1;
-                println!("{:?} {} {}", wishes.ship_type, wishes.transom_breadth.is_some(), problems[0].message);
+                println!("{:?} {} {}", requested.ship_type, requested.transom_breadth.is_some(), problems[0].message);
                 assert!(!problems.is_empty());
                 for problem in problems {
                     let numbers = problem.message.chars().filter(char::is_ascii_digit).count();
@@ -292,38 +293,42 @@ fn check_random_designs(count: usize) {
     assert!(100 * built > 83 * count, "{built} of {count} built, {refused} refused");
 }
 
-fn refusal(wishes: &Wishes) -> Vec<Infeasible> {
-    match cosh::generate("refused", wishes) {
-        Ok(_) => panic!("a hull where none can be: {wishes:?}"),
+fn refusal(requested: &DesignTargets) -> Vec<Infeasible> {
+    match cosh::generate("refused", requested) {
+        Ok(_) => panic!("a hull where none can be: {requested:?}"),
         Err(problems) => problems,
     }
 }
 
 #[test]
-fn impossible_wishes_are_refused_with_numbers() {
-    let base = Wishes {
+fn impossible_targets_are_refused_with_numbers() {
+    let base = DesignTargets {
         breadth: Some(13.2),
         draught: Some(5.2),
         depth: Some(7.0),
         block_coefficient: Some(0.72),
-        midship_coefficient: Some(MidshipWish::Value(0.98)),
-        ..wishes(ShipType::GeneralCargo, 80.0)
+        midship_coefficient: Some(MidshipTarget::Value(0.98)),
+        ..requested(ShipType::GeneralCargo, 80.0)
     };
-    let code = |w: &Wishes, code: &str, part: &str| {
+    let code = |w: &DesignTargets, code: &str, part: &str| {
         let problems = refusal(w);
         assert!(problems.iter().any(|p| p.code == code && p.message.contains(part)), "{code} {part}: {problems:?}");
     };
-    code(&Wishes { breadth: Some(-1.0), ..base.clone() }, "E101", "B (moulded breadth) is -1.0000 m");
-    code(&Wishes { length: f64::NAN, ..base.clone() }, "E101", "Lpp");
+    code(&DesignTargets { breadth: Some(-1.0), ..base.clone() }, "E101", "B (moulded breadth) is -1.0000 m");
+    code(&DesignTargets { length: f64::NAN, ..base.clone() }, "E101", "Lpp");
     code(
-        &Wishes { block_coefficient: Some(0.85), midship_coefficient: Some(MidshipWish::Value(0.80)), ..base.clone() },
+        &DesignTargets {
+            block_coefficient: Some(0.85),
+            midship_coefficient: Some(MidshipTarget::Value(0.80)),
+            ..base.clone()
+        },
         "E102",
         "gives Cp 1.06",
     );
-    code(&Wishes { waterplane_coefficient: Some(0.70), ..base.clone() }, "E103", "needs Cwp above 0.72");
-    code(&Wishes { lcb: Some(55.0), ..base.clone() }, "E104", "outside the +-");
+    code(&DesignTargets { waterplane_coefficient: Some(0.70), ..base.clone() }, "E103", "needs Cwp above 0.72");
+    code(&DesignTargets { lcb: Some(55.0), ..base.clone() }, "E104", "outside the +-");
     code(
-        &Wishes {
+        &DesignTargets {
             lcb: Some(47.0),
             waterplane_coefficient: Some(0.82),
             parallel_body: Some([32.0, 48.0]),
@@ -332,10 +337,10 @@ fn impossible_wishes_are_refused_with_numbers() {
         "E104",
         "out of reach",
     );
-    code(&Wishes { draught: Some(7.5), ..base.clone() }, "E105", "not less than depth D");
+    code(&DesignTargets { draught: Some(7.5), ..base.clone() }, "E105", "not less than depth D");
     code(
-        &Wishes {
-            midship_coefficient: Some(MidshipWish::Value(0.75)),
+        &DesignTargets {
+            midship_coefficient: Some(MidshipTarget::Value(0.75)),
             deadrise: Some(0.0),
             block_coefficient: Some(0.5),
             ..base.clone()
@@ -343,55 +348,71 @@ fn impossible_wishes_are_refused_with_numbers() {
         "E106",
         "bilge radius",
     );
-    code(&Wishes { deadrise: Some(0.4), ..base.clone() }, "E106", "rise of floor of at most");
+    code(&DesignTargets { deadrise: Some(0.4), ..base.clone() }, "E106", "rise of floor of at most");
     code(
-        &Wishes { bilge_radius: Some(0.3), deadrise: Some(0.05), ..base.clone() },
+        &DesignTargets { bilge_radius: Some(0.3), deadrise: Some(0.05), ..base.clone() },
         "E106",
         "Leave one of the three out",
     );
     code(
-        &Wishes { bilge_radius: Some(5.0), midship_coefficient: Some(MidshipWish::Value(0.995)), ..base.clone() },
+        &DesignTargets {
+            bilge_radius: Some(5.0),
+            midship_coefficient: Some(MidshipTarget::Value(0.995)),
+            ..base.clone()
+        },
         "E106",
         "whatever the rise of floor",
     );
     code(
-        &Wishes { waterplane_coefficient: Some(0.80), parallel_body: Some([10.0, 70.0]), ..base.clone() },
+        &DesignTargets { waterplane_coefficient: Some(0.80), parallel_body: Some([10.0, 70.0]), ..base.clone() },
         "E107",
         "Cwp 0.8000 is out of reach",
     );
-    code(&Wishes { waterplane_coefficient: Some(0.735), ..base.clone() }, "E108", "raise Cwp");
-    code(&Wishes { parallel_body: Some([60.0, 30.0]), ..base.clone() }, "E109", "must run forward");
+    code(&DesignTargets { waterplane_coefficient: Some(0.735), ..base.clone() }, "E108", "raise Cwp");
+    code(&DesignTargets { parallel_body: Some([60.0, 30.0]), ..base.clone() }, "E109", "must run forward");
     code(
-        &Wishes { parallel_body: Some([30.0, 50.0]), entrance_length: Some(20.0), ..base.clone() },
+        &DesignTargets { parallel_body: Some([30.0, 50.0]), entrance_length: Some(20.0), ..base.clone() },
         "E109",
         "length of entrance disagree",
     );
     code(
-        &Wishes { parallel_body: Some([30.0, 50.0]), run_length: Some(20.0), ..base.clone() },
+        &DesignTargets { parallel_body: Some([30.0, 50.0]), run_length: Some(20.0), ..base.clone() },
         "E109",
         "length of run disagree",
     );
     code(
-        &Wishes { cut_up: Some(30.0), parallel_body: Some([20.0, 50.0]), ..base.clone() },
+        &DesignTargets { cut_up: Some(30.0), parallel_body: Some([20.0, 50.0]), ..base.clone() },
         "E109",
         "must reach beyond the parallel body",
     );
-    code(&Wishes { forefoot: Some(0.1), stem_rake: Some(0.5), ..base.clone() }, "E109", "at least");
-    code(&Wishes { displacement_volume: Some(4200.0), ..base.clone() }, "E110", "disagree by");
-    code(&Wishes { transom_breadth: Some(0.97), ..base.clone() }, "E112", "out of reach");
-    code(&Wishes { flare: Some(1.2), ..base.clone() }, "E113", "out of reach");
-    code(&Wishes { maximum_half_entrance: Some(0.06), ..base.clone() }, "E114", "no entrance below");
+    code(&DesignTargets { forefoot: Some(0.1), stem_rake: Some(0.5), ..base.clone() }, "E109", "at least");
+    code(&DesignTargets { displacement_volume: Some(4200.0), ..base.clone() }, "E110", "disagree by");
+    code(&DesignTargets { transom_breadth: Some(0.97), ..base.clone() }, "E112", "out of reach");
+    code(&DesignTargets { flare: Some(1.2), ..base.clone() }, "E113", "out of reach");
+    code(&DesignTargets { maximum_half_entrance: Some(0.06), ..base.clone() }, "E114", "no entrance below");
     // An end that would be nearly a step.
-    code(&Wishes { block_coefficient: Some(0.555), ..wishes(ShipType::Yacht, 10.0) }, "E115", "the surface bulges by");
-    code(&Wishes { bilge_radius: Some(5.2), ..base.clone() }, "E106", "");
+    code(
+        &DesignTargets { block_coefficient: Some(0.555), ..requested(ShipType::Yacht, 10.0) },
+        "E115",
+        "the surface bulges by",
+    );
+    code(&DesignTargets { bilge_radius: Some(5.2), ..base.clone() }, "E106", "");
     // Nothing panics on numbers that are no coefficients.
     for block in [-0.72, 0.0, 1e300, f64::NAN, f64::INFINITY] {
-        let wish = Some(MidshipWish::Kerlen);
-        code(&Wishes { block_coefficient: Some(block), midship_coefficient: wish, ..base.clone() }, "E101", "Cb");
+        let target = Some(MidshipTarget::Kerlen);
+        code(
+            &DesignTargets { block_coefficient: Some(block), midship_coefficient: target, ..base.clone() },
+            "E101",
+            "Cb",
+        );
     }
     // All at once.
-    let problems =
-        refusal(&Wishes { draught: Some(7.5), waterplane_coefficient: Some(0.5), sheer_fore: Some(-1.0), ..base });
+    let problems = refusal(&DesignTargets {
+        draught: Some(7.5),
+        waterplane_coefficient: Some(0.5),
+        sheer_fore: Some(-1.0),
+        ..base
+    });
     assert!(problems.len() >= 3, "{problems:?}");
 }
 

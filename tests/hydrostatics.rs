@@ -4,20 +4,20 @@
 use loftsman::hull::{Functional, Hull, PrincipalParticulars, SectionalAreaCurve};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, QUANTITIES};
 use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
 use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 
 fn ships() -> Vec<(&'static str, Hull)> {
-    let base = |ship, length| Wishes { ship_type: Some(ship), length, ..Wishes::default() };
-    let wishes = [
+    let base = |ship, length| DesignTargets { ship_type: Some(ship), length, ..DesignTargets::default() };
+    let requested = [
         (
             "frigate",
-            Wishes {
+            DesignTargets {
                 breadth: Some(19.06),
                 draught: Some(6.15),
                 depth: Some(10.5),
                 block_coefficient: Some(0.50),
-                midship_coefficient: Some(MidshipWish::Value(0.80)),
+                midship_coefficient: Some(MidshipTarget::Value(0.80)),
                 flare: Some(14f64.to_radians()),
                 sheer_fore: Some(1.0),
                 ..base(ShipType::Frigate, 142.0)
@@ -25,12 +25,12 @@ fn ships() -> Vec<(&'static str, Hull)> {
         ),
         (
             "bulk carrier",
-            Wishes {
+            DesignTargets {
                 breadth: Some(32.25),
                 draught: Some(12.2),
                 depth: Some(17.5),
                 block_coefficient: Some(0.80),
-                midship_coefficient: Some(MidshipWish::Value(0.99)),
+                midship_coefficient: Some(MidshipTarget::Value(0.99)),
                 waterplane_coefficient: Some(0.885),
                 lcb: Some(217.0 * 0.522),
                 ..base(ShipType::BulkCarrier, 217.0)
@@ -38,7 +38,7 @@ fn ships() -> Vec<(&'static str, Hull)> {
         ),
         ("yacht", base(ShipType::Yacht, 12.0)),
     ];
-    wishes.map(|(name, wishes)| (name, cosh::generate(name, &wishes).unwrap().hull)).into()
+    requested.map(|(name, requested)| (name, cosh::generate(name, &requested).unwrap().hull)).into()
 }
 
 fn area(hull: &Hull, x: f64, draught: f64) -> f64 {

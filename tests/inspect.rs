@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use loftsman::fairing::inspect::{Findings, Inspection, Local, Planes, Profile, Resolution, SurfaceMap, kind};
 use loftsman::hull::{Cut, Hull, PrincipalParticulars};
 use loftsman::parametric::analytic::{self, Dimensions};
-use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
 use loftsman::spline::{BsplineCurve, BsplineSurface, Collocation, KnotVector};
 use proptest::prelude::*;
 
@@ -390,16 +390,16 @@ fn hollow_waterlines_turn_where_the_cosine_does() {
 
 #[test]
 fn a_bulk_carrier_has_flat_sides_and_few_inflections() {
-    let wishes = Wishes {
+    let requested = DesignTargets {
         ship_type: Some(loftsman::parametric::ShipType::BulkCarrier),
         length: 217.0,
         breadth: Some(32.25),
         draught: Some(12.2),
         block_coefficient: Some(0.80),
-        midship_coefficient: Some(MidshipWish::Value(0.99)),
-        ..Wishes::default()
+        midship_coefficient: Some(MidshipTarget::Value(0.99)),
+        ..DesignTargets::default()
     };
-    let hull = cosh::generate("bulk carrier", &wishes).unwrap().hull;
+    let hull = cosh::generate("bulk carrier", &requested).unwrap().hull;
     let resolution = Resolution::for_length(217.0);
     assert!((resolution.tolerance() - 0.01).abs() < 1e-15);
     let inspection = Inspection::new(&hull, &Planes::with_defaults(&hull), resolution.tolerance());

@@ -358,14 +358,14 @@ fn volumes_of_series_60() {
     }
     let bilinear = volume(FitMethod::Bilinear);
     assert!((bilinear / trapezoid - 1.0).abs() < 1e-12, "{bilinear} {trapezoid}");
-    let wishes = [
+    let ranges = [
         (FitMethod::Bilinear, 0.593, 0.594),
         (FitMethod::LeastSquares(LeastSquares::default()), 0.590, 0.605),
         (FitMethod::UniformBicubic(UniformBicubic::default()), 0.575, 0.600),
         (FitMethod::QuadraticNet(QuadraticNet::default()), 0.575, 0.600),
         (FitMethod::ParametricStations(ParametricStations::default()), 0.594, 0.602),
     ];
-    for (method, low, high) in wishes {
+    for (method, low, high) in ranges {
         let word = method.as_str();
         let cb = volume(method) / block;
         println!("{word}: {cb:.4}");

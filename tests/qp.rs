@@ -139,7 +139,7 @@ fn no_solution_is_proved() {
     assert!(p.ray_defect(&[-1.0, -1.0]) > 0.1);
 }
 
-/// Wishes a hull cannot have: two percent more displacement, more than the bands allow.
+/// Targets that no hull meets: two percent more displacement, more than the bands allow.
 #[test]
 fn an_infeasible_fairing_is_proved() {
     let mut p = fairing([21, 11], [24, 14], 1);

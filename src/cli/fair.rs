@@ -57,21 +57,21 @@ pub(super) struct Arguments {
     /// Design draught: what is held holds there [default: of the table]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
-    /// How far an offset may move [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
-    /// as rough, at least two steps of its writing]
+    /// Greatest move of an offset [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
+    /// as rough, at least twice the resolution of the table]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too:
     /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
-    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on hulls with plumb ends over a rectangle, where alone it can be had, else 3]
+    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on hulls with vertical ends and level keel, which alone allow it, else 3]
     #[arg(long, value_name = "N")]
     order: Option<String>,
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     anisotropy: Option<String>,
-    /// Smoothing weight, or "auto": by the errors of the table (Mallows), by cross-validation where the net is one of its own [default: auto]
+    /// Smoothing weight, or "auto": by the errors of the table (Mallows), by cross-validation on an independent net [default: auto]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     weight: Option<String>,
     /// Take suspected typing errors as they are
@@ -106,13 +106,13 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-Held are displacement, LCB and CM of the surface through the table unless something else is said; a target that is given \
-replaces one of them and leaves the others. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
+By default displacement, LCB and CM are held at the values of the surface through the table; a given target \
+replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
 [shape], [energy], [suspects], [inflections]: `loftsman schema job`.
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
 manifest.json, figures.
-Exit code 4 when the wishes cannot all be had within the tolerances; the best compromise is written, marked.
+Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked.
 Tables of offsets are all that `loftsman fit --help` lists.";
 
 /// How often the files are looked at.
@@ -236,7 +236,7 @@ fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f
     stream::data(&fair_page(job, outputs, &arguments.files.folder(&arguments.input, false).display().to_string()))
 }
 
-/// Runs again when a file changes, until the program is ended; what goes wrong is said and does not end it, but for a
+/// Runs again when a file changes, until the program is ended; what goes wrong is reported and does not end it, but for a
 /// first run that could not write.
 fn watch(
     arguments: &Arguments,

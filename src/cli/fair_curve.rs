@@ -87,11 +87,11 @@ Cells are those of tables of offsets: 6.41, 3-4-5+ (feet-inches-eighths), (6.41)
 (tangent point of a straight piece) and ! (locked), on the ordinate or in the column flag. Units may stand in the first line, as y [mm], or area [ft2] for a curve of areas. \
 Ends that are 0 stay 0 where no ordinate is below. curve.csv is in metres.
 Points that contradict all others are left out and listed; those that are locked, doubtful or have a tolerance or a mark are not. Corners that \
-the points show and do not declare are told.
+the points show and do not declare are reported.
 fairing.json holds the proof: the least number of inflections within the tolerances with three points for each change that no curve \
 can pass without it, and the duality gap of the convex program.
-Exit code 4 when what is wished cannot be had within the tolerances; the message names the smallest tolerance that would do, \
-and the best curve with it, or what comes near to an area, centroid or slopes that cannot be had, is written, marked.";
+Exit code 4 when the targets cannot be met within the tolerances; the message names the smallest tolerance that would do. \
+The best curve with it is written, marked, or the nearest to an area, centroid or slopes that no curve can meet.";
 
 fn inflections(text: &str) -> Result<InflectionWish, String> {
     match text {

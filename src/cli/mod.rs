@@ -93,7 +93,7 @@ fn lengths(text: &str) -> Result<Lengths, String> {
     crate::units::parse_list(text).map(Lengths).map_err(|error| error.to_string())
 }
 
-/// What is said of a table or a body over the TOML beside it.
+/// Conventions of a table or a body that override the TOML file beside it.
 #[derive(Debug, Args)]
 struct BodyFlags {
     /// Unit of a table, a mesh or a CAD file, over what it says itself: m, mm, cm, ft, in

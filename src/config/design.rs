@@ -1,10 +1,10 @@
 //! What a design file means: a family with its parameters, conventions, and what is to be written.
 
+use super::design_targets::design_targets;
 use super::diagnostic::{Diagnostic, Severity, position};
 use super::document::{Document, Raw, nearest};
 use super::keys::{FAMILIES, FIGURES, KEYS, Kind};
 use super::reference::{Reference, reference};
-use super::wishes::wishes;
 use crate::hull::StationNumbers;
 use crate::hydrostatics::{
     CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection, SHELL_FACTORS,
@@ -158,7 +158,7 @@ pub fn read(file: &str, text: &str) -> Result<Design, Vec<Diagnostic>> {
 fn refusals(design: &Design, problems: &[Diagnostic]) -> Vec<Diagnostic> {
     // Without its required numbers a family cannot say anything.
     let required = match &design.family {
-        Family::Cosh(wishes) => vec![wishes.length],
+        Family::Cosh(requested) => vec![requested.length],
         Family::UclCosh(p) => vec![p.length, p.breadth, p.depth, p.draught],
         Family::Wigley(d) | Family::Box(d) | Family::Ellipsoid(d) => vec![d.length, d.breadth, d.draught],
     };
@@ -210,7 +210,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
         Some("wigley") => Family::Wigley(dimensions(document)),
         Some("box") => Family::Box(dimensions(document)),
         Some("ellipsoid") => Family::Ellipsoid(dimensions(document)),
-        _ => Family::Cosh(Box::new(wishes(document, conventions.density, family_word.is_some()))),
+        _ => Family::Cosh(Box::new(design_targets(document, conventions.density, family_word.is_some()))),
     };
     let output = output(document);
     let reference = reference(document);

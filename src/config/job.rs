@@ -21,7 +21,7 @@ mod shape;
 mod spot;
 
 use hold::{MOST_TARGET, is_area};
-pub use hold::{Quantity, Wish};
+pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::RENAMED;
 pub use place::Place;
@@ -42,7 +42,7 @@ use crate::hull::{OffsetTable, StatedParticulars};
 pub struct JobFile {
     /// The table of offsets, relative to the file.
     pub table: Option<String>,
-    /// Main dimensions that stand over those of the table.
+    /// Main dimensions that override those of the table.
     pub stated: StatedParticulars,
     /// Density of the water \[t/m^3\].
     pub density: Option<f64>,
@@ -59,7 +59,7 @@ pub struct JobFile {
     /// What does not move.
     pub locks: Vec<Mark>,
     /// What is held, or left free.
-    pub hold: Vec<(Quantity, Wish)>,
+    pub hold: Vec<(Quantity, Target)>,
     /// Height of the centre of gravity \[m\].
     pub gravity: Option<f64>,
     /// Rules for lines and regions.
@@ -86,7 +86,7 @@ pub struct JobFile {
     pub true_curvature: Option<bool>,
     /// `energy.exact_bending`.
     pub bending: Option<bool>,
-    /// Where the values of the keys stand; of a key that is said twice the last counts.
+    /// Where the values of the keys stand; of a key that is given twice the last counts.
     places: Vec<Place>,
 }
 
@@ -200,9 +200,9 @@ impl JobFile {
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.stated = other.stated.over(&self.stated);
-        for (quantity, wish) in other.hold {
+        for (quantity, target) in other.hold {
             self.hold.retain(|(mine, _)| *mine != quantity);
-            self.hold.push((quantity, wish));
+            self.hold.push((quantity, target));
         }
         self.tolerances.extend(other.tolerances);
         self.locks.extend(other.locks);
@@ -300,15 +300,16 @@ impl JobFile {
                 problems.push(place.problem("E171", &text, format!("Expected 0 to {MOST_TARGET} m2.")));
             }
         }
-        let metacentric =
-            |(quantity, wish): &(Quantity, Wish)| *quantity == Quantity::MetacentricHeight && *wish != Wish::Free;
+        let metacentric = |(quantity, target): &(Quantity, Target)| {
+            *quantity == Quantity::MetacentricHeight && *target != Target::Free
+        };
         let held = self.hold.iter().any(metacentric);
         if let (Some(place), false) = (self.place("hold.KG"), held) {
-            let text = "the height of the centre of gravity is said, and no GM is held";
+            let text = "the height of the centre of gravity is given, and no GM is held";
             problems.push(place.problem("E179", text, "Give hold.GM (--gm), or leave it out."));
         }
         if let (None, Some(place), true) = (self.gravity, self.place("hold.GM"), held) {
-            let text = "the height of the centre of gravity is not said";
+            let text = "the height of the centre of gravity is not given";
             problems.push(place.problem("E179", text, "Give hold.KG (--kg), or hold KM instead."));
         }
         job.locked.sort_unstable();
@@ -322,7 +323,7 @@ impl JobFile {
         self.places.iter().rev().find(|place| place.key == key)
     }
 
-    /// Where it says what is held; none of what is held because nothing is said.
+    /// Where it names a target; none for targets that are held by default.
     #[must_use]
     pub fn place_of(&self, constraint: &Constraint) -> Option<&Place> {
         if let Constraint::SectionArea { x, .. } = constraint {
@@ -330,7 +331,7 @@ impl JobFile {
             let row = self.section_areas.iter().find(same).map(|(_, place)| place);
             return row.or(self.section_area_curve.as_ref().map(|(_, place)| place));
         }
-        let held = self.hold.iter().find(|(quantity, wish)| *wish != Wish::Free && quantity.is_of(constraint));
+        let held = self.hold.iter().find(|(quantity, target)| *target != Target::Free && quantity.is_of(constraint));
         held.and_then(|(quantity, _)| self.place(&format!("hold.{}", quantity.key())))
     }
 

@@ -130,7 +130,7 @@ pub struct MethodFile {
     pub method: FitMethod,
     /// The table of offsets, relative to the file; none when the file does not name one.
     pub table: Option<String>,
-    /// Main dimensions that stand over those of the table.
+    /// Main dimensions that override those of the table.
     pub stated: StatedParticulars,
     file: String,
     /// Keys with line and column.

@@ -5,6 +5,7 @@
 //! `loftsman new` come from it.
 
 mod design;
+mod design_targets;
 mod diagnostic;
 mod document;
 mod job;
@@ -14,11 +15,10 @@ mod reference;
 mod schema;
 mod template;
 mod value;
-mod wishes;
 
 pub use design::{Design, Output, read};
 pub use diagnostic::{Diagnostic, Severity};
-pub use job::{JOB_KEYS, JobFile, Mark, Place, Quantity, RuleMark, Spot, Wish, read_job, read_option};
+pub use job::{JOB_KEYS, JobFile, Mark, Place, Quantity, RuleMark, Spot, Target, read_job, read_option};
 pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use method::{METHOD_KEYS, METHODS, MethodFile, read_method};
 pub use reference::{Reference, ReferenceRow};

@@ -8,7 +8,7 @@ use crate::hydrostatics::QUANTITIES;
 pub struct Reference {
     /// Where it was published.
     pub source: String,
-    /// What explains the differences; empty when nothing is said.
+    /// What explains the differences; empty by default.
     pub note: String,
     /// ITTC codes of the columns, without the draught.
     pub columns: Vec<&'static str>,

@@ -223,7 +223,7 @@ pub fn template(name: &str) -> Option<String> {
     let (family, preset) = family(template.name);
     let mut text = format!(
         "# {}.\n# Plain numbers are SI units and degrees; with a unit they stand in quotes: \"32250 mm\", \"62 ft 3 in\", \"12 deg\".\n\
-         # Lines that begin with # show what may be said; what is left out gets a default that the output names.\n",
+         # Lines that begin with # show further keys; what is left out gets a default that the output names.\n",
         template.title
     );
     let mut table = "";

@@ -292,7 +292,7 @@ fn point(
     Ok((made, step))
 }
 
-/// `curve.csv`: the fair curve at the points that were given, in metres, marked where it does not hold all wishes; it
+/// `curve.csv`: the fair curve at the points that were given, in metres, marked where it does not meet all targets; it
 /// reads back as a curve.
 #[must_use]
 pub fn curve_csv(points: &[CurvePoint], fair: &FairCurve) -> String {
@@ -415,7 +415,7 @@ pub fn curve_json(points: &[CurvePoint], fair: &FairCurve, found: &Contradiction
     })
 }
 
-/// Why area, centroid and slopes cannot be had: the least factor on the tolerances, and what each alone could be.
+/// Why area, centroid and slopes are infeasible: the least factor on the tolerances, and what each alone could be.
 fn infeasible(fair: &FairCurve) -> Value {
     let Some(found) = &fair.diagnosis else { return Value::Null };
     let alone = found.reaches.iter().filter_map(|reach| {

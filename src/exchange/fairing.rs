@@ -39,13 +39,13 @@ pub fn status_word(status: Status) -> &'static str {
     }
 }
 
-/// The line above a table or the points of a curve that do not hold all wishes.
-pub const COMPROMISE_LINE: &str = "# compromise: not all that was wished is held; fairing.json says what is not";
+/// The line above a table or the points of a curve that do not meet all targets.
+pub const COMPROMISE_LINE: &str = "# compromise: not all targets are met; fairing.json lists those that are not";
 
-/// Moves below this \[m\] are none: without the wish the objective falls, but the moves need not.
+/// Moves below this \[m\] are none: without the target the objective falls, but the moves need not.
 pub const NO_MOVE: f64 = 5e-7;
 
-/// What a wish costs, as "holding LCB costs 0.42 mm RMS".
+/// What a target costs, as "holding LCB costs 0.42 mm RMS".
 #[must_use]
 pub fn priced(words: &str, price: f64) -> String {
     if price.is_nan() {
@@ -121,7 +121,7 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
     .collect()
 }
 
-/// Why the wishes cannot all be had: the least factor on the tolerances, and for each constraint alone what the others
+/// Why the targets are infeasible: the least factor on the tolerances, and for each constraint alone what the others
 /// leave it, in the unit of its quantity.
 fn diagnosis(outcome: &Outcome) -> Value {
     let Some(found) = &outcome.faired.diagnosis else { return Value::Null };

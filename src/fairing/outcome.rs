@@ -139,7 +139,7 @@ pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) ->
             None => "wider tolerances".to_owned(),
         };
         let why = if wished {
-            format!("what is wished or locked asks for that, and nearer targets or {wider} would leave a fairer hull")
+            format!("the targets or locks require that; nearer targets or {wider} would leave a fairer hull")
         } else {
             "their signs do not go together with those of the other lines, half-breadths up to B/2 and the tolerances"
                 .to_owned()

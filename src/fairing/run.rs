@@ -140,7 +140,11 @@ impl<'a> Run<'a> {
         } = Started::new(job, table, way.own)?;
         (way.progress)(&format!(
             "{}; {}",
-            if surface.own { "a net of its own follows the table" } else { "the net of the surface through the table" },
+            if surface.own {
+                "an independent net follows the table"
+            } else {
+                "the net of the surface through the table"
+            },
             counted(surface.start.len(), "control value")
         ));
         let (draught, depth) = (before.particulars().draught, before.particulars().depth);
@@ -238,8 +242,8 @@ impl<'a> Run<'a> {
             "{} solved: {}",
             counted(faired.programs, "program"),
             match (&faired.instead, &faired.diagnosis) {
-                (None, None) => "what is wished can be had",
-                _ => "what is wished cannot all be had",
+                (None, None) => "all targets can be met",
+                _ => "the targets cannot all be met",
             }
         ));
         let faired = self.widened(faired)?;
@@ -365,7 +369,7 @@ impl<'a> Run<'a> {
         let plain = self.settings.clone();
         let mut best: Option<(Attempted, FairSettings)> = None;
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
-            (self.progress)("the nearest targets that can be had");
+            (self.progress)("the nearest feasible targets");
             self.settings = FairSettings { constraints, ..plain.clone() };
             self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
@@ -412,7 +416,7 @@ impl<'a> Run<'a> {
         if self.job.signs {
             let worse = excess(&attempt.lines);
             (self.progress)(&format!(
-                "{} more than before on single lines; lobes of the surface",
+                "{} more than before on single lines; humps and hollows of the surface",
                 counted(worse, "inflection")
             ));
             let seen = settings.seen;
@@ -469,7 +473,7 @@ impl<'a> Run<'a> {
             when(
                 true,
                 &format!(
-                    "the energy is of order {of}: one of order {wanted} needs a net of its own, which does not follow this table"
+                    "the energy is of order {of}: one of order {wanted} needs an independent net, which does not follow this table"
                 ),
             );
         }
@@ -489,7 +493,7 @@ impl<'a> Run<'a> {
         when(
             !surface.own && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),
             "a line that does not move, or a flat, keeps the net of the surface through the table, on which less is taken for noise \
-             than on a net of its own",
+             than on an independent net",
         );
         let suspects = self.excluded.len();
         when(suspects > 0, &format!("{suspects} suspects were left out of the fairing"));

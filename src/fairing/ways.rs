@@ -156,7 +156,7 @@ impl Job {
             other,
             better,
             "the surface through the table is fitted without the lines that break, and may break along them: with the one \
-             that is fitted with them the offsets cannot be had within their tolerances",
+             that is fitted with them the offsets cannot be met within their tolerances",
         ))
     }
 
@@ -202,7 +202,7 @@ impl Job {
             return Ok(outcome.or(
                 other,
                 better,
-                "what is wished cannot be had on a net of its own, which follows the table with fewer control values: the net \
+                "the targets cannot be met on an independent net, which follows the table with fewer control values: the net \
                  of the surface through the table was faired",
             ));
         }
@@ -231,7 +231,7 @@ impl Job {
         Ok(outcome.or(
             other,
             better,
-            "the flat of side that the table shows was not kept: with it the offsets cannot be had within their tolerances, \
+            "the flat of side that the table shows was not kept: with it the offsets cannot be met within their tolerances, \
              targets are further away or lines bend more often",
         ))
     }

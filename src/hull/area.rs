@@ -260,7 +260,7 @@ pub(super) fn section_weights(hull: &Hull, station: f64, draught: f64, sink: &mu
     pieces(hull, &KnotLines::new(hull), station, &[cut], |_, i, j, weights| sink(i, j, weights));
 }
 
-/// The same for several draughts, whose cuts rise: `sink` is told the number of the lowest cut above each part of the
+/// The same for several draughts, whose cuts rise: `sink` gets the number of the lowest cut above each part of the
 /// section.
 fn pieces(
     hull: &Hull,

@@ -14,7 +14,7 @@ pub enum Entry {
     Given(f64),
 }
 
-/// What is said of an offset besides its value.
+/// What is known of an offset besides its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Marks {
     /// Doubtful, `(6.41)`: it counts little.

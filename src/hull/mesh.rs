@@ -109,7 +109,7 @@ pub struct SharpCorner {
     pub angle: f64,
 }
 
-/// What can be said of a mesh without knowing where it comes from.
+/// What is known of a mesh without its origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshReport {
     /// Every edge belongs to two triangles that run through it in opposite directions.

@@ -90,7 +90,7 @@ pub struct PanelMesh {
     pub panels: Vec<[usize; 4]>,
 }
 
-/// What can be said of panels.
+/// Measures of panels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PanelReport {
     /// Panels of one side.

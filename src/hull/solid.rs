@@ -6,9 +6,9 @@
 //! counter-clockwise seen from outside.
 //!
 //! Where the deck at side cuts the surface, each side is two faces that meet along a line of the net: the surface as it
-//! is below, and above it one that is interpolated up to the deck (`topsides`); what that leaves the surface by is
-//! told. Where the surface goes through the centreplane its net ends there, so that the sides do not go through each
-//! other; that is told as well.
+//! is below, and above it one that is interpolated up to the deck (`topsides`); its deviation is
+//! reported. Where the surface goes through the centreplane its net ends there, so that the sides do not go through each
+//! other; that is reported as well.
 
 mod topsides;
 

@@ -14,7 +14,7 @@ pub use presets::ShipType;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Family {
     /// Hyperbolic-cosine waterlines solved for the particulars.
-    Cosh(Box<cosh::Wishes>),
+    Cosh(Box<cosh::DesignTargets>),
     /// The raw cosh generator.
     UclCosh(ucl_cosh::Parameters),
     /// Wigley hull.
@@ -29,10 +29,10 @@ impl Family {
     /// The hull of the family for its parameters.
     ///
     /// # Errors
-    /// Every wish that cannot be had, at once.
+    /// Every infeasible target, at once.
     pub fn generate(&self, name: &str) -> Result<Generated, Vec<Infeasible>> {
         match self {
-            Self::Cosh(wishes) => cosh::generate(name, wishes),
+            Self::Cosh(requested) => cosh::generate(name, requested),
             Self::UclCosh(parameters) => ucl_cosh::generate(name, parameters),
             Self::Wigley(dimensions) => analytic::wigley(name, dimensions),
             Self::Box(dimensions) => analytic::rectangular_box(name, dimensions),
@@ -94,7 +94,7 @@ pub struct Target {
     pub origin: Origin,
 }
 
-/// A wish that cannot be had, or a value outside its range.
+/// An infeasible target, or a value outside its range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Infeasible {
     /// Code of the message, `E102`.

@@ -4,9 +4,9 @@ use super::FigureInputs;
 use super::canvas::{Anchor, Canvas, TextStyle};
 use crate::hydrostatics::CoefficientLength;
 
-/// What a drawing says that does not hold all wishes.
+/// What a drawing says of a hull that does not meet all targets.
 pub(super) fn compromise(canvas: &mut Canvas, at: [f64; 2], style: &TextStyle) {
-    canvas.text(at, "A COMPROMISE: NOT ALL WISHES ARE HELD", &style.coloured("#c00000"));
+    canvas.text(at, "A COMPROMISE: NOT ALL TARGETS ARE MET", &style.coloured("#c00000"));
 }
 
 /// `text` without the sign that lowers what follows.

@@ -65,7 +65,7 @@ struct Curve {
     value: fn(&Hydrostatics) -> Option<f64>,
 }
 
-/// Dashes, dots and gaps \[mm\]: every curve has its own, so that they are told apart without colours.
+/// Dashes, dots and gaps \[mm\]: every curve has its own, so that they can be distinguished without colours.
 const FULL: &[f64] = &[];
 const DASHES: [&[f64]; 16] = [
     &[8.0, 1.2],

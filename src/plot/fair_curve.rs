@@ -3,7 +3,7 @@
 //!
 //! Curvature is that of the true curve, of a curve of areas its second derivative; the sheet may stretch ordinates, and
 //! teeth stand normal to the line as it is drawn, on its convex side. Teeth that would leave the panel are cut off at its
-//! edge, which is said there: the scale is the same for both.
+//! edge, which is noted there: the scale is the same for both.
 
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::scale::{decimals, multiples, nice_step, sheet_scale};

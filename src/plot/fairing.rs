@@ -377,7 +377,7 @@ const CORNER: f64 = 1e3;
 
 /// What stands on drawings with lines beyond their outermost offsets.
 pub(super) const BEYOND: &str = "dashed: beyond the outermost offsets, extrapolated";
-/// Least length of a line beyond its offsets that is told apart, as a part of that of all offsets.
+/// Least length of a line beyond its offsets that is distinguished, as a part of that of all offsets.
 const BEYOND_LEAST: f64 = 2e-3;
 
 /// The same pen for the part of a line beyond the outermost offsets.

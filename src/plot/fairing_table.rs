@@ -109,7 +109,7 @@ pub(super) fn compose(record: &FairRecord, texts: &[[String; 2]], limit: f64, wo
     parts.into_iter().enumerate().map(draw).collect()
 }
 
-/// Decimals of the table, from the step of its writing.
+/// Decimals of the table, from its resolution.
 fn decimals(record: &FairRecord) -> usize {
     let notation = record.lines.notation;
     let step = |digits: &usize| notation.quantum(Some(*digits)).zip(record.lines.quantum);

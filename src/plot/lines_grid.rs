@@ -26,7 +26,7 @@ pub(super) struct GridPlane {
     pub(super) curves: Vec<Vec<[f64; 3]>>,
     /// How many of them, from the first, lie on the side of the hull; the others on its flats.
     pub(super) on_side: usize,
-    /// Whether it is none of those that stand between others and give way to them.
+    /// Whether it is none of those that stand between others and yield to them.
     pub(super) whole: bool,
     /// Its number in the grid: where there is no room for all, every second, fourth, ... is named.
     pub(super) count: i32,

@@ -1,7 +1,7 @@
 //! Deviation against fairness: what smoothing alone makes of the table, weight by weight, and where the fair hull stands.
 //!
-//! A point of the curve cannot be bettered in both; the hull with all its wishes lies above the curve, and how far is
-//! what the wishes cost. The surface through the table has no deviation and the energy of all its bumps.
+//! A point of the curve cannot be bettered in both; the hull with all its targets lies above the curve, and how far is
+//! what the targets cost. The surface through the table has no deviation and the energy of all its bumps.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
@@ -94,7 +94,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
     let named = [
         (start, "before: the surface through the table", "#000000", 3),
         (chosen, "the weight that was taken", "#0072b2", 4),
-        (Some(fair), "the fair hull with its wishes", "#c00000", 24),
+        (Some(fair), "the fair hull with its targets", "#c00000", 24),
     ];
     for (at, _, ink, corners) in named {
         let Some([x, y]) = at.map(|at| chart.place(at)) else { continue };

@@ -85,7 +85,7 @@ fn joint_caption(pair: [&Read<'_>; 2]) -> String {
     pair.map(|figure| figure.titles.caption).join(" ")
 }
 
-/// Two figures that stand over each other in the frame of `sheet`, under one title.
+/// Two figures one above the other in the frame of `sheet`, under one title.
 fn draw_pair(document: &mut Document, pair: [&Read<'_>; 2], sheet: Sheet, number: [usize; 2]) -> Result<(), PlotError> {
     let [upper, lower] = pair.map(|figure| &figure.titles);
     let title = format!("{}. {}", upper.title, lower.title);

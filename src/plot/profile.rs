@@ -37,7 +37,7 @@ pub(super) enum Naming {
 }
 
 impl Naming {
-    /// From the most to the least that is said.
+    /// From the most to the least text.
     pub(super) const ALL: [Self; 4] = [Self::Full, Self::FullAft, Self::Names, Self::NamesAft];
 
     /// Room aft and forward of the hull [mm].

@@ -17,7 +17,7 @@ use crate::hull::{Entry, Hull, OffsetStation, OffsetTable};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
-use crate::parametric::cosh::{self, Wishes};
+use crate::parametric::cosh::{self, DesignTargets};
 use crate::units::Notation;
 
 fn faults(name: &str, canvas: &Canvas) -> Vec<String> {
@@ -59,16 +59,16 @@ fn wigley() -> Hull {
 }
 
 fn frigate() -> Hull {
-    let wishes = Wishes {
+    let requested = DesignTargets {
         ship_type: Some(ShipType::Frigate),
         length: 100.0,
         breadth: Some(13.2),
         draught: Some(4.4),
         depth: Some(9.0),
         block_coefficient: Some(0.5),
-        ..Wishes::default()
+        ..DesignTargets::default()
     };
-    cosh::generate("frigate", &wishes).unwrap().hull
+    cosh::generate("frigate", &requested).unwrap().hull
 }
 
 #[test]

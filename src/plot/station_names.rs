@@ -178,7 +178,7 @@ mod tests {
                 let under = text.place.left < *x && *x < text.place.right;
                 m != k && under && text.place.bottom > y - 0.4 * LETTERS
             });
-            assert!(!hidden, "{text:?} stands over the end of another section");
+            assert!(!hidden, "{text:?} covers the end of another section");
         }
         for (k, text) in canvas.texts().iter().enumerate() {
             assert!(canvas.texts()[..k].iter().all(|other| !other.place.overlaps(&text.place)), "{text:?}");

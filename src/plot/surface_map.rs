@@ -410,7 +410,7 @@ fn draw_breaks(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usiz
     drawn
 }
 
-/// Small signs over the fields of colour, so that they are told apart in black and white as well: + where the curvature
+/// Small signs over the fields of colour, so that they can be distinguished in black and white as well: + where the curvature
 /// is positive and
 /// - where it is negative, about [`SIGNS`] apart.
 fn draw_signs(canvas: &mut Canvas, chart: &Chart, map: &SurfaceMap, which: usize, least: f64) {

@@ -2,7 +2,7 @@
 //! through each suspect. Heights at buttocks are drawn the same way, with the buttock in place of the waterline; points
 //! of sections each in its section ([`points`]).
 //!
-//! Marks of the map are told apart by their shape as well as by their colour: an upright cross is a value above its
+//! Marks of the map differ by their shape as well as by their colour: an upright cross is a value above its
 //! prediction, a bar one below; their size is the score.
 
 mod points;

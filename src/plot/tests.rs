@@ -10,7 +10,7 @@ use crate::hull::{Hull, StationNumbers};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 use crate::parametric::ShipType;
 use crate::parametric::analytic::{self, Dimensions};
-use crate::parametric::cosh::{self, Wishes};
+use crate::parametric::cosh::{self, DesignTargets};
 
 fn wigley() -> Hull {
     let dimensions = Dimensions { length: 100.0, breadth: 10.0, draught: 6.25, depth: 9.0 };
@@ -18,16 +18,16 @@ fn wigley() -> Hull {
 }
 
 fn ship(name: &str, ship_type: ShipType, [length, breadth, draught, depth, block]: [f64; 5]) -> Hull {
-    let wishes = Wishes {
+    let requested = DesignTargets {
         ship_type: Some(ship_type),
         length,
         breadth: Some(breadth),
         draught: Some(draught),
         depth: Some(depth),
         block_coefficient: Some(block),
-        ..Wishes::default()
+        ..DesignTargets::default()
     };
-    cosh::generate(name, &wishes).unwrap().hull
+    cosh::generate(name, &requested).unwrap().hull
 }
 
 /// Sharp at both ends, flat at both ends; fine with a transom, full with a parallel body, short with sheer.

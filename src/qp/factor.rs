@@ -1,4 +1,4 @@
-//! The least factor by which limits have to give way together:
+//! The least factor by which limits must be relaxed together:
 //!
 //! ```text
 //! minimise t   subject to   l <= A x <= u,   a x - g t <= u,   a x + g t >= l,   t >= 0.
@@ -30,7 +30,7 @@ impl LeastFactor {
         self.upper.push(upper);
     }
 
-    /// A row whose limits give way by `give` times t; limits that are infinite say nothing.
+    /// A row whose limits are relaxed by `give` times t; limits that are infinite say nothing.
     pub fn push_giving(
         &mut self,
         row: impl Iterator<Item = (usize, f64)> + Clone,
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::qp::Settings;
 
-    /// x in [3, 5] and -x in [0, 1], which gives way by 2 t: t = 1.5 at x = 3.
+    /// x in [3, 5] and -x in [0, 1], which is relaxed by 2 t: t = 1.5 at x = 3.
     #[test]
     fn limits_give_way_as_far_as_they_must() {
         let mut rows = LeastFactor::new(1);

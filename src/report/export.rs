@@ -1,4 +1,4 @@
-//! A hull for other programs: the files, and what can be said of them.
+//! A hull for other programs: the files, and what the page reports of them.
 
 use std::f64::consts::PI;
 
@@ -235,13 +235,13 @@ const FARTHEST_DATUM: f64 = 100.0;
 /// Stations, and waterlines, for Michlet.
 const MICHLET: usize = 41;
 
-/// Panels over the length between perpendiculars, at least, where their size is not said.
+/// Panels over the length between perpendiculars, at least, where their size is not given.
 const PANELS: f64 = 50.0;
 
-/// Most panels over the length between perpendiculars where their size is not said.
+/// Most panels over the length between perpendiculars where their size is not given.
 const MOST_ALONG: f64 = 200.0;
 
-/// What the volume of panels whose size is not said leaves that of the hull by, over it.
+/// What the volume of panels whose size is not given leaves that of the hull by, over it.
 const PANEL_VOLUME: f64 = 5e-3;
 
 /// Corners of the body that the page names.
@@ -251,7 +251,7 @@ fn lowered(points: &mut [[f64; 3]], datum: f64) {
     points.iter_mut().for_each(|point| point[2] -= datum);
 }
 
-/// What can be said of the angles of a mesh.
+/// Measures of the angles of a mesh.
 fn angles(mesh: &HullMesh, report: &MeshReport) -> String {
     let degrees = 180.0 / PI;
     let mut said = format!(

@@ -27,7 +27,7 @@ use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics};
 use crate::qp::Status;
 use crate::units::Notation;
 
-/// A table, and what is wished for it.
+/// A table, and the targets for it.
 #[derive(Debug, Clone)]
 pub struct FairJob {
     /// The table, with what the job says of its dimensions.
@@ -80,7 +80,7 @@ fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Reads what `fair` starts from: a table of offsets, or a job file (`.toml`) that names one. `options` stand over the
+/// Reads what `fair` starts from: a table of offsets, or a job file (`.toml`) that names one. `options` override the
 /// job file: name of the option, path of the key, text of the value.
 ///
 /// # Errors
@@ -200,7 +200,7 @@ fn offsets_name(job: &FairJob) -> String {
     }
 }
 
-/// What the name of a hull ends with that does not hold all wishes: it stands on every drawing and in every file that
+/// What the name of a hull ends with that does not meet all targets: it stands on every drawing and in every file that
 /// has the name.
 const COMPROMISE: &str = " (compromise)";
 
@@ -290,7 +290,7 @@ fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
     }
 }
 
-/// Why nothing was faired, at the place of the job that asks for what cannot be had; `lines` are the lines of the job
+/// Why nothing was faired, at the place of the job that is infeasible; `lines` are the lines of the job
 /// as the table has them.
 fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &JobError) -> Failure {
     // An option comes after the job and is what was changed last.
@@ -332,7 +332,7 @@ fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &Jo
 ///
 /// # Errors
 /// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made.
-/// Wishes that cannot be had are [`FairOutputs::verdict`].
+/// Infeasible targets are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
     fair_outputs_telling(job, figures, &|_| ())
 }

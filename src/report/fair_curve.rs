@@ -173,7 +173,7 @@ impl FairedCurve {
         (smooth(from) || smooth(to)).then(|| [points[from].x, points[to].x])
     }
 
-    /// The failure that ends the program when the wishes could not be had.
+    /// The failure that ends the program when the targets were infeasible.
     ///
     /// # Errors
     /// [`Failure::Infeasible`] with the smallest tolerance that would do.
@@ -196,29 +196,29 @@ impl FairedCurve {
         let (message, help) = if self.fair.nearest {
             let found = self.fair.diagnosis.as_ref();
             let alone = found.into_iter().flat_map(|found| &found.reaches).filter_map(|reach| {
-                let (wish, [low, high]) = (self.fair.lines.get(reach.constraint)?, reach.values?);
+                let (row, [low, high]) = (self.fair.lines.get(reach.constraint)?, reach.values?);
                 let missed = reach.missing.is_some_and(|missing| missing > 0.0);
-                let words = wish.kind.key().replace('_', " ");
-                let target = wish.target;
+                let words = row.kind.key().replace('_', " ");
+                let target = row.target;
                 missed.then(|| format!("; {words} alone could be {low:.6} to {high:.6} where {target:.6} is asked for"))
             });
             let least = found.and_then(|found| found.widening);
             let least = least.map(|factor| format!("; tolerances {} would do", wider(factor))).unwrap_or_default();
             (
-                format!("what is wished cannot be had within the tolerances{}{least}", alone.collect::<String>()),
-                format!("Wish for less; the curve that was written {keeps} and comes near to what was wished"),
+                format!("the targets cannot be met within the tolerances{}{least}", alone.collect::<String>()),
+                format!("Relax the targets; the curve that was written {keeps} and comes near to them"),
             )
         } else if self.fair.widening.is_finite() {
             (
                 format!(
-                    "what is wished cannot be had within the tolerances: they would have to be {}",
+                    "the targets cannot be met within the tolerances, which would have to be {}",
                     wider(self.fair.widening)
                 ),
-                "Give this tolerance, or wish for less; the curve that was written takes it.".to_owned(),
+                "Give this tolerance, or relax the targets; the curve that was written takes it.".to_owned(),
             )
         } else {
             (
-                "what is wished contradicts what is locked at any tolerance".to_owned(),
+                "the targets contradict the locks at any tolerance".to_owned(),
                 "Unlock a point, or take back the area, the centroid, a slope or the number of inflections; the curve that was \
                  written is without them."
                     .to_owned(),
@@ -315,7 +315,7 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
                 smaller.count,
                 upward(factor)
             ),
-            None => format!("              {} cannot be had at any tolerance: locked points forbid it", smaller.count),
+            None => format!("              {} is infeasible at any tolerance: locked points forbid it", smaller.count),
         });
     }
     line(match fair.allowed {
@@ -326,7 +326,7 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
         None => "  allowed     as they come".to_owned(),
     });
     for (count, price) in &fair.refused {
-        let price = if price.is_finite() { format!("cost {price:.1} sigma^2") } else { "cannot be had".to_owned() };
+        let price = if price.is_finite() { format!("cost {price:.1} sigma^2") } else { "is infeasible".to_owned() };
         line(format!("              {count} {price}"));
     }
     if let Some([from, to]) = done.straight_lock().filter(|_| fair.refused.iter().any(|(_, price)| price.is_infinite()))
@@ -335,14 +335,14 @@ pub fn fair_curve_page(done: &FairedCurve) -> String {
             "              locked on a straight line from x = {from:.3} to {to:.3} m: with T at both the curvature may jump there"
         ));
     }
-    for wish in &fair.lines {
+    for row in &fair.lines {
         line(format!(
-            "{:<13} {:.6} -> {:.6}, wished {:.6}; {}",
-            wish.kind.key(),
-            wish.before,
-            wish.after,
-            wish.target,
-            match wish.price {
+            "{:<13} {:.6} -> {:.6}, target {:.6}; {}",
+            row.kind.key(),
+            row.before,
+            row.after,
+            row.target,
+            match row.price {
                 price if price.is_nan() => "what it costs was not found".to_owned(),
                 price if price < NO_MOVE => "costs no moves".to_owned(),
                 price => format!("costs {} RMS", done.size(price)),

@@ -49,7 +49,7 @@ pub(super) fn millimetres(length: f64) -> String {
     fixed(value, decimals)
 }
 
-/// What moves of a table with that step of its writing and that noise are measured by \[m\], and what it is in words.
+/// What moves of a table with that resolution and that noise are measured by \[m\], and what it is in words.
 pub(super) fn limit(quantum: Option<f64>, sigma: f64, notation: Notation) -> (f64, String) {
     let limit = accuracy(quantum, sigma);
     let what = if limit > 2.0 * quantum.unwrap_or(0.0) { " (twice what is taken for noise)" } else { "" };
@@ -319,7 +319,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     for held in &outputs.outcome.rules {
         let words = held.rule.words() + &stays(&held.rule, &outputs.outcome);
         let binds = match held.binding {
-            _ if held.given_up => "GIVEN UP, it cannot be had with the other wishes".to_owned(),
+            _ if held.given_up => "GIVEN UP, it is infeasible with the other targets".to_owned(),
             0 => "does not bind".to_owned(),
             n if n == held.rows => priced("it", held.price),
             n => format!("binds in {n} of {} rows; {}", held.rows, priced("it", held.price)),
@@ -409,7 +409,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     page
 }
 
-/// What is held, and all figures, stand on dimensions that nobody stated: said before all figures.
+/// What is held, and all figures, rest on dimensions that nobody stated: reported before all figures.
 fn assumed(job: &FairJob, outcome: &Outcome) -> String {
     let stated = &job.table.stated;
     let dimensions = [

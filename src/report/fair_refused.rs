@@ -67,7 +67,7 @@ impl FairOutputs {
         let taken = self.outcome.order;
         let wanted = self.said.order.filter(|wanted| *wanted != taken)?;
         let message = format!(
-            "the energy is of order {taken}, not {wanted}: one of order {wanted} needs a net of its own, which does not follow this table"
+            "the energy is of order {taken}, not {wanted}: one of order {wanted} needs an independent net, which does not follow this table"
         );
         Some(self.warning("W403", message, &format!("Ask for order {taken}")))
     }
@@ -82,12 +82,11 @@ impl FairOutputs {
         let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {
             format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", upward(factor))
         });
-        let message =
-            format!("what is wished was had, and the lines bend more often for it: {before} > {after} inflections");
+        let message = format!("the targets are met by adding inflections: {before} > {after}");
         Some(self.warning("W401", message, &format!("Ask for nearer targets{wider}")))
     }
 
-    /// The failure that ends the program when the wishes cannot all be had.
+    /// The failure that ends the program when the targets cannot all be met.
     ///
     /// # Errors
     /// [`Failure::Infeasible`].
@@ -96,7 +95,7 @@ impl FairOutputs {
             Status::Optimal => return Ok(()),
             Status::Infeasible => (
                 "E401",
-                "the wishes cannot all be had within the tolerances; what was written is no more than a compromise",
+                "the targets cannot all be met within the tolerances; what was written is a compromise",
                 Refused { outputs: self, found: self.outcome.faired.diagnosis.as_ref() }.remedy(),
             ),
             Status::Limit if self.outcome.faired.stalled() => (
@@ -107,7 +106,7 @@ impl FairOutputs {
             Status::Unbounded | Status::Limit => (
                 "E402",
                 "the solver stopped before the optimum was proved; what was written is its best point",
-                "Widen the tolerances, wish for less, or leave the signs of curvature alone (inflections.remove = false); the residuals are in fairing.json".to_owned(),
+                "Widen the tolerances, relax the targets, or allow inflections (inflections.remove = false); the residuals are in fairing.json".to_owned(),
             ),
         };
         Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))
@@ -135,7 +134,7 @@ impl Refused<'_> {
         format!("{first} cells, drop a rule or free one of the targets:{}", which.trim_end_matches(';'))
     }
 
-    /// How wide the tolerances would have to be: by waves, which take as much of every tolerance as there is, and by one
+    /// How wide the tolerances would have to be: for a distorted hull, which uses all of every tolerance, and for one
     /// smooth move.
     fn tolerances(&self) -> String {
         let Some(found) = self.found else { return String::new() };
@@ -148,13 +147,13 @@ impl Refused<'_> {
         let smooth = self.outputs.outcome.faired.carried.filter(|factor| *factor > 1.0);
         let least = match found.widening {
             Some(factor) if smooth.is_some_and(|smooth| smooth > factor) => {
-                format!(" {} would do, by waves that the table does not have;", wide(factor))
+                format!(" {} would do, but distorts the hull;", wide(factor))
             }
             Some(factor) => format!(" {} would do;", wide(factor)),
             None => " no tolerances were found that would do;".to_owned(),
         };
         let smooth = smooth.map_or(String::new(), |factor| {
-            format!(" {} would have the targets by one smooth move of the whole hull;", wide(factor))
+            format!(" {} would meet the targets by one smooth move of the whole hull;", wide(factor))
         });
         least + &smooth
     }
@@ -182,7 +181,7 @@ impl Refused<'_> {
         words.unwrap_or_default()
     }
 
-    /// How far displacement and LCB can be had, and what is out of reach where no single target would do.
+    /// The feasible intervals of displacement and LCB, and what is out of reach where no single target would do.
     fn intervals(&self) -> String {
         let Some(found) = self.found else { return String::new() };
         let cheapest = found.cheapest();
@@ -224,7 +223,7 @@ impl Refused<'_> {
     }
 }
 
-/// What is wished in words, with the place where a job wishes it.
+/// A target in words, with the place where a job states it.
 fn placed(words: String, place: Option<&Place>) -> String {
     match place {
         Some(place) => format!("{words} ({place})"),

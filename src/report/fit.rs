@@ -94,7 +94,7 @@ fn named_method(word: &str, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFil
 }
 
 /// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `said` is a word of
-/// [`METHODS`] or a method file; `draught` \[m\] stands over that of the files.
+/// [`METHODS`] or a method file; `draught` \[m\] overrides that of the files.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of a file; [`Failure::Usage`].

@@ -69,7 +69,7 @@ pub fn read_floating(path: &Path) -> Result<Floating, Failure> {
 /// The same, with conventions of a body or a table over those of its file.
 ///
 /// # Errors
-/// Those of [`read_floating`]; [`Failure::Usage`] when conventions are said of a hull.
+/// Those of [`read_floating`]; [`Failure::Usage`] when conventions are given for a hull.
 pub fn read_floating_with(path: &Path, said: &Said) -> Result<Floating, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let design = matches!(extension.as_str(), "toml" | "hgf" | "huf");

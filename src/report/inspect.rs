@@ -10,7 +10,7 @@ use crate::hull::Cut;
 use crate::numeric::median;
 use crate::units::counted;
 
-/// Share of a sum from which one curve rules it, and the least number of curves of which that is said.
+/// Share of a sum from which one curve rules it, and the least number of curves for which that is reported.
 const RULING: f64 = 0.5;
 const RULED: usize = 4;
 

@@ -208,12 +208,12 @@ fn fairing_jobs<'a>(
             [
                 "constraints",
                 "What is held, and at which price",
-                "The price is the RMS of the moves that dropping the wish would save: the dearest wish is the one to relax first.",
+                "The price is the RMS of the moves that dropping the target would save. Relax the target with the highest price first.",
             ],
             one(move |_| {
                 let whole = fairing["status"].as_str() == Some("optimal");
                 let name = text(&fairing["name"]).replace('_', " ");
-                let mark = if whole { "" } else { " (a compromise: not all wishes are held)" };
+                let mark = if whole { "" } else { " (a compromise: not all targets are met)" };
                 Ok(sheet(&format!("CONSTRAINTS AND PRICES – {name}{mark}"), PRICES, constraints(fairing)))
             }),
         ),
@@ -240,8 +240,7 @@ fn fairing_jobs<'a>(
             [
                 "pareto",
                 "Deviation against fairness",
-                "No point of the curve can be bettered in both. The fair hull lies above it by what its wishes cost: the higher, the \
-                 dearer they are.",
+                "No point of the curve can be bettered in both. The fair hull lies above it by what its targets cost.",
             ],
             one(|_| pareto_figure(record)),
         ),

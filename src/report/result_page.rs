@@ -203,11 +203,11 @@ pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
 }
 
 /// What price and multiplier of [`constraints`] are.
-pub(super) const PRICES: &str = "price: RMS of the moves that dropping the wish would save; multiplier: what the objective, a sum of squares of moves, falls by for \
-     each part by which its row gives way, of the target (LCB, LCF: of L_PP; KB: of T; C_M: of 1; a section area: of B T; KM, GM: of KM_T)";
+pub(super) const PRICES: &str = "price: RMS of the moves that dropping the target would save; multiplier: what the objective, a sum of squares of moves, falls by for \
+     each part by which its row is relaxed, of the target (LCB, LCF: of L_PP; KB: of T; C_M: of 1; a section area: of B T; KM, GM: of KM_T)";
 
 pub(super) fn constraints(fairing: &Value) -> Table {
-    let heads = ["wish", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
+    let heads = ["quantity", "unit", "target", "before", "after", "residual", "multiplier [m²]", "price [mm RMS]"];
     let mut table = Table::new(&heads, 2);
     for held in list(&fairing["constraints"]) {
         let missed = [&held["satisfied"], &held["had"]].contains(&&Value::Bool(false));

@@ -1,7 +1,7 @@
 //! Whether a fitted surface stays within what its table says: warnings, each with the place.
 //!
 //! The surface is sampled on 201 x 61 parameters, below the deck. A half-breadth below -B/1000, or above the greatest
-//! given one by more than 2 %, is told; so is a coefficient above one at the design draught. Cost: 12 thousand points.
+//! given one by more than 2 %, is reported; so is a coefficient above one at the design draught. Cost: 12 thousand points.
 
 use crate::hull::{Hull, OffsetTable};
 use crate::hydrostatics::{Hydrostatics, QUANTITIES};

@@ -117,7 +117,7 @@ pub(super) fn ship_name(path: &Path) -> String {
 /// [`Failure::Infeasible`] with every reason.
 pub(super) fn build(design: &Design) -> Result<Generated, Failure> {
     design.family.generate(&design.name).map_err(|reasons| {
-        // A value outside its own range is no wish that could be had elsewhere: the input is wrong.
+        // A value outside its own range is no target that another hull could meet: the input is wrong.
         let out_of_range = reasons.iter().any(|reason| reason.code == "E101");
         let messages = design.diagnose_all(&reasons);
         if out_of_range { Failure::Input(messages) } else { Failure::Infeasible(messages) }
@@ -144,7 +144,7 @@ pub fn read_source(path: &Path) -> Result<Source, Failure> {
 /// The same, with conventions of a table or body over those of its file.
 ///
 /// # Errors
-/// Those of [`read_source`]; [`Failure::Usage`] when conventions are said of a file that has its own.
+/// Those of [`read_source`]; [`Failure::Usage`] when conventions are given for a file that has its own.
 pub fn read_source_with(path: &Path, said: &Said) -> Result<Source, Failure> {
     let file: PathBuf = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
@@ -191,7 +191,7 @@ pub(super) fn hull_faults(code: &'static str, file: &Path, error: &HullFileError
     faults.into_iter().map(|fault| problem(code, file, fault, help)).collect()
 }
 
-/// Conventions of a table or a body that stand over those of the TOML beside it: a value for each key of its `[table]`.
+/// Conventions of a table or a body that override those of the TOML beside it: a value for each key of its `[table]`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Said {
     /// Keys and values, as they would stand in the file.
@@ -241,7 +241,7 @@ impl Said {
         }
         let keys: Vec<&str> = self.keys.iter().map(|(key, _)| *key).collect();
         let message = format!(
-            "{} is a hull in metres and our axes; leave out what is said of it: {}",
+            "{} is a hull in metres and our axes; leave out its conventions: {}",
             path.display(),
             keys.join(", ")
         );
@@ -249,7 +249,7 @@ impl Said {
     }
 }
 
-/// The name and the text of the TOML file of the same name beside a file, when there is one, and of what is said over it.
+/// The name and the text of the TOML file of the same name beside a file, when there is one, and of its overrides.
 pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, Failure> {
     let beside = path.with_extension("toml");
     let mut list = Vec::new();

@@ -158,7 +158,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
              together, which is proved."
                 .to_owned(),
         ),
-        Some(word) => (true, format!("Status {word}: not all wishes are held. What is shown is a compromise.")),
+        Some(word) => (true, format!("Status {word}: not all targets are met. What is shown is a compromise.")),
         None => (true, "The status is not known.".to_owned()),
     }];
     lines.extend(

@@ -423,7 +423,7 @@ mod tests {
             k in knots(7),
             order in 1usize..4,
             fractions in prop::collection::vec(0.0f64..1.0, 4..9),
-            wishes in prop::collection::vec(-1.0f64..1.0, 16),
+            numbers in prop::collection::vec(-1.0f64..1.0, 16),
         ) {
             let order = order.min(k.degree());
             let (a, b) = k.domain();
@@ -439,7 +439,7 @@ mod tests {
             conditions.push(Condition { site: a, order: 1 });
             let energy = Energy::new(&k, order);
             let Ok(problem) = energy.interpolation(&conditions) else { return Ok(()) };
-            let data = &wishes[..conditions.len()];
+            let data = &numbers[..conditions.len()];
             let c = problem.solve(data);
             let scale = c.iter().fold(1.0f64, |m, x| m.max(x.abs()));
             let f = curve(&k, &c);

@@ -1,9 +1,9 @@
 //! What a job holds of the hull.
 
+use super::super::design_targets::position_along;
 use super::super::document::{Document, Raw};
 use super::super::keys::Kind;
 use super::super::value::{Scalar, expected};
-use super::super::wishes::position_along;
 use super::keys::HOLD;
 use super::ranges::allowed;
 use super::{AreaCurve, JobFile, Place};
@@ -38,9 +38,9 @@ pub enum Quantity {
     WettedSurface,
 }
 
-/// What is wished of a quantity.
+/// What is asked of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Wish {
+pub enum Target {
     /// The value of the table's own surface.
     Table,
     /// Nothing.
@@ -124,7 +124,7 @@ impl Quantity {
     }
 }
 
-/// What is held of the table when nothing is said.
+/// What is held of the table by default.
 const DEFAULT: [Quantity; 3] = [Quantity::Displacement, Quantity::CentreOfBuoyancy, Quantity::MidshipCoefficient];
 
 /// Greatest target and greatest band, in the unit of the quantity: no ship has more, and the programs overflow far above.
@@ -133,11 +133,11 @@ pub(super) const MOST_TARGET: f64 = 1e9;
 /// Reads `[hold]`.
 pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     for quantity in Quantity::ALL {
-        if let Some(wish) = wish(document, quantity) {
-            job.hold.push((quantity, wish));
+        if let Some(target) = target(document, quantity) {
+            job.hold.push((quantity, target));
         }
     }
-    let named = |quantity: Quantity| job.hold.iter().any(|(q, w)| *q == quantity && *w != Wish::Free);
+    let named = |quantity: Quantity| job.hold.iter().any(|(q, w)| *q == quantity && *w != Target::Free);
     // Displacement and C_B are compared when the dimensions are known.
     for (first, second) in [
         (Quantity::WaterplaneArea, Quantity::WaterplaneCoefficient),
@@ -154,13 +154,13 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
     section_areas(document, job);
 }
 
-fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
+fn target(document: &mut Document<'_>, quantity: Quantity) -> Option<Target> {
     let path = format!("hold.{}", quantity.key());
     let (raw, span, kind) = document.raw(&path)?;
     if matches!(quantity, Quantity::CentreOfBuoyancy | Quantity::CentreOfFlotation) {
         let Raw::Text(text) = &raw else {
             if matches!(raw, Raw::Number(_)) {
-                let message = format!("{path} is {}, and its unit is not said", raw.describe());
+                let message = format!("{path} is {}, and its unit is missing", raw.describe());
                 let help = "Write \"+0.8 %\" (of Lpp from midship, + forward) or \"41.0 m AP\".".into();
                 document.problem("E123", &path, &span, message, help);
             } else {
@@ -169,7 +169,7 @@ fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
             return None;
         };
         if text.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
-            return position_along(document, &path, text, &span, kind).map(Wish::Along);
+            return position_along(document, &path, text, &span, kind).map(Target::Along);
         }
         return document.one_of(&path, text, &span, &HOLD).map(word);
     }
@@ -187,11 +187,11 @@ fn wish(document: &mut Document<'_>, quantity: Quantity) -> Option<Wish> {
     let expected = format!("a number {numbers}, at most {most}");
     let value = allowed(document, &path, measure.value, size > 0.0 && size <= most, &expected)?;
     let mass = quantity == Quantity::Displacement && measure.dimension != Dimension::Volume;
-    Some(if mass { Wish::Mass(value) } else { Wish::Value(value) })
+    Some(if mass { Target::Mass(value) } else { Target::Value(value) })
 }
 
-fn word(word: &str) -> Wish {
-    if word == "free" { Wish::Free } else { Wish::Table }
+fn word(word: &str) -> Target {
+    if word == "free" { Target::Free } else { Target::Table }
 }
 
 fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
@@ -257,10 +257,10 @@ fn band(document: &mut Document<'_>) -> f64 {
     allowed(document, path, value, is_area(value), &expected).unwrap_or(0.0)
 }
 
-/// The constraints; what is said stands over the default. The table's own areas are held at `places` \[m\] within the
+/// The constraints; what is given overrides the default. The table's own areas are held at `places` \[m\] within the
 /// band \[m^2\].
 pub(super) fn holding(
-    hold: &[(Quantity, Wish)],
+    hold: &[(Quantity, Target)],
     areas: &[([f64; 3], Place)],
     (places, band): (&[f64], f64),
     [length, density, gravity]: [f64; 3],
@@ -274,13 +274,13 @@ pub(super) fn holding(
     };
     let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
     let mut given = Vec::new();
-    for &(quantity, wish) in hold {
-        match wish {
-            Wish::Free => {}
-            Wish::Table => own.push(quantity.constraint(0.0, gravity)),
-            Wish::Mass(mass) => given.push(quantity.constraint(mass / density, gravity)),
-            Wish::Along([share, shift]) => given.push(quantity.constraint(share * length + shift, gravity)),
-            Wish::Value(value) => given.push(quantity.constraint(value, gravity)),
+    for &(quantity, target) in hold {
+        match target {
+            Target::Free => {}
+            Target::Table => own.push(quantity.constraint(0.0, gravity)),
+            Target::Mass(mass) => given.push(quantity.constraint(mass / density, gravity)),
+            Target::Along([share, shift]) => given.push(quantity.constraint(share * length + shift, gravity)),
+            Target::Value(value) => given.push(quantity.constraint(value, gravity)),
         }
     }
     own.extend(places.iter().map(|&x| Constraint::SectionArea { x, area: 0.0, band }));

@@ -33,7 +33,7 @@ pub const JOB_KEYS: &[Key] = &[
         "order",
         Kind::Integer(2, 4),
         &[],
-        "Order of the derivatives in the energy: 2, 3 or 4. Default: 4 on hulls with plumb ends over a rectangle, else 3.",
+        "Order of the derivatives in the energy: 2, 3 or 4. Default: 4 on hulls with vertical ends and level keel, else 3.",
     ),
     key(
         "energy",
@@ -47,14 +47,14 @@ pub const JOB_KEYS: &[Key] = &[
         "weight",
         Kind::NumberOrWord(&AUTO),
         &[],
-        "Smoothing weight; \"auto\" takes that for the errors of the table (Mallows), on a net of its own that of least generalised cross-validation. Default: \"auto\".",
+        "Smoothing weight; \"auto\" takes that for the errors of the table (Mallows), on an independent net that of least generalised cross-validation. Default: \"auto\".",
     ),
     key(
         "tolerance",
         "table",
         Kind::Length,
         &[],
-        "How far an offset may move. Default: three noise levels, at most B/1000 or 15 mm unless the table is three times as rough, at least two steps of its writing.",
+        "Greatest move of an offset. Default: three noise levels, at most B/1000 or 15 mm unless the table is three times as rough, at least twice the resolution of the table.",
     ),
     key("tolerance", "stations", Kind::NamedLengths, &[], "Tolerances of single stations, { \"10\" = \"1 mm\" }."),
     key(

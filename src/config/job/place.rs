@@ -1,4 +1,4 @@
-//! Where a job says what it wishes.
+//! Where a job states its targets.
 
 use std::fmt;
 

@@ -4,7 +4,7 @@ use super::super::document::Document;
 use super::super::value::Scalar;
 use crate::hydrostatics::DENSITIES;
 
-/// A value where it is allowed; otherwise it is told what was expected.
+/// A value where it is allowed; otherwise the message names what was expected.
 pub(super) fn allowed(
     document: &mut Document<'_>,
     path: &str,

@@ -29,7 +29,7 @@ struct Part {
     to: Option<String>,
 }
 
-/// What is wished of a line or a region, in the words of the file.
+/// A rule for a line or a region, in the words of the file.
 #[derive(Debug, Clone, PartialEq)]
 enum Said {
     Fixed(Part),

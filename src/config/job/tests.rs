@@ -115,7 +115,7 @@ fn an_option_stands_over_the_file() {
         .with(option("--waterplane-area", "hold.waterplane_area", "700"));
     assert_eq!(
         job.hold,
-        [(Quantity::BlockCoefficient, Wish::Value(0.6)), (Quantity::WaterplaneArea, Wish::Value(700.0))]
+        [(Quantity::BlockCoefficient, Target::Value(0.6)), (Quantity::WaterplaneArea, Target::Value(700.0))]
     );
     let job = job.for_table(&table(), 100.0).unwrap();
     assert_eq!((job.tolerance.table, job.energy.order), (Some(0.002), Some(3)));
@@ -158,7 +158,7 @@ fn all_problems_of_a_file_at_once() {
         "E122 j.toml:7:15 lock.cells is a boolean, expected a list of names",
         "E127 j.toml:9:16 hold.displacement: \"frei\" is not known. Did you mean \"free\"?",
         "E124 j.toml:10:6 hold.Cb is 1.2. Expected a number above 0, at most 1.",
-        "E123 j.toml:11:7 hold.LCB is 3, and its unit is not said.",
+        "E123 j.toml:11:7 hold.LCB is 3, and its unit is missing.",
         "E123 j.toml:13:19 hold.waterplane_area: \"5 %\" is a percentage, expected an area",
         "E122 j.toml:14:18 hold.section_areas: an item is [1.0]. Expected a list of [x, area]",
         "E126 j.toml:15:1 hold.cm is written a second time",
@@ -279,7 +279,7 @@ fn metacentre_and_wetted_surface_are_read() {
         let file = read_job("j.toml", text).unwrap();
         file.for_table(&table(), 100.0).unwrap_err().iter().map(ToString::to_string).collect()
     };
-    let said = "E179 j.toml:2:6 hold.GM: the height of the centre of gravity is not said. Give hold.KG (--kg), or hold KM instead.";
+    let said = "E179 j.toml:2:6 hold.GM: the height of the centre of gravity is not given. Give hold.KG (--kg), or hold KM instead.";
     assert_eq!(refused("[hold]\nGM = 0.5"), [said]);
     assert_eq!(
         messages("[hold]\nKM = 6\nGM = 1\nKG = 5"),

@@ -1,6 +1,6 @@
 //! Files of other kinds that are given for a table by mistake: drawings, archives, pictures.
 //!
-//! They are told by their first bytes, where these are published, and else by the ending of the name together with what
+//! They are recognised by their first bytes, where these are published, and else by the ending of the name together with what
 //! a text of that kind begins with. One message about the kind helps more than one about each of its lines.
 
 /// First bytes of a kind of file.

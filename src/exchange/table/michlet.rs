@@ -22,7 +22,7 @@ const MOST: usize = 81;
 /// Gravity \[m/s^2\].
 const GRAVITY: f64 = 9.80665;
 
-/// Differences of the two volumes beyond this part of one are told.
+/// Differences of the two volumes beyond this part of one are reported.
 const VOLUMES_APART: f64 = 0.02;
 
 /// The comments, in small letters, under which what is read stands.

@@ -130,8 +130,8 @@ fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mu
         layout.last = other.and_then(|rest| plain_number(rest.split('=').next()?)).filter(|last| *last > 0.0);
         return;
     }
-    for wish in line.split([',', ';']) {
-        let Some((key, value)) = wish.split_once('=') else { continue };
+    for setting in line.split([',', ';']) {
+        let Some((key, value)) = setting.split_once('=') else { continue };
         let Some(slot) = slot(stated, key) else { continue };
         match parse_length(value.trim()) {
             Ok(length) => {

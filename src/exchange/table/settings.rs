@@ -56,7 +56,7 @@ pub(super) struct StationScale {
     pub(super) numbers: bool,
 }
 
-/// The conventions of one table; whatever is not said is found in the table.
+/// The conventions of one table; whatever is not given is found in the table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Settings {
     pub(super) name: Option<String>,

@@ -13,7 +13,7 @@ use crate::hull::{
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 use std::borrow::Cow;
 
-/// In which notation and layout a table is to be written; its own where nothing is said.
+/// In which notation and layout a table is to be written; its own by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TableWriting {
     /// Unit of all lengths.

@@ -1,7 +1,7 @@
-//! The book that values and problems are entered into while the gaps of the wishes are filled, and the parts of the
+//! The book that values and problems are entered into while the gaps of the targets are filled, and the parts of the
 //! design that are checked on their own: the midship section and the shoulders.
 
-use super::Wishes;
+use super::DesignTargets;
 use crate::parametric::midship::{MidshipProblem, MidshipSection};
 use crate::parametric::presets::{Preset, ShipType};
 use crate::parametric::{DesignValue, Infeasible, Origin, Remark};
@@ -57,15 +57,15 @@ impl Ledger {
 /// The section of the midship coefficient; its problem goes into the book.
 pub(super) fn midship_section(
     book: &mut Ledger,
-    wishes: &Wishes,
+    requested: &DesignTargets,
     half: f64,
     draught: f64,
     keel: f64,
     midship: Sourced,
 ) -> Option<MidshipSection> {
     let (breadth, cm) = (2.0 * half, midship.value);
-    let solved = MidshipSection::solve(half, draught, keel, cm, wishes.deadrise, wishes.bilge_radius);
-    let both = wishes.deadrise.zip(wishes.bilge_radius);
+    let solved = MidshipSection::solve(half, draught, keel, cm, requested.deadrise, requested.bilge_radius);
+    let both = requested.deadrise.zip(requested.bilge_radius);
     match solved {
         Ok(section) => {
             if let Some((deadrise, radius)) = both
@@ -82,8 +82,8 @@ pub(super) fn midship_section(
                 );
             }
             for (key, name, given, value, unit) in [
-                ("bilge_radius", "bilge radius", wishes.bilge_radius.is_some(), section.radius, "m"),
-                ("deadrise", "rise of floor", wishes.deadrise.is_some(), section.deadrise.to_degrees(), "deg"),
+                ("bilge_radius", "bilge radius", requested.bilge_radius.is_some(), section.radius, "m"),
+                ("deadrise", "rise of floor", requested.deadrise.is_some(), section.deadrise.to_degrees(), "deg"),
             ] {
                 if !given {
                     let source = format!("for Cm {cm:.4}");
@@ -104,7 +104,7 @@ pub(super) fn midship_section(
                 ),
                 MidshipProblem::Coefficient { lowest, highest } if lowest > highest => format!(
                     "a bilge radius of {:.3} m does not fit B {breadth:.3} m and T {draught:.3} m at any rise of floor; use a smaller one",
-                    wishes.bilge_radius.unwrap_or_default()
+                    requested.bilge_radius.unwrap_or_default()
                 ),
                 MidshipProblem::Coefficient { lowest, highest } => format!(
                     "with this bilge radius Cm lies between {lowest:.4} and {highest:.4} whatever the rise of floor; you set {cm:.4}"
@@ -116,11 +116,11 @@ pub(super) fn midship_section(
     }
 }
 
-/// Shoulders that the wishes fix: fore, aft.
-pub(super) fn shoulders(book: &mut Ledger, wishes: &Wishes, length: f64) -> (Option<f64>, Option<f64>) {
-    let mut fore = wishes.parallel_body.map(|b| b[1]);
-    let mut aft = wishes.parallel_body.map(|b| b[0]);
-    if let Some(entrance) = wishes.entrance_length {
+/// Shoulders that the targets fix: fore, aft.
+pub(super) fn shoulders(book: &mut Ledger, requested: &DesignTargets, length: f64) -> (Option<f64>, Option<f64>) {
+    let mut fore = requested.parallel_body.map(|b| b[1]);
+    let mut aft = requested.parallel_body.map(|b| b[0]);
+    if let Some(entrance) = requested.entrance_length {
         book.take(
             "entrance_length",
             "length of entrance",
@@ -140,7 +140,7 @@ pub(super) fn shoulders(book: &mut Ledger, wishes: &Wishes, length: f64) -> (Opt
         }
         fore = Some(length - entrance);
     }
-    if let Some(run) = wishes.run_length {
+    if let Some(run) = requested.run_length {
         book.take("run_length", "length of run", "m", 1.0, Some(run), run, "", (0.05 * length, 0.9 * length));
         if aft.is_some_and(|x| (x - run).abs() > 1e-6 * length) {
             book.problem(

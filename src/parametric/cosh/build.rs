@@ -148,7 +148,7 @@ impl Resolved {
         best.map(|(_, form, waterplane, lcb)| (form, waterplane, lcb))
     }
 
-    /// An LCB of our own choice gives way: into the range that the usual body can have.
+    /// An LCB of our own choice yields: into the range that the usual body can have.
     fn search_lcb(&self, body: (f64, f64)) -> Option<(f64, Form, Sourced, Sourced)> {
         let form = self.form(body, 1.0);
         if !Self::has_ends(&form) {
@@ -172,16 +172,18 @@ impl Resolved {
         trial.half_breadth(trial.stern.end, trial.depth) / trial.section.half_breadth
     }
 
-    /// A form whose transom can have the breadth `wish`: the one given, or, where height and cut-up are ours to choose,
+    /// A form whose transom can have the breadth `wanted`: the one given, or, where height and cut-up are ours to choose,
     /// the nearest to the preset.
-    fn transom_in_reach(&self, form: &Form, goal: &Goal, wish: f64) -> Option<Form> {
-        let holds =
-            |form: &Form| Self::transom_at(form, 0.0) <= wish && wish <= Self::transom_at(form, Stern::LARGEST_SWEEP);
+    fn transom_in_reach(&self, form: &Form, goal: &Goal, wanted: f64) -> Option<Form> {
+        let holds = |form: &Form| {
+            Self::transom_at(form, 0.0) <= wanted && wanted <= Self::transom_at(form, Stern::LARGEST_SWEEP)
+        };
         if holds(form) {
             return Some(*form);
         }
-        let free =
-            |wish: Sourced, scales: &'static [f64]| if wish.origin == Origin::Given { &scales[..1] } else { scales };
+        let free = |wanted: Sourced, scales: &'static [f64]| {
+            if wanted.origin == Origin::Given { &scales[..1] } else { scales }
+        };
         let heights = free(self.transom_height, &[1.0, 1.06, 0.94, 0.88, 0.8]);
         let rises = free(self.cut_up, &[1.0, 0.8, 1.2, 0.6, 1.5, 0.4, 0.25]);
         rises.iter().flat_map(|rise| heights.iter().map(move |height| (rise, height))).find_map(|(rise, height)| {
@@ -195,21 +197,21 @@ impl Resolved {
 
     /// The sweep of the stern profile that gives the transom its breadth, by repeated solution at one entrance.
     fn fit_transom(&self, form: Form, goal: &Goal) -> Result<Form, Vec<Infeasible>> {
-        let Some(wish) = self.transom_breadth else { return Ok(form) };
+        let Some(wanted) = self.transom_breadth else { return Ok(form) };
         let refused = |form: &Form| {
             let (low, high) = (Self::transom_at(form, 0.0), Self::transom_at(form, Stern::LARGEST_SWEEP));
             vec![Infeasible {
                 code: "E112",
                 keys: vec!["transom_beam", "transom_height", "cut_up"],
                 message: format!(
-                    "a transom of {wish:.3} B at the deck is out of reach: {low:.3} to {high:.3} B with its lowest point at {:.3} m and the cut-up at {:.3} m; a lower transom or a longer cut-up widens it",
+                    "a transom of {wanted:.3} B at the deck is out of reach: {low:.3} to {high:.3} B with its lowest point at {:.3} m and the cut-up at {:.3} m; a lower transom or a longer cut-up widens it",
                     form.stern.height, form.stern.cut_up
                 ),
             }]
         };
-        let Some(mut form) = self.transom_in_reach(&form, goal, wish) else { return Err(refused(&form)) };
+        let Some(mut form) = self.transom_in_reach(&form, goal, wanted) else { return Err(refused(&form)) };
         for _ in 0..40 {
-            let excess = |sweep| Self::transom_at(&form, sweep) - wish;
+            let excess = |sweep| Self::transom_at(&form, sweep) - wanted;
             let Ok(sweep) = bracketed_root(excess, 0.0, Stern::LARGEST_SWEEP, 1e-13) else {
                 return Err(refused(&form));
             };
@@ -252,7 +254,7 @@ impl Resolved {
 
     /// The flare above the waterline at 0.9 Lpp.
     fn fit_flare(&self, form: Form) -> Result<Form, Vec<Infeasible>> {
-        let Some(wish) = self.flare else { return Ok(form) };
+        let Some(wanted) = self.flare else { return Ok(form) };
         let angle = |part: f64| {
             let mut trial = form;
             trial.entrance.flare = part;
@@ -260,7 +262,7 @@ impl Resolved {
             let out = trial.half_breadth(x, trial.depth) - trial.half_breadth(x, trial.draught);
             (out / (trial.depth - trial.draught)).atan()
         };
-        match bracketed_root(|part| angle(part) - wish, 0.0, 1.0, 1e-13) {
+        match bracketed_root(|part| angle(part) - wanted, 0.0, 1.0, 1e-13) {
             Ok(part) => {
                 let mut form = form;
                 form.entrance.flare = part;
@@ -271,7 +273,7 @@ impl Resolved {
                 keys: vec!["flare"],
                 message: format!(
                     "a mean flare of {:.1} deg at 0.9 Lpp is out of reach: {:.1} to {:.1} deg with this stem and waterline",
-                    wish.to_degrees(),
+                    wanted.to_degrees(),
                     angle(0.0).to_degrees(),
                     angle(1.0).to_degrees()
                 ),
@@ -282,7 +284,7 @@ impl Resolved {
     /// The hull.
     ///
     /// # Errors
-    /// The wish that cannot be had, with the intervals that can.
+    /// The infeasible target, with the feasible intervals.
     pub(super) fn build(mut self, name: &str) -> Result<Generated, Vec<Infeasible>> {
         let Some((form, waterplane, lcb)) = self.search() else {
             let bodies = self.bodies();

@@ -24,7 +24,7 @@ use super::{Generated, Infeasible};
 
 /// How the midship coefficient is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum MidshipWish {
+pub enum MidshipTarget {
     /// A number.
     Value(f64),
     /// Kerlen: Cm = 1.006 - 0.0056 Cb^-3.56.
@@ -35,9 +35,9 @@ pub enum MidshipWish {
     Benford,
 }
 
-/// What is wished of a hull of the cosh family; what is `None` gets a default. Lengths \[m\], angles \[rad\], x from AP.
+/// What is asked of a hull of the cosh family; what is `None` gets a default. Lengths \[m\], angles \[rad\], x from AP.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Wishes {
+pub struct DesignTargets {
     /// Type of ship whose preset fills what is left out.
     pub ship_type: Option<ShipType>,
     /// Lpp.
@@ -53,7 +53,7 @@ pub struct Wishes {
     /// Displaced volume \[m^3\]; with it Cb follows.
     pub displacement_volume: Option<f64>,
     /// Cm.
-    pub midship_coefficient: Option<MidshipWish>,
+    pub midship_coefficient: Option<MidshipTarget>,
     /// x of the centre of buoyancy.
     pub lcb: Option<f64>,
     /// Cwp, on Lpp.
@@ -94,10 +94,18 @@ pub struct Wishes {
     pub section_character: Option<f64>,
 }
 
-/// The hull that fulfils the wishes.
+/// The former name of [`DesignTargets`].
+#[doc(hidden)]
+pub type Wishes = DesignTargets;
+
+/// The former name of [`MidshipTarget`].
+#[doc(hidden)]
+pub type MidshipWish = MidshipTarget;
+
+/// The hull that meets the targets.
 ///
 /// # Errors
-/// Every wish that cannot be had, at once, with the nearest feasible values.
-pub fn generate(name: &str, wishes: &Wishes) -> Result<Generated, Vec<Infeasible>> {
-    resolve::Resolved::new(wishes)?.build(name)
+/// Every infeasible target, at once, with the nearest feasible values.
+pub fn generate(name: &str, requested: &DesignTargets) -> Result<Generated, Vec<Infeasible>> {
+    resolve::Resolved::new(requested)?.build(name)
 }

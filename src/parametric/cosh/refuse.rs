@@ -1,4 +1,4 @@
-//! What to say when there is no hull: the wish that cannot be had and the interval that can.
+//! The message when there is no hull: the infeasible target and the feasible interval.
 
 use super::form::Form;
 use super::resolve::Resolved;
@@ -21,7 +21,7 @@ fn union(reaches: &[Reach]) -> Reach {
 }
 
 impl Resolved {
-    /// Which wish cannot be had, with the intervals that can; over all waterplane areas where none was given.
+    /// Which target is infeasible, with the feasible intervals; over all waterplane areas where none was given.
     pub(super) fn infeasible(&self, form: &Form, goal: &Goal) -> Vec<Infeasible> {
         let (l, lb) = (self.length, self.length * self.breadth);
         let nodes = form.height_nodes();
@@ -92,7 +92,7 @@ impl Resolved {
                 "E108",
                 keys(&["Cb", "Cwp", "LCB"]),
                 format!(
-                    "Cb {:.4} and LCB {:+.2} % cannot be had together with {cwp_text}, {with}; leave LCB{} free or change the ends",
+                    "Cb {:.4} and LCB {:+.2} % are infeasible together with {cwp_text}, {with}; leave LCB{} free or change the ends",
                     self.block.value,
                     percent(goal.lcb),
                     if given { " or Cwp" } else { "" }

@@ -1,15 +1,15 @@
-//! From wishes to numbers: ranges, defaults from presets and formulas, and the midship section.
+//! From targets to numbers: ranges, defaults from presets and formulas, and the midship section.
 
 use super::book::{Ledger, Sourced, band_remarks, midship_section, shoulders};
 use super::net::Sheer;
-use super::{MidshipWish, Wishes};
+use super::{DesignTargets, MidshipTarget};
 use crate::parametric::midship::MidshipSection;
 use crate::parametric::presets::{
     ShipType, lcb_percent_prismatic, midship_benford, midship_hsva, midship_kerlen, waterplane_schneekluth,
 };
 use crate::parametric::{DesignValue, Infeasible, Origin, Remark};
 
-/// The wishes with every gap filled \[m, rad\].
+/// The targets with every gap filled \[m, rad\].
 #[derive(Debug, Clone)]
 pub(super) struct Resolved {
     pub(super) length: f64,
@@ -45,17 +45,17 @@ impl Resolved {
     ///
     /// # Errors
     /// Every value outside its range and every contradiction that needs no solver.
-    pub(super) fn new(wishes: &Wishes) -> Result<Self, Vec<Infeasible>> {
-        let ship = wishes.ship_type.unwrap_or(ShipType::GeneralCargo);
+    pub(super) fn new(requested: &DesignTargets) -> Result<Self, Vec<Infeasible>> {
+        let ship = requested.ship_type.unwrap_or(ShipType::GeneralCargo);
         let preset = ship.preset();
         let label = format!("preset {}", ship.as_str());
-        let typed = wishes.ship_type.is_some();
+        let typed = requested.ship_type.is_some();
         let mut book = Ledger { values: Vec::new(), problems: Vec::new() };
         let open = f64::INFINITY;
 
         // Main dimensions.
         let length = book
-            .take("Lpp", "length between perpendiculars", "m", 1.0, Some(wishes.length), 0.0, "", (0.1, 1000.0))
+            .take("Lpp", "length between perpendiculars", "m", 1.0, Some(requested.length), 0.0, "", (0.1, 1000.0))
             .value;
         let of = |what: &str| format!("{label}: {what}");
         let breadth = book
@@ -64,7 +64,7 @@ impl Resolved {
                 "moulded breadth",
                 "m",
                 1.0,
-                wishes.breadth,
+                requested.breadth,
                 length / preset.length_breadth[0],
                 &of("L/B"),
                 (1e-3 * length, length),
@@ -76,7 +76,7 @@ impl Resolved {
                 "design draught",
                 "m",
                 1.0,
-                wishes.draught,
+                requested.draught,
                 breadth / preset.breadth_draught[0],
                 &of("B/T"),
                 (1e-3 * length, length),
@@ -88,7 +88,7 @@ impl Resolved {
                 "depth at side",
                 "m",
                 1.0,
-                wishes.depth,
+                requested.depth,
                 draught * preset.depth_draught,
                 &of("D/T"),
                 (0.0, length),
@@ -107,8 +107,8 @@ impl Resolved {
 
         // Coefficients.
         let box_volume = length * breadth * draught;
-        let by_volume = wishes.displacement_volume.map(|v| v / box_volume);
-        if let (Some(given), Some(implied)) = (wishes.block_coefficient, by_volume)
+        let by_volume = requested.displacement_volume.map(|v| v / box_volume);
+        if let (Some(given), Some(implied)) = (requested.block_coefficient, by_volume)
             && (given / implied - 1.0).abs() > 1e-3
         {
             book.problem(
@@ -128,24 +128,24 @@ impl Resolved {
             "block coefficient",
             "-",
             1.0,
-            by_volume.or(wishes.block_coefficient),
+            by_volume.or(requested.block_coefficient),
             preset.block[0],
             &label,
             (0.15, 0.98),
         );
         let regression = |formula: &str| (formula.to_owned(), Origin::Preset);
-        let (wish, (source, origin)) = match wishes.midship_coefficient {
-            Some(MidshipWish::Value(value)) => (value, (String::new(), Origin::Given)),
-            Some(MidshipWish::Kerlen) => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
-            Some(MidshipWish::Hsva) => (midship_hsva(block.value), regression("HSVA: 1 / (1 + (1 - Cb)^3.5)")),
-            Some(MidshipWish::Benford) => {
+        let (value, (source, origin)) = match requested.midship_coefficient {
+            Some(MidshipTarget::Value(value)) => (value, (String::new(), Origin::Given)),
+            Some(MidshipTarget::Kerlen) => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
+            Some(MidshipTarget::Hsva) => (midship_hsva(block.value), regression("HSVA: 1 / (1 + (1 - Cb)^3.5)")),
+            Some(MidshipTarget::Benford) => {
                 (midship_benford(block.value), regression("Benford: 0.977 + 0.085 (Cb - 0.60)"))
             }
             None if typed => (preset.midship, (label.clone(), Origin::Preset)),
             None => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
         };
-        let given = (origin == Origin::Given).then_some(wish);
-        let midship = book.take("Cm", "midship section coefficient", "-", 1.0, given, wish, &source, (0.4, 0.9999));
+        let given = (origin == Origin::Given).then_some(value);
+        let midship = book.take("Cm", "midship section coefficient", "-", 1.0, given, value, &source, (0.4, 0.9999));
         let prismatic = block.value / midship.value;
         if prismatic >= 1.0 {
             book.problem(
@@ -170,7 +170,7 @@ impl Resolved {
             "centre of buoyancy forward of AP",
             "m",
             1.0,
-            wishes.lcb,
+            requested.lcb,
             length * (0.5 + default_lcb / 100.0),
             &lcb_source,
             (0.0, length),
@@ -189,7 +189,7 @@ impl Resolved {
             "waterplane coefficient",
             "-",
             1.0,
-            wishes.waterplane_coefficient,
+            requested.waterplane_coefficient,
             formula,
             "(1 + 2 Cb / sqrt(Cm)) / 3 (Schneekluth & Bertram 1998)",
             (0.2, 0.9999),
@@ -216,13 +216,13 @@ impl Resolved {
                     "breadth of the flat keel",
                     "m",
                     1.0,
-                    wishes.keel_breadth,
+                    requested.keel_breadth,
                     preset.keel * breadth,
                     &label,
                     (0.0, 0.9 * breadth),
                 )
                 .value;
-        if let Some(radius) = wishes.bilge_radius {
+        if let Some(radius) = requested.bilge_radius {
             book.take(
                 "bilge_radius",
                 "bilge radius",
@@ -234,20 +234,20 @@ impl Resolved {
                 (1e-3 * draught, draught.min(0.5 * breadth)),
             );
         }
-        if let Some(deadrise) = wishes.deadrise {
+        if let Some(deadrise) = requested.deadrise {
             book.take("deadrise", "rise of floor", "deg", 1f64.to_degrees(), Some(deadrise), deadrise, "", (0.0, 60.0));
         }
-        let section = midship_section(&mut book, wishes, 0.5 * breadth, draught, keel, midship);
+        let section = midship_section(&mut book, requested, 0.5 * breadth, draught, keel, midship);
 
         // Ends.
-        let (fore_shoulder, aft_shoulder) = shoulders(&mut book, wishes, length);
+        let (fore_shoulder, aft_shoulder) = shoulders(&mut book, requested, length);
         let rake = book
             .take(
                 "rake",
                 "rake of the stem at and above the design waterline",
                 "deg",
                 1f64.to_degrees(),
-                wishes.stem_rake,
+                requested.stem_rake,
                 preset.stem_rake_deg.to_radians(),
                 &label,
                 (0.0, 75.0),
@@ -260,7 +260,7 @@ impl Resolved {
                 "stem at the keel aft of FP",
                 "m",
                 1.0,
-                wishes.forefoot,
+                requested.forefoot,
                 raked + preset.forefoot * length,
                 &label,
                 (0.0, 0.4 * length),
@@ -273,8 +273,8 @@ impl Resolved {
                 format!("a stem raked {:.1} deg at the waterline cannot end {forefoot:.3} m aft of FP on the keel: at least {:.3} m", rake.to_degrees(), 2.0 / 3.0 * raked),
             );
         }
-        let transom = wishes.transom_breadth.is_none_or(|t| t > 0.0);
-        let transom_breadth = wishes.transom_breadth.filter(|t| *t > 0.0);
+        let transom = requested.transom_breadth.is_none_or(|t| t > 0.0);
+        let transom_breadth = requested.transom_breadth.filter(|t| *t > 0.0);
         if let Some(t) = transom_breadth {
             book.take(
                 "transom_beam",
@@ -294,7 +294,7 @@ impl Resolved {
                 "lowest point of the transom",
                 "m",
                 1.0,
-                wishes.transom_height,
+                requested.transom_height,
                 (preset.transom_height * draught).min(0.5 * (draught + depth)),
                 &label,
                 (0.05 * draught, depth),
@@ -305,7 +305,7 @@ impl Resolved {
                     "transom aft of AP",
                     "m",
                     1.0,
-                    wishes.stern_overhang,
+                    requested.stern_overhang,
                     preset.overhang * length,
                     &label,
                     (-0.2 * length, 0.3 * length),
@@ -317,13 +317,13 @@ impl Resolved {
             "start of the rise of the keel",
             "m",
             1.0,
-            wishes.cut_up,
+            requested.cut_up,
             preset.cut_up * length,
             &label,
             (-overhang, 0.48 * length),
         );
         let sweep = if transom_breadth.is_some() { 1.0 } else { preset.sweep };
-        if let Some(flare) = wishes.flare {
+        if let Some(flare) = requested.flare {
             book.take(
                 "flare",
                 "mean flare between waterline and deck at 0.9 Lpp",
@@ -342,7 +342,7 @@ impl Resolved {
                     "sheer at FP",
                     "m",
                     1.0,
-                    wishes.sheer_fore,
+                    requested.sheer_fore,
                     preset.sheer[0] * length,
                     &label,
                     (0.0, depth),
@@ -354,14 +354,14 @@ impl Resolved {
                     "sheer at AP",
                     "m",
                     1.0,
-                    wishes.sheer_aft,
+                    requested.sheer_aft,
                     preset.sheer[1] * length,
                     &label,
                     (0.0, depth),
                 )
                 .value,
         };
-        let half_entrance = wishes.maximum_half_entrance.map_or(open, |limit| {
+        let half_entrance = requested.maximum_half_entrance.map_or(open, |limit| {
             book.take(
                 "entrance_half_angle_max",
                 "largest half angle of entrance",
@@ -380,7 +380,7 @@ impl Resolved {
                 "vertical law: 0 linear, + U sections, - V",
                 "-",
                 1.0,
-                wishes.section_character,
+                requested.section_character,
                 preset.section_character,
                 &label,
                 (-4.0, 8.0),
@@ -409,7 +409,7 @@ impl Resolved {
                 overhang,
                 cut_up,
                 sweep,
-                flare: wishes.flare,
+                flare: requested.flare,
                 sheer,
                 half_entrance,
                 character,

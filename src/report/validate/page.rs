@@ -54,7 +54,7 @@ fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
-/// The table and what is said about the cases, as Markdown.
+/// The table and the remarks on the cases, as Markdown.
 #[must_use]
 pub fn validation_page(cases: &[Case]) -> String {
     let mut page = String::new();

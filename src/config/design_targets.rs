@@ -1,4 +1,4 @@
-//! The wishes of a design for the hull of the family `cosh`, in metres and radians.
+//! The design targets for the hull of the family `cosh`, in metres and radians.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use super::document::{Document, Raw};
 use super::keys::{Kind, preset_of};
 use super::value::{Scalar, expected};
 use crate::parametric::ShipType;
-use crate::parametric::cosh::{MidshipWish, Wishes};
+use crate::parametric::cosh::{DesignTargets, MidshipTarget};
 use crate::units::{self, Dimension, Measure};
 
-pub(super) fn wishes(document: &mut Document<'_>, density: f64, complain: bool) -> Wishes {
+pub(super) fn design_targets(document: &mut Document<'_>, density: f64, complain: bool) -> DesignTargets {
     if complain {
         super::design::require(document, &["dimensions.Lpp"], "the length is the least that a design says");
     }
@@ -18,7 +18,7 @@ pub(super) fn wishes(document: &mut Document<'_>, density: f64, complain: bool) 
     let (breadth, draught, depth) =
         (document.number("dimensions.B"), document.number("dimensions.T"), document.number("dimensions.D"));
     let (block, volume) = size(document, [Some(length), breadth, draught], density);
-    let mut wishes = Wishes {
+    let mut requested = DesignTargets {
         ship_type: preset.and_then(|word| ShipType::ALL.into_iter().find(|t| t.as_str() == preset_of(word))),
         length,
         breadth,
@@ -26,41 +26,42 @@ pub(super) fn wishes(document: &mut Document<'_>, density: f64, complain: bool) 
         depth,
         block_coefficient: block,
         displacement_volume: volume,
-        ..Wishes::default()
+        ..DesignTargets::default()
     };
-    wishes.midship_coefficient = document.number_or_word("form.Cm").map(|cm| match cm {
-        Scalar::Word("kerlen") => MidshipWish::Kerlen,
-        Scalar::Word("hsva") => MidshipWish::Hsva,
-        Scalar::Word(_) => MidshipWish::Benford,
-        Scalar::Measure(number) => MidshipWish::Value(number.value),
+    requested.midship_coefficient = document.number_or_word("form.Cm").map(|cm| match cm {
+        Scalar::Word("kerlen") => MidshipTarget::Kerlen,
+        Scalar::Word("hsva") => MidshipTarget::Hsva,
+        Scalar::Word(_) => MidshipTarget::Benford,
+        Scalar::Measure(number) => MidshipTarget::Value(number.value),
     });
-    wishes.lcb = centre_of_buoyancy(document, length);
-    wishes.waterplane_coefficient = match document.number_or_word("form.Cwp") {
+    requested.lcb = centre_of_buoyancy(document, length);
+    requested.waterplane_coefficient = match document.number_or_word("form.Cwp") {
         Some(Scalar::Measure(number)) => Some(number.value),
         _ => None,
     };
-    wishes.parallel_body = document.interval("form.parallel_body").map(|ends| ends.map(|fraction| fraction * length));
-    wishes.entrance_length = document.number("form.entrance_length");
-    wishes.run_length = document.number("form.run_length");
-    lengths_add_up(document, &wishes);
-    wishes.bilge_radius = document.number("form.bilge_radius");
-    wishes.deadrise = document.number("form.deadrise");
-    wishes.keel_breadth = document.number("form.keel_breadth");
-    wishes.section_character = document.number("form.section_character");
-    wishes.stem_rake = document.number("form.bow.rake");
-    wishes.forefoot = document.number("form.bow.forefoot");
-    wishes.maximum_half_entrance = document.number("form.bow.entrance_half_angle_max");
-    wishes.flare = document.number("form.bow.flare");
-    wishes.transom_breadth = scaled(document, "form.stern.transom_beam", breadth, "B").map(|beam| match breadth {
+    requested.parallel_body =
+        document.interval("form.parallel_body").map(|ends| ends.map(|fraction| fraction * length));
+    requested.entrance_length = document.number("form.entrance_length");
+    requested.run_length = document.number("form.run_length");
+    lengths_add_up(document, &requested);
+    requested.bilge_radius = document.number("form.bilge_radius");
+    requested.deadrise = document.number("form.deadrise");
+    requested.keel_breadth = document.number("form.keel_breadth");
+    requested.section_character = document.number("form.section_character");
+    requested.stem_rake = document.number("form.bow.rake");
+    requested.forefoot = document.number("form.bow.forefoot");
+    requested.maximum_half_entrance = document.number("form.bow.entrance_half_angle_max");
+    requested.flare = document.number("form.bow.flare");
+    requested.transom_breadth = scaled(document, "form.stern.transom_beam", breadth, "B").map(|beam| match breadth {
         Some(b) => beam / b,
         None => beam,
     });
-    wishes.transom_height = transom(document, draught, depth);
-    wishes.stern_overhang = document.number("form.stern.overhang");
-    wishes.cut_up = scaled(document, "form.stern.cut_up", Some(length), "Lpp");
-    wishes.sheer_fore = document.number("form.deck.sheer_fore");
-    wishes.sheer_aft = document.number("form.deck.sheer_aft");
-    wishes
+    requested.transom_height = transom(document, draught, depth);
+    requested.stern_overhang = document.number("form.stern.overhang");
+    requested.cut_up = scaled(document, "form.stern.cut_up", Some(length), "Lpp");
+    requested.sheer_fore = document.number("form.deck.sheer_fore");
+    requested.sheer_aft = document.number("form.deck.sheer_aft");
+    requested
 }
 
 /// Cb and displaced volume \[m^3\]; when both are given with L, B and T they must agree to 0.1 %.
@@ -98,7 +99,7 @@ fn centre_of_buoyancy(document: &mut Document<'_>, length: f64) -> Option<f64> {
             "E123",
             path,
             &span,
-            format!("{path} is {}, and its unit is not said", raw.describe()),
+            format!("{path} is {}, and its unit is missing", raw.describe()),
             "Write \"+0.8 %\" (of Lpp from midship, + forward) or \"41.0 m AP\".".into(),
         );
         return None;
@@ -147,17 +148,17 @@ pub(super) fn position_along(
 }
 
 /// Entrance, parallel body and run must make up Lpp.
-fn lengths_add_up(document: &mut Document<'_>, wishes: &Wishes) {
-    let length = wishes.length;
+fn lengths_add_up(document: &mut Document<'_>, requested: &DesignTargets) {
+    let length = requested.length;
     let mut sum = Vec::new();
-    let parallel = wishes.parallel_body.map(|[from, to]| to - from);
-    if let Some(run) = wishes.run_length {
+    let parallel = requested.parallel_body.map(|[from, to]| to - from);
+    if let Some(run) = requested.run_length {
         sum.push(("run", run));
     }
     if let Some(parallel) = parallel {
         sum.push(("parallel body", parallel));
     }
-    if let Some(entrance) = wishes.entrance_length {
+    if let Some(entrance) = requested.entrance_length {
         sum.push(("entrance", entrance));
     }
     let total: f64 = sum.iter().map(|(_, part)| part).sum();
@@ -188,10 +189,10 @@ fn lengths_add_up(document: &mut Document<'_>, wishes: &Wishes) {
             format!("{words} = {total:.3} m is more than Lpp {length:.3} m"),
             format!("They may have {length:.3} m together."),
         );
-    } else if let (Some([from, to]), true) = (wishes.parallel_body, sum.len() == 2) {
+    } else if let (Some([from, to]), true) = (requested.parallel_body, sum.len() == 2) {
         for (path, given, meant) in [
-            ("form.run_length", wishes.run_length, from),
-            ("form.entrance_length", wishes.entrance_length, length - to),
+            ("form.run_length", requested.run_length, from),
+            ("form.entrance_length", requested.entrance_length, length - to),
         ] {
             if let (Some(given), Some(span)) = (given, document.entry(path).map(|e| e.key_span.clone()))
                 && (given - meant).abs() > slack
@@ -272,9 +273,9 @@ mod tests {
     use super::*;
     use crate::parametric::Family;
 
-    fn cosh(text: &str) -> Wishes {
+    fn cosh(text: &str) -> DesignTargets {
         match read("a/coaster.toml", text).unwrap_or_else(|e| panic!("{e:#?}")).family {
-            Family::Cosh(wishes) => *wishes,
+            Family::Cosh(requested) => *requested,
             other => panic!("{other:?}"),
         }
     }
@@ -285,22 +286,22 @@ mod tests {
 
     #[test]
     fn units_and_fractions_become_metres_and_radians() {
-        let wishes = cosh(
+        let requested = cosh(
             "[DIMENSIONS]\nlpp = \"80 m\"\nb = 13.2\nT = \"5200 mm\"\nd = 7\n[form]\nCB = 0.72\nCm = \"Kerlen\"\nLCB = \"+0.8 %\"\n\
              Cwp = \"auto\"\nparallel_body = [0.42, \"58 %\"]\n[form.bow]\nrake = 12\nflare = \"0.2 rad\"\n\
              [form.stern]\ntransom_beam = \"6.6 m\"\ntransom_height = 0.5\ncut_up = 0.125",
         );
-        close(Some(wishes.length), 80.0);
-        close(wishes.draught, 5.2);
-        close(wishes.lcb, 40.64);
-        close(wishes.parallel_body.map(|p| p[1]), 46.4);
-        close(wishes.stem_rake, 12f64.to_radians());
-        close(wishes.flare, 0.2);
-        close(wishes.transom_breadth, 0.5);
-        close(wishes.transom_height, 3.5);
-        close(wishes.cut_up, 10.0);
-        assert_eq!(wishes.midship_coefficient, Some(MidshipWish::Kerlen));
-        assert_eq!(wishes.waterplane_coefficient, None);
+        close(Some(requested.length), 80.0);
+        close(requested.draught, 5.2);
+        close(requested.lcb, 40.64);
+        close(requested.parallel_body.map(|p| p[1]), 46.4);
+        close(requested.stem_rake, 12f64.to_radians());
+        close(requested.flare, 0.2);
+        close(requested.transom_breadth, 0.5);
+        close(requested.transom_height, 3.5);
+        close(requested.cut_up, 10.0);
+        assert_eq!(requested.midship_coefficient, Some(MidshipTarget::Kerlen));
+        assert_eq!(requested.waterplane_coefficient, None);
     }
 
     #[test]
