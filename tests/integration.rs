@@ -45,3 +45,4 @@ mod text_formats;
 mod truth;
 mod truth_hulls;
 mod validation;
+mod words;
