@@ -3,7 +3,7 @@
 use loftsman::hull::{Functional, Hull};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm};
 use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
-use loftsman::parametric::{Generated, Infeasible, Origin, ShipType, analytic, ucl_cosh};
+use loftsman::parametric::{Generated, Infeasible, ShipType, ValueOrigin, analytic, ucl_cosh};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -150,9 +150,9 @@ fn examples_hit_their_coefficients_and_are_ships() {
             let count = inflections(&generated.hull, v, 5e-3);
             assert!(count <= 2, "{label}: {count} inflections at v {v}; the family has at most one an end");
         }
-        let asked = generated.values.iter().filter(|v| v.origin == Origin::Given).count();
-        assert!(asked >= 1 && generated.values.iter().any(|v| v.origin == Origin::Solved), "{label}");
-        assert!(generated.values.iter().all(|v| v.origin == Origin::Given || !v.source.is_empty()), "{label}");
+        let asked = generated.values.iter().filter(|v| v.origin == ValueOrigin::Given).count();
+        assert!(asked >= 1 && generated.values.iter().any(|v| v.origin == ValueOrigin::Solved), "{label}");
+        assert!(generated.values.iter().all(|v| v.origin == ValueOrigin::Given || !v.source.is_empty()), "{label}");
     }
 }
 

@@ -47,12 +47,12 @@ pub struct Design {
     /// Published figures to stand beside those of the hull.
     pub reference: Option<Reference>,
     file: String,
-    places: Vec<Place>,
-    tables: Vec<Place>,
+    places: Vec<KeyPosition>,
+    tables: Vec<KeyPosition>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Place {
+struct KeyPosition {
     path: String,
     line: usize,
     column: usize,
@@ -82,7 +82,7 @@ impl Design {
         let place = keys.iter().find_map(|key| self.place(key)).or(preset).or_else(|| {
             let tables = keys.iter().filter_map(|key| KEYS.iter().find(|k| k.name == *key)).map(|k| k.table);
             // The table of the key, or the one that holds it.
-            let holds = |t: &&Place, table: &str| table == t.path || table.starts_with(&format!("{}.", t.path));
+            let holds = |t: &&KeyPosition, table: &str| table == t.path || table.starts_with(&format!("{}.", t.path));
             tables.filter_map(|table| self.tables.iter().rev().find(|t| holds(t, table))).next()
         });
         let absent: Vec<&str> = keys.iter().filter(|key| self.place(key).is_none()).copied().collect();
@@ -118,7 +118,7 @@ impl Design {
     }
 
     /// The place of a key, named by its path or by its last word, or of the other key that says the same thing.
-    fn place(&self, key: &str) -> Option<&Place> {
+    fn place(&self, key: &str) -> Option<&KeyPosition> {
         let named = |key: &str| {
             let word = last_word(key);
             self.places
@@ -216,7 +216,7 @@ fn interpret(document: &mut Document<'_>) -> Design {
     let reference = reference(document);
     let place = |path: String, byte: usize| {
         let (line, column) = position(document.text, byte);
-        Place { path, line, column }
+        KeyPosition { path, line, column }
     };
     let places = document.entries.iter().map(|entry| place(entry.key.path(), entry.key_span.start)).collect();
     let tables = document.tables.iter().map(|(path, byte)| place(path.clone(), *byte)).collect();

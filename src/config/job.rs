@@ -15,19 +15,19 @@
 
 mod hold;
 mod keys;
-mod place;
+mod location;
 mod ranges;
 mod shape;
-mod spot;
+mod table_ref;
 
 use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::RENAMED;
-pub use place::Place;
+pub use location::Location;
 use ranges::{anisotropy, density, positive, price, weight};
-pub use shape::RuleMark;
-pub use spot::{Mark, Spot};
+pub use shape::RuleEntry;
+pub use table_ref::{TableItem, TableRef};
 
 use super::diagnostic::Diagnostic;
 use super::document::{Document, Raw};
@@ -55,23 +55,23 @@ pub struct JobFile {
     /// Tolerance of all offsets \[m\].
     pub tolerance: Option<f64>,
     /// Tolerances of single lines and cells \[m\].
-    pub tolerances: Vec<(Mark, f64)>,
+    pub tolerances: Vec<(TableRef, f64)>,
     /// What does not move.
-    pub locks: Vec<Mark>,
+    pub locks: Vec<TableRef>,
     /// What is held, or left free.
     pub hold: Vec<(Quantity, Target)>,
     /// Height of the centre of gravity \[m\].
     pub gravity: Option<f64>,
     /// Rules for lines and regions.
-    pub rules: Vec<RuleMark>,
+    pub rules: Vec<RuleEntry>,
     /// Knuckles and tangent lines.
-    pub lines: Vec<RuleMark>,
+    pub lines: Vec<RuleEntry>,
     /// Which proposed lines are taken.
     pub accepted: Option<Accepted>,
     /// Section areas: x \[m\], area and band \[m^2\].
-    pub section_areas: Vec<([f64; 3], Place)>,
+    pub section_areas: Vec<([f64; 3], Location)>,
     /// Where more of them are from.
-    pub section_area_curve: Option<(AreaCurve, Place)>,
+    pub section_area_curve: Option<(AreaCurve, Location)>,
     /// The band of those that have none of their own \[m^2\].
     pub section_area_band: f64,
     /// Whether suspects are left out.
@@ -87,7 +87,7 @@ pub struct JobFile {
     /// `energy.exact_bending`.
     pub bending: Option<bool>,
     /// Where the values of the keys stand; of a key that is given twice the last counts.
-    places: Vec<Place>,
+    places: Vec<Location>,
 }
 
 /// Where the areas of a sectional-area curve are from.
@@ -102,7 +102,7 @@ pub enum AreaCurve {
 impl JobFile {
     /// The file of section areas, with the place that names it.
     #[must_use]
-    pub fn area_file(&self) -> Option<(&str, &Place)> {
+    pub fn area_file(&self) -> Option<(&str, &Location)> {
         match &self.section_area_curve {
             Some((AreaCurve::File(file), place)) => Some((file, place)),
             _ => None,
@@ -150,7 +150,7 @@ pub fn read_option(option: &str, key: &str, value: &str) -> Result<JobFile, Vec<
         .map(|mut job| {
             let rules = job.rules.iter_mut().chain(&mut job.lines).map(|rule| &mut rule.place);
             let locks = job.locks.iter_mut().map(|lock| &mut lock.place);
-            rules.chain(locks).chain(&mut job.places).for_each(Place::of_option);
+            rules.chain(locks).chain(&mut job.places).for_each(Location::of_option);
             job
         })
         .map_err(|problems| {
@@ -179,10 +179,10 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         price: price(document),
         true_curvature: document.switch("energy.true_curvature"),
         bending: document.switch("energy.exact_bending"),
-        places: document.entries.iter().map(|e| Place::new(document, &e.key.path(), e.span.start)).collect(),
+        places: document.entries.iter().map(|e| Location::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };
-    spot::read(document, &mut job);
+    table_ref::read(document, &mut job);
     hold::read(document, &mut job);
     shape::read(document, &mut job);
     job
@@ -250,28 +250,28 @@ impl JobFile {
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);
         let mut problems = Vec::new();
-        let mut named: Vec<(Spot, f64)> = Vec::new();
+        let mut named: Vec<(TableItem, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
             let found = mark.find(table);
-            if let Ok(spot) = &found {
+            if let Ok(item) = &found {
                 match named
                     .iter()
-                    .find(|(other, other_tolerance)| other == spot && (other_tolerance - tolerance).abs() > 0.0)
+                    .find(|(other, other_tolerance)| other == item && (other_tolerance - tolerance).abs() > 0.0)
                 {
                     Some((_, other)) => problems.push(mark.named_twice(*other, *tolerance)),
-                    None => named.push((*spot, *tolerance)),
+                    None => named.push((*item, *tolerance)),
                 }
             }
             match found {
-                Ok(Spot::Station(station)) => job.tolerance.stations.push((station, *tolerance)),
-                Ok(Spot::Waterline(waterline)) => job.tolerance.waterlines.push((waterline, *tolerance)),
-                Ok(Spot::Cell(station, waterline)) => job.tolerance.cells.push((station, waterline, *tolerance)),
+                Ok(TableItem::Station(station)) => job.tolerance.stations.push((station, *tolerance)),
+                Ok(TableItem::Waterline(waterline)) => job.tolerance.waterlines.push((waterline, *tolerance)),
+                Ok(TableItem::Cell(station, waterline)) => job.tolerance.cells.push((station, waterline, *tolerance)),
                 Err(problem) => problems.push(*problem),
             }
         }
         for mark in &self.locks {
             match mark.find(table) {
-                Ok(spot) => job.locked.extend(spot.cells(table)),
+                Ok(item) => job.locked.extend(item.cells(table)),
                 Err(problem) => problems.push(*problem),
             }
         }
@@ -319,15 +319,15 @@ impl JobFile {
 
     /// Where a key stands, by its path.
     #[must_use]
-    pub fn place(&self, key: &str) -> Option<&Place> {
+    pub fn place(&self, key: &str) -> Option<&Location> {
         self.places.iter().rev().find(|place| place.key == key)
     }
 
     /// Where it names a target; none for targets that are held by default.
     #[must_use]
-    pub fn place_of(&self, constraint: &Constraint) -> Option<&Place> {
+    pub fn place_of(&self, constraint: &Constraint) -> Option<&Location> {
         if let Constraint::SectionArea { x, .. } = constraint {
-            let same = |(area, _): &&([f64; 3], Place)| area[0].total_cmp(x).is_eq();
+            let same = |(area, _): &&([f64; 3], Location)| area[0].total_cmp(x).is_eq();
             let row = self.section_areas.iter().find(same).map(|(_, place)| place);
             return row.or(self.section_area_curve.as_ref().map(|(_, place)| place));
         }

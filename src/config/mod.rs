@@ -18,7 +18,7 @@ mod value;
 
 pub use design::{Design, Output, read};
 pub use diagnostic::{Diagnostic, Severity};
-pub use job::{JOB_KEYS, JobFile, Mark, Place, Quantity, RuleMark, Spot, Target, read_job, read_option};
+pub use job::{JOB_KEYS, JobFile, Location, Quantity, RuleEntry, TableItem, TableRef, Target, read_job, read_option};
 pub use keys::{FAMILIES, FIGURES, KEYS, Key, Kind, PRESET_ALIASES};
 pub use method::{METHOD_KEYS, METHODS, MethodFile, read_method};
 pub use reference::{Reference, ReferenceRow};

@@ -49,5 +49,5 @@ pub use particulars::PrincipalParticulars;
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
 pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};
-pub use table_form::{Kept, Order, Origin, Program, Rows, SideKind, SideLine, TableForm, TableLayout};
+pub use table_form::{Kept, Order, Program, Rows, SideKind, SideLine, StationDatum, TableForm, TableLayout};
 pub use triangles::{MeshLine, TriangleMesh, triangle_area};

@@ -54,7 +54,7 @@ pub enum Order {
 
 /// From where the positions of stations are written.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Origin {
+pub enum StationDatum {
     /// x is what is written, in the unit of positions.
     #[default]
     Lengths,
@@ -165,7 +165,7 @@ pub struct TableForm {
     /// Unit of heights.
     pub z_notation: Notation,
     /// From where the positions of stations are written.
-    pub origin: Origin,
+    pub origin: StationDatum,
     /// Lines before the table: titles and comments, as they stand.
     pub preamble: Vec<String>,
     /// The field where the headers cross; none when it is to be made.
@@ -207,7 +207,7 @@ impl Default for TableForm {
             negative: false,
             x_notation: Notation::Metres,
             z_notation: Notation::Metres,
-            origin: Origin::Lengths,
+            origin: StationDatum::Lengths,
             preamble: Vec::new(),
             corner: None,
             station_heads: Vec::new(),

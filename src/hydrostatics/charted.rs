@@ -54,13 +54,13 @@ struct Strip {
 
 /// A point of the surface with its derivatives, each (x, y, z).
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct SurfacePoint {
     at: [f64; 3],
     along: [f64; 3],
     up: [f64; 3],
 }
 
-impl Point {
+impl SurfacePoint {
     fn jacobian(&self) -> f64 {
         self.along[0] * self.up[2] - self.up[0] * self.along[2]
     }
@@ -98,7 +98,7 @@ fn collapse(hull: &Hull, span: usize, u: f64, range: std::ops::Range<usize>, col
     }
 }
 
-fn point<const N: usize>(node: &Node<N>, columns: &Columns) -> Point {
+fn point<const N: usize>(node: &Node<N>, columns: &Columns) -> SurfacePoint {
     let (mut value, mut up) = ([0.0; 6], [0.0; 3]);
     for ((column, b), d) in columns[node.first..node.first + N].iter().zip(&node.value).zip(&node.slope) {
         for (sum, c) in value.iter_mut().zip(column) {
@@ -109,11 +109,11 @@ fn point<const N: usize>(node: &Node<N>, columns: &Columns) -> Point {
         }
     }
     let [x, y, z, xu, yu, zu] = value;
-    Point { at: [x, y, z], along: [xu, yu, zu], up }
+    SurfacePoint { at: [x, y, z], along: [xu, yu, zu], up }
 }
 
 /// Adds what a point with the weight `weight` adds.
-fn take(sums: &mut Sums, p: &Point, weight: f64) {
+fn take(sums: &mut Sums, p: &SurfacePoint, weight: f64) {
     let (profile, [x, y, z]) = (weight * p.jacobian(), p.at);
     let volume = 2.0 * profile * y;
     let added = [volume, volume * x, volume * z, profile, profile * x, profile * z, 2.0 * weight * p.skin()];

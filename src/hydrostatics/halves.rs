@@ -4,7 +4,7 @@
 //! int z_v int_(u_0)^(u_m(v)) y x_u du dv with x(u_m(v), v) = L_PP / 2. The inner integral is exact span by span, the
 //! outer one an expansion along the station at midship, exact to rounding.
 
-use super::station::{Place, Stations};
+use super::station::{StationSpan, Stations};
 use crate::hull::{Hull, Immersion};
 use crate::numeric::gauss_legendre;
 use crate::spline::MAX_DEGREE;
@@ -24,9 +24,9 @@ pub(super) fn volumes_to_midship<const N: usize>(
     let mut at = (f64::NAN, 0.0);
     let expansion = stations.expansion(&pieces, true, midship.abs() * stations.size, |piece, node| {
         let u = match piece.place {
-            Place::Aft => knots.domain().0,
-            Place::Fore => knots.domain().1,
-            Place::Inside(_) => {
+            StationSpan::Aft => knots.domain().0,
+            StationSpan::Fore => knots.domain().1,
+            StationSpan::Inside(_) => {
                 if at.0.to_bits() != piece.from.to_bits() {
                     at = (piece.from, piece.start);
                 }

@@ -13,7 +13,7 @@
 //! seen.
 
 use super::expansion::Expansion;
-use super::station::{Place, Stations};
+use super::station::{StationSpan, Stations};
 use crate::hull::{Hull, Immersion};
 
 /// Sections equal to the largest one within this relative difference belong to the parallel middle body.
@@ -134,7 +134,7 @@ impl<'a, const N: usize> Table<'a, N> {
 
     fn share(&self, x: f64, highest: f64) -> Shared {
         let mut pieces = self.stations.pieces(x, highest);
-        pieces.retain(|piece| matches!(piece.place, Place::Inside(_)));
+        pieces.retain(|piece| matches!(piece.place, StationSpan::Inside(_)));
         let mut at = (f64::NAN, 0.0);
         let expansion = self.stations.expansion(&pieces, false, self.stations.size, |piece, node| {
             if at.0.to_bits() != piece.from.to_bits() {
@@ -149,7 +149,7 @@ impl<'a, const N: usize> Table<'a, N> {
     fn exact(&self, x: f64, immersion: &Immersion) -> Sample {
         let end = immersion.section_end(x);
         let mut pieces = self.stations.pieces(x, end);
-        pieces.retain(|piece| matches!(piece.place, Place::Inside(_)));
+        pieces.retain(|piece| matches!(piece.place, StationSpan::Inside(_)));
         let mut at = (f64::NAN, 0.0);
         let [area, slope] = self.stations.integral(&pieces, |piece, node| {
             if at.0.to_bits() != piece.from.to_bits() {

@@ -36,7 +36,7 @@ const HALVINGS: usize = 12;
 
 /// Where a piece of the station lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum StationSpan {
     /// The station passes aft of the stern profile.
     Aft,
     /// In a span of u, by its number.
@@ -52,7 +52,7 @@ pub(super) struct Piece {
     pub(super) to: f64,
     /// Number of the span in v.
     pub(super) across: usize,
-    pub(super) place: Place,
+    pub(super) place: StationSpan,
     /// Local parameter in u, -1 to 1, near the station.
     pub(super) start: f64,
     /// Whether x depends on v.
@@ -72,7 +72,7 @@ struct Cell<const N: usize> {
 
 /// A point of a station.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct StationPoint {
     pub(super) u: f64,
     pub(super) y: f64,
     /// dz/dv along the station.
@@ -81,7 +81,7 @@ pub(super) struct Point {
     pub(super) growth: f64,
 }
 
-impl Point {
+impl StationPoint {
     const NONE: Self = Self { u: 0.0, y: 0.0, rise: 0.0, growth: 0.0 };
 
     /// What adds up over v to the area and to its growth along the hull, both sides.
@@ -269,7 +269,7 @@ impl<'a, const N: usize> Stations<'a, N> {
                 }
                 let (place, start) = self.locate(x, across, 0.5 * (from + to));
                 let (mut slanting, mut profile) = (false, false);
-                if let Place::Inside(k) = place {
+                if let StationSpan::Inside(k) = place {
                     slanting = self.cells[k * self.spans_v.len() + across].slanting;
                     profile = slanting && (k == 0 || k + 1 == self.spans_u.len());
                 }
@@ -282,7 +282,7 @@ impl<'a, const N: usize> Stations<'a, N> {
     }
 
     /// The span in u of the station at `v`, and the local parameter by linear interpolation.
-    fn locate(&self, x: f64, across: usize, v: f64) -> (Place, f64) {
+    fn locate(&self, x: f64, across: usize, v: f64) -> (StationSpan, f64) {
         let span = self.spans_v[across];
         let basis = self.hull.surface().v().basis(span, v);
         let at = |line: usize| self.lines.x(line, span + 1 - N, &basis[..N]);
@@ -290,10 +290,10 @@ impl<'a, const N: usize> Stations<'a, N> {
         let (stern, stem) = (at(0), at(last));
         let slack = 1e-12 * (stem - stern).abs().max(stern.abs()).max(stem.abs());
         if x < stern - slack {
-            return (Place::Aft, 0.0);
+            return (StationSpan::Aft, 0.0);
         }
         if x > stem + slack {
-            return (Place::Fore, 0.0);
+            return (StationSpan::Fore, 0.0);
         }
         let (mut low, mut high) = (0, last);
         let (mut below, mut above) = (stern, stem);
@@ -307,13 +307,13 @@ impl<'a, const N: usize> Stations<'a, N> {
             }
         }
         let share = if above > below { ((x - below) / (above - below)).clamp(0.0, 1.0) } else { 0.0 };
-        (Place::Inside(low), 2.0 * share - 1.0)
+        (StationSpan::Inside(low), 2.0 * share - 1.0)
     }
 
     /// The point of the station at `x` on the line of a node, searched from the local parameter `start`, which is moved
     /// there.
-    pub(super) fn point(&self, x: f64, piece: &Piece, node: &Node<N>, start: &mut f64) -> Point {
-        let Place::Inside(k) = piece.place else { return Point::NONE };
+    pub(super) fn point(&self, x: f64, piece: &Piece, node: &Node<N>, start: &mut f64) -> StationPoint {
+        let StationSpan::Inside(k) = piece.place else { return StationPoint::NONE };
         let number = k * self.spans_v.len() + piece.across;
         let cell = &self.cells[number];
         let [s, y, slope] = match self.hull.surface().u().degree() {
@@ -326,16 +326,16 @@ impl<'a, const N: usize> Stations<'a, N> {
         let (from, to) = self.spans_u[k];
         let u = 0.5 * ((1.0 - s) * from + (1.0 + s) * to);
         let Some(heights) = self.heights.get(number) else {
-            return Point { u, y, rise: node.rise, growth: node.rise * slope };
+            return StationPoint { u, y, rise: node.rise, growth: node.rise * slope };
         };
         let [x_along, x_up] = slopes(&cell.x, node, s);
         let [y_along, y_up] = slopes(&cell.y, node, s);
         let [z_along, z_up] = slopes(heights, node, s);
         if x_along <= 1e-300 {
-            return Point { u, y, rise: z_up, growth: 0.0 };
+            return StationPoint { u, y, rise: z_up, growth: 0.0 };
         }
         let lean = if cell.slanting { z_along * x_up / x_along } else { 0.0 };
-        Point { u, y, rise: z_up - lean, growth: (y_along * z_up - y_up * z_along) / x_along }
+        StationPoint { u, y, rise: z_up - lean, growth: (y_along * z_up - y_up * z_along) / x_along }
     }
 
     /// Integrand times dv/dt at the nodes of a part of a piece, and the largest of them.

@@ -95,7 +95,7 @@ struct Kind {
 
 /// Sums along a waterline.
 #[derive(Debug, Clone, Copy)]
-struct Line {
+struct WaterlineSums {
     area: f64,
     moment: f64,
     second: f64,
@@ -104,14 +104,14 @@ struct Line {
     greatest: [f64; 2],
 }
 
-impl Default for Line {
+impl Default for WaterlineSums {
     fn default() -> Self {
         let (least, greatest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         Self { area: 0.0, moment: 0.0, second: 0.0, transverse: 0.0, least, greatest }
     }
 }
 
-impl Line {
+impl WaterlineSums {
     fn add(&mut self, [a, b]: [[f64; 3]; 2]) {
         let ([x0, y0], [x1, y1]) = ([a[0], a[1]], [b[0], b[1]]);
         let dx = x1 - x0;
@@ -240,7 +240,7 @@ fn greatest(places: &[f64], values: &[f64]) -> Option<(f64, f64)> {
 /// What one pass over the triangles of a mesh gives for a draught.
 struct Sums {
     skin: Skin,
-    line: Line,
+    line: WaterlineSums,
     midship: f64,
     areas: Vec<f64>,
 }
@@ -250,7 +250,7 @@ fn sums(mesh: &TriangleMesh, levels: &[f64], places: &[f64], midship: f64) -> Ve
     let mut areas = Areas::new(places.to_vec(), levels);
     let mut middle = Areas::new(vec![midship], levels);
     let mut skins = vec![[Skin::default(); 2]; levels.len() + 1];
-    let mut lines = vec![Line::default(); levels.len()];
+    let mut lines = vec![WaterlineSums::default(); levels.len()];
     for corners in mesh.corners() {
         areas.add(corners);
         middle.add(corners);
@@ -290,7 +290,7 @@ impl Sums {
         skin.add(&finer.skin, 4.0 / 3.0);
         skin.add(&coarser.skin, -1.0 / 3.0);
         let (a, b) = (coarser.line, finer.line);
-        let line = Line {
+        let line = WaterlineSums {
             area: of(a.area, b.area),
             moment: of(a.moment, b.moment),
             second: of(a.second, b.second),
@@ -413,7 +413,7 @@ impl Skin {
     }
 }
 
-impl Line {
+impl WaterlineSums {
     fn waterplane(&self) -> Waterplane {
         if self.area <= 0.0 {
             return Waterplane::default();

@@ -124,7 +124,7 @@ pub(super) fn count_along(hull: &Hull) -> usize {
 
 /// Integrals in u at one node in v, one side.
 #[derive(Debug, Clone, Copy, Default)]
-struct Line {
+struct LineIntegrals {
     area: f64,
     moment: f64,
     skin: f64,
@@ -233,12 +233,12 @@ pub(super) fn bodies<const N: usize>(
 }
 
 /// The pass over the surface: integrals in u at every node; `aft` is the part of the area before the span `parting`.
-fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], parting: usize) -> Vec<Line> {
+fn pass<const N: usize>(hull: &Hull, nodes: &[Node<N>], parting: usize) -> Vec<LineIntegrals> {
     let knots = hull.surface().u();
     let count = count_along(hull);
     let mut columns = vec![[0.0; 4]; hull.surface().shape()[1]];
     let level = LEVEL_STRIP * (hull.top() - hull.bottom());
-    let mut lines = vec![Line::default(); nodes.len()];
+    let mut lines = vec![LineIntegrals::default(); nodes.len()];
     for span in knots.spans() {
         if span == parting {
             for line in &mut lines {
@@ -273,7 +273,7 @@ fn profile<const N: usize>(hull: &Hull, node: &Node<N>, row: usize) -> [f64; 3] 
 }
 
 /// What a node adds to the integrals, both sides.
-fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &Line) -> Body {
+fn contribution<const N: usize>(hull: &Hull, node: &Node<N>, line: &LineIntegrals) -> Body {
     let height = node.weight * node.rise;
     let [stern, breadth_aft, length_aft] = profile(hull, node, 0);
     let [stem, breadth_fore, length_fore] = profile(hull, node, hull.surface().shape()[0] - 1);

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::loft;
-use super::{DesignValue, Generated, Infeasible, Origin, Target};
+use super::{DesignValue, Generated, Infeasible, Target, ValueOrigin};
 use crate::hull::{Hull, HullError, PrincipalParticulars};
 use crate::spline::KnotVector;
 
@@ -91,7 +91,7 @@ impl Dimensions {
             name,
             value,
             unit: "m",
-            origin: Origin::Given,
+            origin: ValueOrigin::Given,
             source: String::new(),
         };
         let achieved = super::achieved(&hull);
@@ -105,7 +105,7 @@ impl Dimensions {
             targets: coefficients
                 .into_iter()
                 .zip(achieved)
-                .map(|((key, requested), achieved)| Target { key, requested, achieved, origin: Origin::Preset })
+                .map(|((key, requested), achieved)| Target { key, requested, achieved, origin: ValueOrigin::Preset })
                 .collect(),
             remarks: Vec::new(),
             hull,

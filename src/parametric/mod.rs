@@ -43,7 +43,7 @@ impl Family {
 
 /// Where a value came from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Origin {
+pub enum ValueOrigin {
     /// Written in the design.
     Given,
     /// Filled in from a preset or a formula.
@@ -52,7 +52,7 @@ pub enum Origin {
     Solved,
 }
 
-impl Origin {
+impl ValueOrigin {
     /// The word in files: `given`, `preset` or `solved`.
     #[must_use]
     pub fn as_str(self) -> &'static str {
@@ -76,7 +76,7 @@ pub struct DesignValue {
     /// Unit: `m`, `deg`, `-`, ...
     pub unit: &'static str,
     /// Where it came from.
-    pub origin: Origin,
+    pub origin: ValueOrigin,
     /// The formula or preset it came from, or what it was solved for; empty when given.
     pub source: String,
 }
@@ -91,7 +91,7 @@ pub struct Target {
     /// Value of the B-spline hull, integrated exactly.
     pub achieved: f64,
     /// Where the request came from.
-    pub origin: Origin,
+    pub origin: ValueOrigin,
 }
 
 /// An infeasible target, or a value outside its range.

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 
 use super::kernel::{Kernel, Shape};
 use super::loft;
-use super::{DesignValue, Generated, Infeasible, Origin};
+use super::{DesignValue, Generated, Infeasible, ValueOrigin};
 use crate::hull::PrincipalParticulars;
 use crate::spline::KnotVector;
 
@@ -54,10 +54,10 @@ pub struct Parameters {
 }
 
 /// Range of one raw parameter: key, words, value, lowest, highest.
-type Row = (&'static str, &'static str, f64, f64, f64);
+type ParameterRow = (&'static str, &'static str, f64, f64, f64);
 
 impl Parameters {
-    fn rows(&self) -> [Row; 13] {
+    fn rows(&self) -> [ParameterRow; 13] {
         let (least, most) = super::analytic::LENGTHS;
         [
             ("Lpp", "length overall", self.length, least, most),
@@ -243,7 +243,7 @@ pub fn generate(name: &str, parameters: &Parameters) -> Result<Generated, Vec<In
                 12 => "rad",
                 _ => "-",
             },
-            origin: Origin::Given,
+            origin: ValueOrigin::Given,
             source: String::new(),
         })
         .collect();

@@ -96,7 +96,7 @@ const FARTHEST: f64 = 3.0;
 const INSIDE: f64 = 0.86;
 
 /// A line with its offsets.
-struct Line<'a> {
+struct StripLine<'a> {
     name: String,
     cut: Cut,
     offsets: Vec<&'a Change>,
@@ -105,7 +105,7 @@ struct Line<'a> {
 }
 
 /// The lines that moved most, in their order on the ship.
-fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
+fn chosen(record: &FairRecord, along: Along) -> Vec<StripLine<'_>> {
     let count = if along == Along::Ship { record.lines.waterlines.len() } else { record.lines.stations.len() };
     let line = |k: usize| {
         let own = |change: &&Change| match along {
@@ -128,9 +128,9 @@ fn chosen(record: &FairRecord, along: Along) -> Vec<Line<'_>> {
                 (name, station_cut(record, station.x))
             }
         };
-        Line { name, cut, offsets, moves }
+        StripLine { name, cut, offsets, moves }
     };
-    let mut lines: Vec<(usize, Line<'_>)> =
+    let mut lines: Vec<(usize, StripLine<'_>)> =
         (0..count).map(|k| (k, line(k))).filter(|(_, line)| line.offsets.len() >= LEAST).collect();
     lines.sort_by(|a, b| b.1.moves[0].total_cmp(&a.1.moves[0]).then(a.0.cmp(&b.0)));
     lines.truncate(GRID[0] * GRID[1]);
@@ -206,7 +206,7 @@ impl Range {
 fn panel(
     canvas: &mut Canvas,
     record: &FairRecord,
-    (along, line): (Along, &Line<'_>),
+    (along, line): (Along, &StripLine<'_>),
     [before, after]: [Vec<&Comb>; 2],
     scale: CombScale,
     place: &Rectangle,
@@ -358,7 +358,7 @@ pub(super) fn figures_clear(
 }
 
 /// The surface through the table less the fair one along a line \[m, mm\], in runs below the deck.
-fn departures(record: &FairRecord, (along, line): (Along, &Line<'_>)) -> Vec<Vec<[f64; 2]>> {
+fn departures(record: &FairRecord, (along, line): (Along, &StripLine<'_>)) -> Vec<Vec<[f64; 2]>> {
     const STEPS: u32 = 160;
     let Some((first, last)) = line.offsets.first().zip(line.offsets.last()) else { return Vec::new() };
     let (from, to) = (along.place(first), along.place(last));
@@ -386,7 +386,7 @@ fn departures(record: &FairRecord, (along, line): (Along, &Line<'_>)) -> Vec<Vec
 fn deviations(
     canvas: &mut Canvas,
     record: &FairRecord,
-    (along, line): (Along, &Line<'_>),
+    (along, line): (Along, &StripLine<'_>),
     strip: &Rectangle,
     across: &Range,
 ) {

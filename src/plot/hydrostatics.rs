@@ -14,7 +14,7 @@ const TEXT: f64 = LEAST_LETTERS;
 
 type Value = fn(&Hydrostatics) -> Option<f64>;
 
-struct Line {
+struct CurveStyle {
     name: &'static str,
     secondary: bool,
     colour: [u8; 3],
@@ -28,7 +28,7 @@ struct Panel {
     top: Option<&'static str>,
     /// Whether the axis begins at zero.
     from_zero: bool,
-    lines: &'static [Line],
+    lines: &'static [CurveStyle],
 }
 
 const LONG: Option<[f64; 2]> = Some([3.2, 1.0]);
@@ -40,32 +40,32 @@ const PANELS: [Panel; 6] = {
     use colour::{BLACK, BLUE, GREEN, PURPLE, VERMILION};
     [
         Panel { bottom: "displacement mass Δ [t], volume ∇ [m³], moulded", top: None, from_zero: true, lines: &[
-            Line { name: "Δ", secondary: false, colour: BLACK, dash: None, name_at: 0.4, value: |r| Some(r.displacement_mass) },
-            Line { name: "∇", secondary: false, colour: BLUE, dash: LONG, name_at: 0.65, value: |r| Some(r.displacement_volume) },
+            CurveStyle { name: "Δ", secondary: false, colour: BLACK, dash: None, name_at: 0.4, value: |r| Some(r.displacement_mass) },
+            CurveStyle { name: "∇", secondary: false, colour: BLUE, dash: LONG, name_at: 0.65, value: |r| Some(r.displacement_volume) },
         ] },
         Panel { bottom: "LCB, LCF [m from AP]", top: Some("KB [m above base line]"), from_zero: false, lines: &[
-            Line { name: "LCB", secondary: false, colour: BLACK, dash: None, name_at: 0.7, value: |r| r.lcb },
-            Line { name: "LCF", secondary: false, colour: BLUE, dash: LONG, name_at: 0.5, value: |r| r.lcf },
-            Line { name: "KB", secondary: true, colour: VERMILION, dash: SHORT, name_at: 0.3, value: |r| r.kb },
+            CurveStyle { name: "LCB", secondary: false, colour: BLACK, dash: None, name_at: 0.7, value: |r| r.lcb },
+            CurveStyle { name: "LCF", secondary: false, colour: BLUE, dash: LONG, name_at: 0.5, value: |r| r.lcf },
+            CurveStyle { name: "KB", secondary: true, colour: VERMILION, dash: SHORT, name_at: 0.3, value: |r| r.kb },
         ] },
         Panel { bottom: "KM_T [m above base line]", top: Some("KM_L [m above base line]"), from_zero: false, lines: &[
-            Line { name: "KM_T", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| r.km_transverse },
-            Line { name: "KM_L", secondary: true, colour: BLUE, dash: LONG, name_at: 0.4, value: |r| r.km_longitudinal },
+            CurveStyle { name: "KM_T", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| r.km_transverse },
+            CurveStyle { name: "KM_L", secondary: true, colour: BLUE, dash: LONG, name_at: 0.4, value: |r| r.km_longitudinal },
         ] },
         Panel { bottom: "TPC [t/cm]", top: Some("MTC [t·m/cm]"), from_zero: true, lines: &[
-            Line { name: "TPC", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| Some(r.tonnes_per_centimetre) },
-            Line { name: "MTC", secondary: true, colour: VERMILION, dash: LONG, name_at: 0.35, value: |r| r.moment_to_change_trim },
+            CurveStyle { name: "TPC", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| Some(r.tonnes_per_centimetre) },
+            CurveStyle { name: "MTC", secondary: true, colour: VERMILION, dash: LONG, name_at: 0.35, value: |r| r.moment_to_change_trim },
         ] },
         Panel { bottom: "form coefficients [-]", top: None, from_zero: false, lines: &[
-            Line { name: "C_B", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| r.block_coefficient },
-            Line { name: "C_M", secondary: false, colour: VERMILION, dash: LONG, name_at: 0.35, value: |r| r.midship_coefficient },
-            Line { name: "C_X", secondary: false, colour: PURPLE, dash: DOTTED, name_at: 0.75, value: |r| r.maximum_section_coefficient },
-            Line { name: "C_P", secondary: false, colour: BLUE, dash: SHORT, name_at: 0.5, value: |r| r.prismatic_coefficient },
-            Line { name: "C_WP", secondary: false, colour: GREEN, dash: Some([4.5, 0.8]), name_at: 0.6, value: |r| r.waterplane_coefficient },
+            CurveStyle { name: "C_B", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| r.block_coefficient },
+            CurveStyle { name: "C_M", secondary: false, colour: VERMILION, dash: LONG, name_at: 0.35, value: |r| r.midship_coefficient },
+            CurveStyle { name: "C_X", secondary: false, colour: PURPLE, dash: DOTTED, name_at: 0.75, value: |r| r.maximum_section_coefficient },
+            CurveStyle { name: "C_P", secondary: false, colour: BLUE, dash: SHORT, name_at: 0.5, value: |r| r.prismatic_coefficient },
+            CurveStyle { name: "C_WP", secondary: false, colour: GREEN, dash: Some([4.5, 0.8]), name_at: 0.6, value: |r| r.waterplane_coefficient },
         ] },
         Panel { bottom: "waterplane area A_WL [m²], wetted surface S [m²]", top: None, from_zero: true, lines: &[
-            Line { name: "A_WL", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| Some(r.waterplane_area) },
-            Line { name: "S", secondary: false, colour: BLUE, dash: LONG, name_at: 0.5, value: |r| Some(r.wetted_surface) },
+            CurveStyle { name: "A_WL", secondary: false, colour: BLACK, dash: None, name_at: 0.5, value: |r| Some(r.waterplane_area) },
+            CurveStyle { name: "S", secondary: false, colour: BLUE, dash: LONG, name_at: 0.5, value: |r| Some(r.wetted_surface) },
         ] },
     ]
 };

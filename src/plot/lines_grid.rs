@@ -94,7 +94,7 @@ fn interval_name(number: f64) -> String {
 }
 
 /// A plane of the grid before it is cut: where it is, its name, its number, whether it is whole.
-type Mark = (f64, String, i32, bool);
+type PlannedPlane = (f64, String, i32, bool);
 
 /// Whether a station stands at a whole interval.
 fn is_whole(x: f64, spacing: f64) -> bool {
@@ -108,7 +108,7 @@ fn is_regular(lines: &TableLines, ends: [f64; 2], spacing: f64) -> bool {
 }
 
 /// The stations of a table between the ends of the hull.
-fn table_stations(lines: &TableLines, ends: [f64; 2], spacing: f64, numbers: StationNumbers) -> Vec<Mark> {
+fn table_stations(lines: &TableLines, ends: [f64; 2], spacing: f64, numbers: StationNumbers) -> Vec<PlannedPlane> {
     let slack = INSIDE * (ends[1] - ends[0]);
     let inside = |x: f64| x >= ends[0] - slack && x <= ends[1] + slack;
     let stations: Vec<_> = lines.stations.iter().filter(|station| inside(station.x)).collect();
@@ -186,7 +186,7 @@ impl LinesGrid {
     /// `deviation` [m] of them.
     pub(super) fn new(hull: &Hull, deviation: f64, numbers: StationNumbers, table: Option<&TableLines>) -> Self {
         let p = hull.particulars();
-        let marked = |(at, name, count, whole): Mark, cut: Cut| {
+        let marked = |(at, name, count, whole): PlannedPlane, cut: Cut| {
             let branches = hull.section(cut, TOLERANCE).branches;
             let on_side = branches.iter().take_while(|branch| branch.face == Face::Side).count();
             let curves = branches.iter().map(|b| b.polyline(deviation)).collect();
@@ -232,7 +232,7 @@ impl LinesGrid {
         });
         let known = known.filter(|heights| heights.len() >= FEWEST[1]);
         let has_waterlines = known.is_some();
-        let marks: Vec<Mark> = match known {
+        let marks: Vec<PlannedPlane> = match known {
             Some(heights) => {
                 let mark = |(k, z): (usize, f64)| (z, format!("WL {}", short(z)), k as i32, true);
                 heights.into_iter().enumerate().map(mark).collect()

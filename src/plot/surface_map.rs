@@ -167,7 +167,7 @@ impl SurfaceMapKind {
 type Ranges = Box<dyn Fn(f64, f64) -> Vec<[f64; 2]>>;
 
 /// A hull with its heading.
-struct Side<'a> {
+struct HeadedMap<'a> {
     heading: &'static str,
     map: &'a SurfaceMap,
 }
@@ -209,8 +209,9 @@ pub fn surface_map(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Svg, Plot
 
 pub(super) fn compose(maps: &SurfaceMaps, kind: SurfaceMapKind) -> Result<Canvas, PlotError> {
     let before = maps.before.as_ref();
-    let mut sides: Vec<Side> = before.map(|map| Side { heading: "before fairing", map }).into_iter().collect();
-    sides.push(Side { heading: if before.is_some() { "after fairing" } else { "" }, map: &maps.after });
+    let mut sides: Vec<HeadedMap> =
+        before.map(|map| HeadedMap { heading: "before fairing", map }).into_iter().collect();
+    sides.push(HeadedMap { heading: if before.is_some() { "after fairing" } else { "" }, map: &maps.after });
     let full = |which: usize| {
         let full = sides.iter().map(|side| side.map.size(which, SHARE)).fold(0.0, f64::max);
         // What is rounding on a hull of this size is flat.

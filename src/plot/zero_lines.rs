@@ -20,7 +20,7 @@ const GAP: usize = 6;
 const SHORT: f64 = 12.0;
 
 /// Two points of the map with a crossing between them, the lower index first.
-type Side = (usize, usize);
+type MapEdge = (usize, usize);
 
 /// The lines of zero of curvature `which` (0 Gaussian, 1 mean) where it reaches `least`; `place` takes x and girth to
 /// the sheet.
@@ -31,14 +31,14 @@ pub(super) fn zero_lines(
     place: &dyn Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<Vec<[f64; 2]>> {
     let value = |k: usize| map.points[k].curvature.map(|c| c[which]);
-    let crossing = |(a, b): Side| {
+    let crossing = |(a, b): MapEdge| {
         let (Some(p), Some(q)) = (value(a), value(b)) else { return [0.0; 2] };
         let t = p / (p - q);
         let [from, to] = [a, b].map(|k| place([map.points[k].at[0], map.points[k].girth]));
         [from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])]
     };
     let pieces = pieces(map, &value);
-    let mut at: BTreeMap<Side, Vec<usize>> = BTreeMap::new();
+    let mut at: BTreeMap<MapEdge, Vec<usize>> = BTreeMap::new();
     for (k, piece) in pieces.iter().enumerate() {
         piece.sides.iter().for_each(|side| at.entry(*side).or_default().push(k));
     }
@@ -75,7 +75,7 @@ pub(super) fn zero_lines(
 /// A piece of a line in a cell (column, row), from side to side.
 struct Piece {
     cell: [usize; 2],
-    sides: [Side; 2],
+    sides: [MapEdge; 2],
 }
 
 fn pieces(map: &SurfaceMap, value: &dyn Fn(usize) -> Option<f64>) -> Vec<Piece> {
@@ -85,7 +85,7 @@ fn pieces(map: &SurfaceMap, value: &dyn Fn(usize) -> Option<f64>) -> Vec<Piece> 
             let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| i * map.rows + j);
             let [Some(a), Some(b), Some(c), Some(d)] = corners.map(value) else { continue };
             let negative = [a, b, c, d].map(|v| v < 0.0);
-            let crossed: Vec<Side> = (0..4)
+            let crossed: Vec<MapEdge> = (0..4)
                 .filter(|&k| negative[k] != negative[(k + 1) % 4])
                 .map(|k| (corners[k].min(corners[(k + 1) % 4]), corners[k].max(corners[(k + 1) % 4])))
                 .collect();

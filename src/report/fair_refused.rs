@@ -4,7 +4,7 @@ use super::failure::{Failure, problem};
 use super::fair::FairOutputs;
 use super::fair_page::millimetres;
 use super::page::upward;
-use crate::config::{Diagnostic, Place, Severity};
+use crate::config::{Diagnostic, Location, Severity};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::infeasible::{Diagnosis, Reach};
 use crate::fairing::outcome::Turns;
@@ -224,7 +224,7 @@ impl Refused<'_> {
 }
 
 /// A target in words, with the place where a job states it.
-fn placed(words: String, place: Option<&Place>) -> String {
+fn placed(words: String, place: Option<&Location>) -> String {
     match place {
         Some(place) => format!("{words} ({place})"),
         None => words,

@@ -50,12 +50,12 @@ const REMEDY: &str =
     "Give the folder that `generate`, `fit` or `fair` wrote, a JSON file in it, or the file of `hydro --json`";
 
 /// Files of a result as they are read.
-struct Reader {
+struct ResultReader {
     folder: PathBuf,
     inputs: Vec<ManifestEntry>,
 }
 
-impl Reader {
+impl ResultReader {
     fn text(&mut self, path: &Path) -> Result<String, Failure> {
         let bytes = read_bytes(path)?;
         self.inputs.push(manifest_entry(path, &bytes));
@@ -112,7 +112,7 @@ fn json(path: &Path, text: &str) -> Result<Value, Failure> {
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with the file, what was found, what was expected and what to do.
 pub fn read_result(path: &Path) -> Result<JobResult, Failure> {
-    let beside = |folder: &Path| Reader { folder: folder.to_owned(), inputs: Vec::new() };
+    let beside = |folder: &Path| ResultReader { folder: folder.to_owned(), inputs: Vec::new() };
     if path.is_dir() {
         return of_folder(beside(path));
     }
@@ -176,7 +176,7 @@ fn bare(hull: Hull, conventions: Conventions, inputs: Vec<ManifestEntry>) -> Job
     }
 }
 
-fn of_folder(mut reader: Reader) -> Result<JobResult, Failure> {
+fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
     let HullFile { hull, conventions } = reader.hull("hull.json", "`generate`, `fit` or `fair`")?;
     let folder = reader.folder.clone();
     let mut changes = None;

@@ -7,7 +7,7 @@
 use super::knots::MAX_DEGREE;
 
 /// One value for each basis function of a span; those beyond the degree are 0.
-pub(super) type Row = [f64; MAX_DEGREE + 1];
+pub(super) type BasisValues = [f64; MAX_DEGREE + 1];
 
 /// `result[order][function]` for orders 0 to N - 1 of the K = p + 1 functions k - p ..= k at `t` in span k.
 ///
@@ -49,7 +49,11 @@ pub(super) fn basis_orders<const K: usize, const N: usize>(
 }
 
 /// As [`basis_orders`], in rows of the greatest length.
-pub(super) fn padded_orders<const K: usize, const N: usize>(window: &[f64], reciprocals: &[f64], t: f64) -> [Row; N] {
+pub(super) fn padded_orders<const K: usize, const N: usize>(
+    window: &[f64],
+    reciprocals: &[f64],
+    t: f64,
+) -> [BasisValues; N] {
     let mut result = [[0.0; MAX_DEGREE + 1]; N];
     for (row, values) in result.iter_mut().zip(&basis_orders::<K, N>(window, reciprocals, t)) {
         row[..K].copy_from_slice(values);
@@ -63,7 +67,7 @@ pub(super) fn padded_orders<const K: usize, const N: usize>(window: &[f64], reci
 /// When the arguments are successive knots of a refinement, and knot k is the last one of the old knots that is not above
 /// the knot before them, this is a row of the Oslo algorithm (Cohen, Lyche & Riesenfeld 1980): no coefficient is negative
 /// and they sum to 1.
-pub(super) fn blossom_row(knots: &[f64], span: usize, arguments: &[f64]) -> Row {
+pub(super) fn blossom_row(knots: &[f64], span: usize, arguments: &[f64]) -> BasisValues {
     let mut values = [0.0; MAX_DEGREE + 1];
     values[0] = 1.0;
     for (j, t) in arguments.iter().enumerate().map(|(j, t)| (j + 1, t)) {

@@ -3,7 +3,7 @@
 //! Every integrand is a polynomial between the knots, integrated by a Gauss-Legendre rule of sufficient order; the
 //! error is that of rounding, about 1e-15 of the size of the result (Vermeulen, Bartels & Heppler 1992).
 
-use super::basis::Row;
+use super::basis::BasisValues;
 use super::knots::{KnotVector, MAX_DEGREE};
 use crate::numeric::gauss_legendre;
 
@@ -118,7 +118,7 @@ fn pieces(knots: [&KnotVector; 2], from: f64, to: f64) -> Vec<[f64; 2]> {
     if to > from { ends.windows(2).filter(|w| w[0] < w[1]).map(|w| [w[0], w[1]]).collect() } else { Vec::new() }
 }
 
-fn order_at(knots: &KnotVector, order: usize, t: f64) -> Row {
+fn order_at(knots: &KnotVector, order: usize, t: f64) -> BasisValues {
     match order {
         0 => knots.orders_at::<1>(t).1[0],
         1 => knots.orders_at::<2>(t).1[1],

@@ -1,6 +1,6 @@
 //! Knot vectors and the B-spline basis over them (Piegl & Tiller 1997, chapter 2; de Boor 2001, chapter IX).
 
-use super::basis::{Row, basis_orders, padded_orders};
+use super::basis::{BasisValues, basis_orders, padded_orders};
 use super::table::{Cubic, SpanTable};
 use std::sync::Arc;
 
@@ -230,7 +230,7 @@ impl KnotVector {
 
     /// Index of the first basis function that does not vanish at `t`, and basis values and derivatives there.
     #[inline]
-    pub(super) fn orders_at<const N: usize>(&self, t: f64) -> (usize, [Row; N]) {
+    pub(super) fn orders_at<const N: usize>(&self, t: f64) -> (usize, [BasisValues; N]) {
         let t = self.clamp(t);
         let number = self.table.locate(t);
         (self.table.knot_index(number) - self.degree, self.orders_in(number, t))
@@ -281,7 +281,7 @@ impl KnotVector {
         (first, basis_orders::<K, N>(&self.knots[first + 1..], self.table.reciprocals(number), t))
     }
 
-    fn orders_in<const N: usize>(&self, number: usize, t: f64) -> [Row; N] {
+    fn orders_in<const N: usize>(&self, number: usize, t: f64) -> [BasisValues; N] {
         let window = &self.knots[self.table.knot_index(number) + 1 - self.degree..];
         let reciprocals = self.table.reciprocals(number);
         match self.degree {

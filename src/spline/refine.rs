@@ -5,7 +5,7 @@
 //! old ones, so that rounding does not grow: shapes are kept to about 1e-15 of their size. Elevation is the mean over
 //! the blossoms that leave out one argument (Ramshaw 1989; Piegl & Tiller 1997, 5.5).
 
-use super::basis::{Row, blossom_row};
+use super::basis::{BasisValues, blossom_row};
 use super::curve::BsplineCurve;
 use super::knots::{KnotVector, MAX_DEGREE, SplineError};
 use super::surface::BsplineSurface;
@@ -22,7 +22,7 @@ fn last_not_above(knots: &[f64], degree: usize, count: usize, t: f64) -> usize {
 /// One new control point: index of the first old control point it depends on, and the weights.
 pub(super) struct RefinementRow {
     pub(super) first: usize,
-    pub(super) weights: Row,
+    pub(super) weights: BasisValues,
 }
 
 /// Rows that take control points over `old` knots (of `degree`, clamped or not) to control points over the refinement

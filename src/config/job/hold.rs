@@ -6,7 +6,7 @@ use super::super::keys::Kind;
 use super::super::value::{Scalar, expected};
 use super::keys::HOLD;
 use super::ranges::allowed;
-use super::{AreaCurve, JobFile, Place};
+use super::{AreaCurve, JobFile, Location};
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::{AMIDSHIPS, Holding};
 use crate::units::Dimension;
@@ -199,7 +199,7 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
     job.section_area_band = band(document);
     let Some((raw, span, kind)) = document.raw(path) else { return };
     if let Raw::Text(text) = &raw {
-        let place = Place::new(document, path, span.start);
+        let place = Location::new(document, path, span.start);
         match text.trim() {
             "" => document.unexpected(path, &raw, &span, kind),
             "table" => job.section_area_curve = Some((AreaCurve::Table, place)),
@@ -222,7 +222,7 @@ fn section_areas(document: &mut Document<'_>, job: &mut JobFile) {
             }
             _ => None,
         };
-        let place = Place::new(document, path, at.start);
+        let place = Location::new(document, path, at.start);
         match numbers.as_deref() {
             Some(&[x, area]) if area > 0.0 && is_area(area) => {
                 job.section_areas.push(([x, area, job.section_area_band], place))
@@ -261,7 +261,7 @@ fn band(document: &mut Document<'_>) -> f64 {
 /// band \[m^2\].
 pub(super) fn holding(
     hold: &[(Quantity, Target)],
-    areas: &[([f64; 3], Place)],
+    areas: &[([f64; 3], Location)],
     (places, band): (&[f64], f64),
     [length, density, gravity]: [f64; 3],
 ) -> Holding {

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::super::diagnostic::Diagnostic;
 use super::super::document::{Document, Raw, nearest};
 use super::super::value::expected;
-use super::spot::Mark;
-use super::{JobFile, Place};
+use super::table_ref::TableRef;
+use super::{JobFile, Location};
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::{FixedLine, Rule, TangentPlace};
 use crate::fairing::proposals::Accepted;
@@ -31,7 +31,7 @@ struct Part {
 
 /// A rule for a line or a region, in the words of the file.
 #[derive(Debug, Clone, PartialEq)]
-enum Said {
+enum RuleText {
     Fixed(Part),
     Edge(FixedLine),
     Named(String),
@@ -49,10 +49,10 @@ enum Said {
 
 /// A rule with the place where it stands.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RuleMark {
-    said: Said,
+pub struct RuleEntry {
+    said: RuleText,
     /// Where it stands.
-    pub place: Place,
+    pub place: Location,
 }
 
 /// The words that name a station or a waterline, and whether it is a station.
@@ -98,45 +98,45 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
         let edge = EDGES.iter().position(|edge| edge.eq_ignore_ascii_case(text));
         if let Some(edge) = edge {
             let edges = [FixedLine::Stem, FixedLine::Stern, FixedLine::Keel, FixedLine::Deck];
-            return edges.into_iter().nth(edge).map(Said::Edge);
+            return edges.into_iter().nth(edge).map(RuleText::Edge);
         }
         if let Some(("line", name)) = text.split_once(char::is_whitespace) {
-            return Some(Said::Named(name.trim().to_owned()));
+            return Some(RuleText::Named(name.trim().to_owned()));
         }
-        part(text).filter(|part| part.from.is_none() && part.to.is_none()).map(Said::Fixed)
+        part(text).filter(|part| part.from.is_none() && part.to.is_none()).map(RuleText::Fixed)
     });
     phrases(document, job, "flat.side", |text| {
         let (first, second) = text.split_once(',')?;
         match (span(first)?, span(second)?) {
             ((true, stations), (false, heights)) | ((false, heights), (true, stations)) => {
-                Some(Said::FlatOfSide(stations, heights))
+                Some(RuleText::FlatOfSide(stations, heights))
             }
             _ => None,
         }
     });
     phrases(document, job, "flat.bottom", |text| {
-        span(text).filter(|(station, _)| *station).map(|(_, stations)| Said::FlatOfBottom(stations))
+        span(text).filter(|(station, _)| *station).map(|(_, stations)| RuleText::FlatOfBottom(stations))
     });
     for (path, rising) in [("shape.rising", true), ("shape.falling", false)] {
-        phrases(document, job, path, |text| part(text).map(|part| Said::Monotone(part, rising)));
+        phrases(document, job, path, |text| part(text).map(|part| RuleText::Monotone(part, rising)));
     }
     for (path, convex) in [("shape.convex", true), ("shape.concave", false)] {
-        phrases(document, job, path, |text| part(text).map(|part| Said::Curvature(part, convex)));
+        phrases(document, job, path, |text| part(text).map(|part| RuleText::Curvature(part, convex)));
     }
     counts(document, job);
     accepted(document, job);
     // Lines are no rules: the net is made with them.
     let mut lines = JobFile::default();
     for (path, kind) in [("lines.knuckle", LineKind::Knuckle), ("lines.tangent", LineKind::Tangent)] {
-        phrases(document, &mut lines, path, |text| part(text).map(|part| Said::Breaks(part, kind)));
+        phrases(document, &mut lines, path, |text| part(text).map(|part| RuleText::Breaks(part, kind)));
     }
     job.lines.extend(lines.rules);
-    type Make = fn(String, f64) -> Said;
+    type Make = fn(String, f64) -> RuleText;
     let angles: [(&str, Make); 4] = [
-        ("tangent.entrance", Said::Entrance),
-        ("tangent.run", Said::Run),
-        ("tangent.waterlines", Said::AlongWaterline),
-        ("tangent.stations", Said::AlongStation),
+        ("tangent.entrance", RuleText::Entrance),
+        ("tangent.run", RuleText::Run),
+        ("tangent.waterlines", RuleText::AlongWaterline),
+        ("tangent.stations", RuleText::AlongStation),
     ];
     for (path, said) in angles {
         tangents(document, job, path, said);
@@ -173,12 +173,12 @@ fn accepted(document: &mut Document<'_>, job: &mut JobFile) {
     job.accepted = Some(if all { Accepted::All } else { Accepted::These(numbers) });
 }
 
-fn mark(document: &Document<'_>, path: &str, said: Said, at: &Range<usize>) -> RuleMark {
-    RuleMark { said, place: Place::new(document, path, at.start) }
+fn mark(document: &Document<'_>, path: &str, said: RuleText, at: &Range<usize>) -> RuleEntry {
+    RuleEntry { said, place: Location::new(document, path, at.start) }
 }
 
 /// A list of texts, or one; `meaning` is none for what is no such text.
-fn phrases(document: &mut Document<'_>, job: &mut JobFile, path: &str, meaning: impl Fn(&str) -> Option<Said>) {
+fn phrases(document: &mut Document<'_>, job: &mut JobFile, path: &str, meaning: impl Fn(&str) -> Option<RuleText>) {
     let Some((raw, span, kind)) = document.raw(path) else { return };
     let single = [(raw.clone(), span.clone())];
     let items = match &raw {
@@ -227,7 +227,7 @@ fn counts(document: &mut Document<'_>, job: &mut JobFile) {
             _ => None,
         };
         match (line, count) {
-            (Some(line), Some(count)) => job.rules.push(mark(document, path, Said::Inflections(line, count), at)),
+            (Some(line), Some(count)) => job.rules.push(mark(document, path, RuleText::Inflections(line, count), at)),
             (None, _) => unclear(document, path, text, at, &expected(kind)),
             (_, None) => {
                 let message = format!("{path}.{text} is {}", value.describe());
@@ -238,7 +238,7 @@ fn counts(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 /// A table of places with angles.
-fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn(String, f64) -> Said) {
+fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn(String, f64) -> RuleText) {
     let Some((raw, span, kind)) = document.raw(path) else { return };
     let Raw::Table(fields) = &raw else {
         document.unexpected(path, &raw, &span, kind);
@@ -264,10 +264,10 @@ fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn
     }
 }
 
-impl RuleMark {
+impl RuleEntry {
     /// Place of a station, by its name or its position, which may lie between those of the table \[m\].
     fn x(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
-        match Mark::new(&self.place).station(table, text) {
+        match TableRef::new(&self.place).station(table, text) {
             Ok(index) => Ok(table.stations[index].station.x),
             Err(problem) => parse_length(text).map_err(|_| problem),
         }
@@ -275,7 +275,7 @@ impl RuleMark {
 
     /// Height of a waterline, by its header or its height, which may lie between those of the table \[m\].
     fn z(&self, table: &OffsetTable, text: &str) -> Result<f64, Box<Diagnostic>> {
-        match Mark::new(&self.place).waterline(table, text) {
+        match TableRef::new(&self.place).waterline(table, text) {
             Ok(index) => Ok(table.waterlines[index]),
             Err(problem) => parse_length(text).map_err(|_| problem),
         }
@@ -310,7 +310,7 @@ impl RuleMark {
     /// # Errors
     /// A message that says what the table has.
     pub fn find_line(&self, table: &OffsetTable) -> Result<Option<ProposedLine>, Box<Diagnostic>> {
-        let Said::Breaks(part, kind) = &self.said else { return Ok(None) };
+        let RuleText::Breaks(part, kind) = &self.said else { return Ok(None) };
         let (course, at) = match self.line(table, part)? {
             Line::Station(x) => (LineCourse::Station, x),
             Line::Waterline(z) => (LineCourse::Waterline, z),
@@ -347,22 +347,28 @@ impl RuleMark {
             Ok([x(station.trim())?, z(height.trim())?])
         };
         Ok(Some(match &self.said {
-            Said::Breaks(..) => return Ok(None),
-            Said::Fixed(part) => Rule::Fixed(FixedLine::Line(line(part)?)),
-            Said::Edge(edge) => Rule::Fixed(edge.clone()),
-            Said::Named(word) => Rule::Fixed(self.named(table, word)?),
-            Said::Entrance(height, angle) => Rule::Tangent(TangentPlace::Entrance(z(height)?), *angle),
-            Said::Run(height, angle) => Rule::Tangent(TangentPlace::Run(z(height)?), *angle),
-            Said::AlongWaterline(place, angle) => Rule::Tangent(TangentPlace::Waterline(cell(place)?), *angle),
-            Said::AlongStation(place, angle) => Rule::Tangent(TangentPlace::Station(cell(place)?), *angle),
-            Said::FlatOfSide(stations, heights) => Rule::FlatOfSide {
+            RuleText::Breaks(..) => return Ok(None),
+            RuleText::Fixed(part) => Rule::Fixed(FixedLine::Line(line(part)?)),
+            RuleText::Edge(edge) => Rule::Fixed(edge.clone()),
+            RuleText::Named(word) => Rule::Fixed(self.named(table, word)?),
+            RuleText::Entrance(height, angle) => Rule::Tangent(TangentPlace::Entrance(z(height)?), *angle),
+            RuleText::Run(height, angle) => Rule::Tangent(TangentPlace::Run(z(height)?), *angle),
+            RuleText::AlongWaterline(place, angle) => Rule::Tangent(TangentPlace::Waterline(cell(place)?), *angle),
+            RuleText::AlongStation(place, angle) => Rule::Tangent(TangentPlace::Station(cell(place)?), *angle),
+            RuleText::FlatOfSide(stations, heights) => Rule::FlatOfSide {
                 x: range(x(&stations[0])?, x(&stations[1])?)?,
                 z: range(z(&heights[0])?, z(&heights[1])?)?,
             },
-            Said::FlatOfBottom(stations) => Rule::FlatOfBottom { x: range(x(&stations[0])?, x(&stations[1])?)? },
-            Said::Monotone(part, rising) => Rule::Monotone { line: line(part)?, over: over(part)?, rising: *rising },
-            Said::Curvature(part, convex) => Rule::Curvature { line: line(part)?, over: over(part)?, convex: *convex },
-            Said::Inflections(part, most) => Rule::Inflections { line: line(part)?, over: over(part)?, most: *most },
+            RuleText::FlatOfBottom(stations) => Rule::FlatOfBottom { x: range(x(&stations[0])?, x(&stations[1])?)? },
+            RuleText::Monotone(part, rising) => {
+                Rule::Monotone { line: line(part)?, over: over(part)?, rising: *rising }
+            }
+            RuleText::Curvature(part, convex) => {
+                Rule::Curvature { line: line(part)?, over: over(part)?, convex: *convex }
+            }
+            RuleText::Inflections(part, most) => {
+                Rule::Inflections { line: line(part)?, over: over(part)?, most: *most }
+            }
         }))
     }
 

@@ -3,12 +3,12 @@
 use super::checks;
 use super::grid::MOST_LINES;
 use super::header::{Axis, Coordinate, Corner, Position, position};
-use super::matrix::{Block, Line};
+use super::matrix::{Block, MatrixRow};
 use super::problem::{Field, Problems};
 use super::scale::{Size, Units, ends_from_midship, origin, units};
 use super::settings::Settings;
 use crate::hull::{
-    Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, SideKind, SideLine, StationOffsets, TableForm, Written,
+    Cell, Entry, Kept, Marks, OffsetTable, Order, SideKind, SideLine, StationDatum, StationOffsets, TableForm, Written,
 };
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, counted, parse_cell};
 
@@ -18,7 +18,7 @@ pub(super) const SAME: f64 = 1e-6;
 pub(super) const LARGEST: f64 = 1e5;
 
 /// Reads the fields of one table.
-pub(super) struct Reader<'a> {
+pub(super) struct TableReader<'a> {
     pub(super) settings: &'a Settings,
     pub(super) form: TableForm,
     pub(super) units: Units,
@@ -29,7 +29,7 @@ pub(super) struct Reader<'a> {
     writings: [usize; 2],
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TableReader<'a> {
     pub(super) fn new(settings: &'a Settings, mut form: TableForm, units: Units, problems: &'a mut Problems) -> Self {
         (form.notation, form.x_notation, form.z_notation) = (units.y, units.x, units.z);
         form.full_breadths = settings.full.unwrap_or(false);
@@ -114,12 +114,12 @@ impl<'a> Reader<'a> {
     pub(super) fn along(&self, position: Position) -> f64 {
         let lpp = self.settings.stated.length_between_perpendiculars;
         match (position.place, self.form.origin) {
-            (Coordinate::Number(number), Origin::Lengths) => self.units.x.metres(number),
-            (Coordinate::Number(number), Origin::Shifted { offset, sign }) => {
+            (Coordinate::Number(number), StationDatum::Lengths) => self.units.x.metres(number),
+            (Coordinate::Number(number), StationDatum::Shifted { offset, sign }) => {
                 offset + sign * self.units.x.metres(number)
             }
-            (Coordinate::Number(number), Origin::Numbers { offset, spacing }) => offset + spacing * number,
-            (Coordinate::Length(length), Origin::Shifted { offset, sign }) => offset + sign * length,
+            (Coordinate::Number(number), StationDatum::Numbers { offset, spacing }) => offset + spacing * number,
+            (Coordinate::Length(length), StationDatum::Shifted { offset, sign }) => offset + sign * length,
             (Coordinate::Length(length), _) => length,
             (Coordinate::AftPerpendicular, _) => 0.0,
             (Coordinate::ForePerpendicular, _) => lpp.unwrap_or(0.0),
@@ -241,7 +241,7 @@ pub(super) fn assemble(
     let sizes = [Size::of_positions(stations.iter()), y, Size::of_positions(heads.iter())];
     let units = units(settings, corner, sizes, numbers, problems);
     let origin = ends_from_midship(origin, settings, &stations, units.x, problems);
-    let mut reader = Reader::new(settings, TableForm { origin, ..form }, units, problems);
+    let mut reader = TableReader::new(settings, TableForm { origin, ..form }, units, problems);
     let mut table = OffsetTable::default();
     for block in blocks {
         let Some(placed) = place(&block, &mut reader) else {
@@ -261,7 +261,7 @@ pub(super) fn assemble(
 }
 
 /// Reads the cells of a block that has no place in a table, for what is wrong with them.
-fn only_read(block: &Block, reader: &mut Reader<'_>) {
+fn only_read(block: &Block, reader: &mut TableReader<'_>) {
     let half = block.across == Axis::Waterline;
     for line in &block.stations {
         line.cells.iter().for_each(|field| {
@@ -277,7 +277,7 @@ fn only_read(block: &Block, reader: &mut Reader<'_>) {
     }
 }
 
-fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
+fn place(block: &Block, reader: &mut TableReader<'_>) -> Option<Placed> {
     let what = if block.across == Axis::Waterline { "waterline" } else { "buttock" };
     let lines: Vec<Field> = block.stations.iter().map(|line| line.head.clone()).collect();
     if block.stations.len().max(block.heads.len()) > MOST_LINES {
@@ -307,7 +307,7 @@ fn place(block: &Block, reader: &mut Reader<'_>) -> Option<Placed> {
 }
 
 /// Puts a block into the table.
-fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Reader<'_>) {
+fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut TableReader<'_>) {
     let half = block.across == Axis::Waterline;
     let heads = kept(&block.heads, &placed.across, placed.across_order);
     let across = rising(placed.across, placed.across_order);
@@ -377,7 +377,7 @@ fn insert(table: &mut OffsetTable, block: Block, placed: Placed, reader: &mut Re
     }
 }
 
-fn name_of(line: &Line) -> String {
+fn name_of(line: &MatrixRow) -> String {
     let own = line.name.as_ref().filter(|name| !name.is_blank());
     own.unwrap_or(&line.head).trimmed().to_owned()
 }
@@ -397,7 +397,12 @@ fn side_value(station: &mut StationOffsets, kind: SideKind) -> &mut Option<f64> 
 }
 
 /// The ends of the waterlines.
-fn endings(lines: &[(SideKind, Line)], order: Order, count: usize, reader: &mut Reader<'_>) -> Vec<[Option<f64>; 2]> {
+fn endings(
+    lines: &[(SideKind, MatrixRow)],
+    order: Order,
+    count: usize,
+    reader: &mut TableReader<'_>,
+) -> Vec<[Option<f64>; 2]> {
     let mut ends = vec![[None; 2]; if lines.is_empty() { 0 } else { count }];
     for (kind, line) in lines {
         let fields = rising(line.cells.clone(), order);
@@ -407,8 +412,8 @@ fn endings(lines: &[(SideKind, Line)], order: Order, count: usize, reader: &mut 
             let unit = reader.units.x;
             // Endings are lengths even where stations are numbered.
             let value = reader.length(field, unit).map(|v| match reader.form.origin {
-                Origin::Shifted { offset, sign } => offset + sign * v,
-                Origin::Lengths | Origin::Numbers { .. } => v,
+                StationDatum::Shifted { offset, sign } => offset + sign * v,
+                StationDatum::Lengths | StationDatum::Numbers { .. } => v,
             });
             ends[end] = value;
             texts.push(value.map(|value| Kept { text: field.trimmed().to_owned(), value }));

@@ -13,8 +13,8 @@ use super::super::fault::RecordFault;
 use super::super::mesh::{is_glb, is_obj, is_stl, read_gdf, read_glb, read_nemoh, read_obj, read_pnl, read_stl};
 use super::super::subdivision::{SubdivisionProject, is_fbm, is_ftm, read_fbm, read_ftm};
 use super::outline::{Deck, point, take_off_deck};
-use super::problem::{Place, Problems};
-use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::problem::{FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::{BodyFrame, Settings};
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
@@ -74,9 +74,9 @@ enum Shape {
 }
 
 /// The kinds of files, with what reads them.
-type Reader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
+type BodyReader = fn(&[u8]) -> Result<Shape, Vec<RecordFault>>;
 
-fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, Reader)> {
+fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
     let name = name.to_ascii_lowercase();
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
     if is_fbm(bytes) || ends(&[".fbm"]) {
@@ -163,7 +163,7 @@ pub fn read_body<'a>(
                 "{} surfaces ({kind}) of {points} control points, untrimmed; the unit of the file is {unit} m",
                 surfaces.len()
             ));
-            notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
+            notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
             let size = extent(&surfaces);
             match TriangleMesh::nested(&surfaces, DEVIATION * size, ENOUGH) {
                 Ok((nested, deviation)) => {
@@ -176,7 +176,12 @@ pub fn read_body<'a>(
                         "the surfaces bend so often that {count} triangles would not follow them, expected at most {}",
                         4 * ENOUGH
                     );
-                    problems.error("E350", Place::FILE, message, "Give the surfaces of the hull alone, or a mesh");
+                    problems.error(
+                        "E350",
+                        FilePosition::FILE,
+                        message,
+                        "Give the surfaces of the hull alone, or a mesh",
+                    );
                     Vec::new()
                 }
             }
@@ -193,7 +198,7 @@ pub fn read_body<'a>(
 
 pub(super) fn faulty(faults: Vec<RecordFault>, problems: &mut Problems) {
     for RecordFault { line, found, message } in faults {
-        let place = line.map_or(Place::FILE, Place::row);
+        let place = line.map_or(FilePosition::FILE, FilePosition::row);
         problems.error("E350", (place, found.as_str()), message, "");
     }
 }
@@ -293,7 +298,12 @@ fn framed(
     let length = greatest[0] - least[0];
     if !(0.01..=1e4).contains(&length) {
         let message = format!("the body is {length} m long");
-        problems.error("E351", Place::FILE, message, "Say units or scale in a TOML file of the same name beside it");
+        problems.error(
+            "E351",
+            FilePosition::FILE,
+            message,
+            "Say units or scale in a TOML file of the same name beside it",
+        );
     }
     if x_origin.is_none() && least[0].abs() > 0.2 * length {
         meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[0] -= least[0]);
@@ -302,7 +312,7 @@ fn framed(
              otherwise",
             least[0], greatest[0]
         );
-        problems.warning("W320", Place::FILE, message, "");
+        problems.warning("W320", FilePosition::FILE, message, "");
     }
     let depth = greatest[2] - least[2];
     if z_origin.is_none() && least[2].abs() > 0.2 * depth {
@@ -310,7 +320,7 @@ fn framed(
             "the lowest point is {:.3} m from z = 0 of the file, from where draughts count; z_origin in the TOML beside it moves it",
             least[2]
         );
-        problems.warning("W320", Place::FILE, message, "");
+        problems.warning("W320", FilePosition::FILE, message, "");
     }
     let open = if surfaces { Vec::new() } else { meshes[0].open_edges() };
     if !open.is_empty() {
@@ -319,7 +329,7 @@ fn framed(
             "{} open, the lowest at z = {lowest:.3} m: what is missing must be deck, transom or flat bow",
             counted(open.len(), "edge")
         );
-        problems.warning("W351", Place::FILE, message, "");
+        problems.warning("W351", FilePosition::FILE, message, "");
     }
     meshes
 }
@@ -371,14 +381,14 @@ fn found_axes(
                 least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
             );
             let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";
-            problems.error("E351", Place::FILE, message, remedy);
+            problems.error("E351", FilePosition::FILE, message, remedy);
             return None;
         }
     };
     if frame.map(|(axis, _)| axis) != [0, 1, 2] {
         let written = frame.map(|(axis, sign)| format!("{}{}", if sign < 0.0 { "-" } else { "" }, names[axis]));
         let message = format!("axes are taken as \"{}\" by the extents of the body", written.join(" "));
-        problems.warning("W320", Place::FILE, message, "");
+        problems.warning("W320", FilePosition::FILE, message, "");
     }
     Some(frame)
 }
@@ -456,10 +466,10 @@ impl ReadBody {
         note_asymmetry(&gaps, &mut problems);
         if aside > 0 {
             let message = format!("{aside} loops that do not reach the centreplane are left out");
-            problems.warning("W332", Place::FILE, message, "");
+            problems.warning("W332", FilePosition::FILE, message, "");
         }
         let Self { name, stated, notes, .. } = self;
-        let body = Body { name, stated, sections, origin: Origin::AfterPerpendicular, unit: 1.0 };
+        let body = Body { name, stated, sections, origin: XOrigin::AfterPerpendicular, unit: 1.0 };
         problems.decimals = 6;
         let file = notes.first().map(|note| note.file.clone()).unwrap_or_default();
         let named = |problem: TableProblem| TableProblem { file: file.clone(), ..problem };
@@ -501,7 +511,7 @@ impl ReadBody {
             }
             let deck: Option<Deck> = branches.last_mut().and_then(take_off_deck);
             gaps.push((gap, x));
-            sections.push(Section { name: None, x, place: Place::FILE, branches, deck });
+            sections.push(Section { name: None, x, place: FilePosition::FILE, branches, deck });
         }
         (sections, gaps, aside)
     }

@@ -3,10 +3,10 @@
 //! Name; number of hulls; per section `n x x` and n lines `y z`, then `0`; at the end `0 0 0`. A section that gives
 //! both sides is cut at the centreplane and its starboard (y > 0) half is taken. Written with six decimals.
 
-use super::fields::{Line, Separator, lines};
+use super::fields::{Separator, TextLine, lines};
 use super::outline::{line_of, point};
-use super::problem::{Place, Problems};
-use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::problem::{FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
 use crate::units::counted;
@@ -29,23 +29,23 @@ pub(super) fn recognise(name: &str, text: &str) -> bool {
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let rows: Vec<Line<'_>> =
+    let rows: Vec<TextLine<'_>> =
         lines(text, Separator::Blank).into_iter().filter(|line| !line.fields.is_empty()).collect();
     let title = rows.first().map_or("", |line| line.text);
     match rows.get(1) {
         Some(line) if line.fields.len() == 1 => {
             if problems.count(line.fields[0], "the number of hulls", 1).is_some_and(|n| n > 1) {
                 let message = format!("{} hulls; the first is read", line.text);
-                problems.warning("W332", Place::row(line.row), message, "");
+                problems.warning("W332", FilePosition::row(line.row), message, "");
             }
         }
         Some(line) => {
             let message = "the second line is the number of hulls".to_owned();
-            problems.error("E326", (Place::row(line.row), line.text), message, "Write 1.");
+            problems.error("E326", (FilePosition::row(line.row), line.text), message, "Write 1.");
         }
         None => {
             let message = "the file ends after its name".to_owned();
-            problems.error("E324", Place::FILE, message, "Was it cut off?");
+            problems.error("E324", FilePosition::FILE, message, "Was it cut off?");
         }
     }
     let mut sections: Vec<Section> = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let mut ended = false;
     while let Some(head) = rows.get(index) {
         index += 1;
-        let place = Place::row(head.row);
+        let place = FilePosition::row(head.row);
         let [count, x, repeated] = head.fields[..] else {
             let message = "a section begins with its number of points and x twice".to_owned();
             problems.error(
@@ -102,22 +102,22 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     }
     if !ended {
         let message = "the file ends without '0 0 0'".to_owned();
-        problems.error("E324", Place::FILE, message, "Was it cut off? End it with a line '0 0 0'.");
+        problems.error("E324", FilePosition::FILE, message, "Was it cut off? End it with a line '0 0 0'.");
     } else if let Some(line) = rows.get(index) {
         let message = format!("what follows '0 0 0', {} lines, is not read", rows.len() - index);
-        problems.warning("W332", Place::row(line.row), message, "");
+        problems.warning("W332", FilePosition::row(line.row), message, "");
     }
     note_asymmetry(&gaps, &mut problems);
     let stated = StatedParticulars::default();
-    table(Body { name: title.to_owned(), stated, sections, origin: Origin::Unknown, unit: 1.0 }, problems)
+    table(Body { name: title.to_owned(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }, problems)
 }
 
 /// The lines `y z` up to the `0`.
 fn points(
-    rows: &[Line<'_>],
+    rows: &[TextLine<'_>],
     index: &mut usize,
     count: Option<usize>,
-    head: &Line<'_>,
+    head: &TextLine<'_>,
     problems: &mut Problems,
 ) -> Vec<OutlinePoint> {
     let mut points = Vec::new();
@@ -131,12 +131,12 @@ fn points(
     }
     if let Some(count) = count.filter(|&count| count != found) {
         let message = format!("the section announces {}, {found} there", counted(count, "point"));
-        problems.error("E322", (Place::row(head.row), head.text), message, "Correct the count, or the points.");
+        problems.error("E322", (FilePosition::row(head.row), head.text), message, "Correct the count, or the points.");
     }
     match rows.get(*index).map(|line| (&line.fields[..], line.row)) {
         Some(([zero], _)) if super::fields::plain_number(zero.text).is_some_and(|v| v.abs() < 1e-12) => *index += 1,
         other => {
-            let place = other.map_or(Place::row(head.row), |(_, row)| Place::row(row));
+            let place = other.map_or(FilePosition::row(head.row), |(_, row)| FilePosition::row(row));
             let message = format!("'0' should end the section of row {}", head.row);
             problems.error("E324", place, message, "Put a line '0' after its last point.");
             if other.is_some_and(|(fields, _)| fields.len() == 1) {

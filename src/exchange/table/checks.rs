@@ -1,7 +1,7 @@
 //! Checks of a table as a whole. A cell that is merely suspicious is not an error of reading.
 
-use super::assemble::{Reader, SAME};
-use super::problem::{Field, Place, Problems};
+use super::assemble::{SAME, TableReader};
+use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
 use crate::hull::{Cell, Entry, OffsetTable};
 use crate::units::counted;
@@ -10,7 +10,7 @@ use crate::units::counted;
 const MOST_PLACES: usize = 6;
 
 /// Half-breadths are all positive, or all negative (starboard): then their sign is turned.
-pub(super) fn signs(table: &mut OffsetTable, reader: &mut Reader<'_>) {
+pub(super) fn signs(table: &mut OffsetTable, reader: &mut TableReader<'_>) {
     let values = || table.stations.iter().flat_map(|s| &s.half_breadths).filter_map(Cell::value);
     let (negative, positive) = (values().filter(|&y| y < 0.0).count(), values().filter(|&y| y > 0.0).count());
     if negative == 0 {
@@ -47,7 +47,12 @@ pub(super) fn endings(table: &mut OffsetTable, settings: &Settings, problems: &m
         for &[z, x] in points {
             let Some(at) = table.waterlines.iter().position(|w| (w - z).abs() < SAME) else {
                 let message = format!("[endings] gives x {x} m at the height {z} m, where the table has no waterline");
-                problems.error("E311", Place::FILE, message, "Give the profiles at the heights of the waterlines");
+                problems.error(
+                    "E311",
+                    FilePosition::FILE,
+                    message,
+                    "Give the profiles at the heights of the waterlines",
+                );
                 continue;
             };
             if table.endings.is_empty() {
@@ -139,7 +144,7 @@ pub(super) fn missing(table: &mut OffsetTable, problems: &mut Problems) {
         counted(found.len(), "blank cell"),
         places.join("; ")
     );
-    problems.warning("W314", Place::FILE, message, "Write '?' there, the offset, or '-' where there is no hull");
+    problems.warning("W314", FilePosition::FILE, message, "Write '?' there, the offset, or '-' where there is no hull");
 }
 
 /// What is wrong with a table, or should be known about it, once its numbers are read.
@@ -152,13 +157,13 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     let given = offsets.filter(|cell| cell.value().is_some()).count();
     let outlines = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
     if given + outlines == 0 {
-        problems.error("E313", Place::FILE, "the table has no offset at all".to_owned(), "");
+        problems.error("E313", FilePosition::FILE, "the table has no offset at all".to_owned(), "");
     }
     if !table.endings.iter().any(|e| e.iter().any(Option::is_some)) && !table.waterlines.is_empty() {
         let message = "no profiles of stem and stern; the ends of the waterlines will be extrapolated".to_owned();
         problems.warning(
             "W306",
-            Place::FILE,
+            FilePosition::FILE,
             message,
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
@@ -168,7 +173,7 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
         if (1..6).contains(&below) {
             let message =
                 format!("only {} up to T {draught} m: volumes from this table are coarse", counted(below, "waterline"));
-            problems.warning("W307", Place::FILE, message, "");
+            problems.warning("W307", FilePosition::FILE, message, "");
         }
     }
 }
@@ -188,7 +193,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
             "T is stated as {draught} m, and the table ends {top:.3} m above the base line, {:.3} m below it",
             draught - top
         );
-        problems.warning("W308", Place::FILE, message, "Correct T, or give the waterlines up to it");
+        problems.warning("W308", FilePosition::FILE, message, "Correct T, or give the waterlines up to it");
     }
     // Above the draught a hull may flare beyond its moulded breadth.
     let limit = stated.draught.map_or(f64::INFINITY, |draught| draught * 1.001 + SAME);
@@ -205,7 +210,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
                 "B is stated as {breadth} m, and twice the largest half-breadth is {found:.3} m: {:+.1} %",
                 100.0 * (found / breadth - 1.0)
             );
-            problems.warning("W309", Place::FILE, message, "Correct B, or the unit of the half-breadths");
+            problems.warning("W309", FilePosition::FILE, message, "Correct B, or the unit of the half-breadths");
         }
     }
     let xs = || table.stations.iter().map(|s| s.station.x);
@@ -218,7 +223,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
              with AP at x = 0"
         );
         let help = "Name the column x_from_midship if they count from there";
-        problems.warning("W311", Place::FILE, message, help);
+        problems.warning("W311", FilePosition::FILE, message, help);
     }
     if let (Some(length), Some(low), Some(high)) =
         (stated.length_between_perpendiculars, xs().reduce(f64::min), xs().reduce(f64::max))
@@ -231,7 +236,7 @@ pub(super) fn particulars(table: &OffsetTable, problems: &mut Problems) {
         );
         problems.warning(
             "W310",
-            Place::FILE,
+            FilePosition::FILE,
             message,
             "Correct Lpp, or the unit, the spacing or the number of the stations",
         );
@@ -250,13 +255,13 @@ fn breadths(table: &OffsetTable, full: Option<bool>, problems: &mut Problems) {
             "{beyond} half-breadths exceed B/2 = {half:.2} by up to {:.2} m: the table seems to hold full breadths",
             largest - half
         );
-        problems.error("E304", Place::FILE, message, "Use breadths = \"full\"");
+        problems.error("E304", FilePosition::FILE, message, "Use breadths = \"full\"");
     }
     if full == Some(true) && largest > 0.0 && largest < 0.6 * half {
         let message = format!(
             "breadths are declared full, but half of the largest of them is {largest:.2} m and B/2 is {half:.2} m: the table \
              seems to hold half-breadths"
         );
-        problems.error("E304", Place::FILE, message, "Use breadths = \"half\"");
+        problems.error("E304", FilePosition::FILE, message, "Use breadths = \"half\"");
     }
 }

@@ -8,8 +8,8 @@
 //! and of the forward contour at each waterline, half-breadth of the flat of bottom at each station. A note says so.
 //! `-` and `*` are cells without hull. Written in the same order, a line a station, six decimals.
 
-use super::fields::{Line, Separator, finish, lines};
-use super::problem::{Field, Place, Problems};
+use super::fields::{Separator, TextLine, finish, lines};
+use super::problem::{Field, FilePosition, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
@@ -19,7 +19,7 @@ use crate::units::counted;
 /// Numbers of the head.
 const HEAD: usize = 10;
 
-fn rows(text: &str) -> Vec<Line<'_>> {
+fn rows(text: &str) -> Vec<TextLine<'_>> {
     lines(text, Separator::Blank).into_iter().filter(|line| !line.fields.is_empty()).collect()
 }
 
@@ -64,7 +64,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let head: Vec<Field<&str>> = rows.iter().take(HEAD).filter_map(|line| line.fields.first().copied()).collect();
     let [waterlines, stations, flags @ .., length, beam, draught] = &head[..] else {
         let message = format!("the head has {} of {HEAD} lines", head.len());
-        problems.error("E324", Place::FILE, message, "Was the file cut off?");
+        problems.error("E324", FilePosition::FILE, message, "Was the file cut off?");
         return finish(problems, None);
     };
     let counts = (
@@ -134,7 +134,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
          for each {}, then what the flags announce in their order",
         if by_waterline { "waterline" } else { "station" }
     );
-    problems.warning("W334", Place::row(rows.get(HEAD).map_or(HEAD, |line| line.row)), message, "");
+    problems.warning("W334", FilePosition::row(rows.get(HEAD).map_or(HEAD, |line| line.row)), message, "");
     let [length, breadth, draught] = main;
     let stated = StatedParticulars { length_between_perpendiculars: length, breadth, draught, depth: None };
     let form = TableForm { layout: TableLayout::Other, decimals: Some(problems.decimals), ..TableForm::default() };

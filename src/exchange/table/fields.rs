@@ -5,7 +5,7 @@
 //! W332 what was left out, W334 conventions, W335 unusual values. Nothing is allocated by a count that stands in a
 //! file.
 
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::OffsetTable;
 
@@ -14,7 +14,7 @@ const LARGEST: f64 = 1e6;
 
 /// One line with its fields.
 #[derive(Debug, Clone)]
-pub(super) struct Line<'a> {
+pub(super) struct TextLine<'a> {
     /// The line without blanks at its ends.
     pub(super) text: &'a str,
     /// Its number from 1.
@@ -35,7 +35,7 @@ pub(super) enum Separator {
 }
 
 /// The lines of a text with their fields.
-pub(super) fn lines(text: &str, separator: Separator) -> Vec<Line<'_>> {
+pub(super) fn lines(text: &str, separator: Separator) -> Vec<TextLine<'_>> {
     let split = |line: &'_ str| -> Vec<(usize, usize)> {
         // Byte ranges, so that one closure serves the three ways.
         let base = line.as_ptr() as usize;
@@ -56,7 +56,7 @@ pub(super) fn lines(text: &str, separator: Separator) -> Vec<Line<'_>> {
                 .enumerate()
                 .map(|(k, (start, length))| Field { text: &line[start..start + length], row, column: k + 1 })
                 .collect();
-            Line { text: line.trim(), row, fields }
+            TextLine { text: line.trim(), row, fields }
         })
         .collect()
 }
@@ -130,14 +130,14 @@ fn magnitudes(table: &OffsetTable, problems: &mut Problems) {
     let remedy = "Correct the number, or its unit.";
     let message = |value: f64| format!("a length of {value:e} m is no ship's");
     for &value in table.waterlines.iter().chain(&table.buttocks).filter(|v| beyond(**v)) {
-        problems.error("E321", Place::FILE, message(value), remedy);
+        problems.error("E321", FilePosition::FILE, message(value), remedy);
     }
     for station in &table.stations {
         let x = station.station.x;
         let points = station.outlines.iter().flatten().flat_map(|p| [p.y, p.z]);
         if let Some(value) = std::iter::once(x).chain(points).find(|v| beyond(*v)) {
             let message = format!("station '{}': {}", station.station.name, message(value));
-            problems.error("E321", Place::FILE, message, remedy);
+            problems.error("E321", FilePosition::FILE, message, remedy);
         }
         for cell in station.half_breadths.iter().chain(&station.heights) {
             if let Some(value) = cell.value().filter(|v| beyond(*v)) {
@@ -153,7 +153,7 @@ pub(super) fn finish(mut problems: Problems, table: Option<OffsetTable>) -> Resu
         magnitudes(table, &mut problems);
     }
     if table.is_none() && !problems.any_errors() {
-        problems.error("E328", Place::FILE, "the file holds no table of offsets".to_owned(), "Was it cut off?");
+        problems.error("E328", FilePosition::FILE, "the file holds no table of offsets".to_owned(), "Was it cut off?");
     }
     let notes = problems.finish()?;
     Ok(ReadTable { table: table.unwrap_or_default(), notes })

@@ -1,7 +1,7 @@
 //! The text formats of other programs, in the order in which they are tried.
 
 use super::grid::{LARGEST_TABLE, MOST_CELLS, MOST_ROWS};
-use super::problem::{Place, Problems};
+use super::problem::{FilePosition, Problems};
 use super::{
     ReadTable, TableProblem, britfair, delftship, freeship, ghs, michlet, pdstrip, pias, points, ratio, seaway,
 };
@@ -58,7 +58,7 @@ fn recognised(name: &str, text: &str, beside: Option<(&str, &str)>) -> Option<Re
     let fields = text.split([' ', '\t', ',', ';']).take(2 * MOST_CELLS + 1).filter(|part| !part.is_empty()).count();
     if text.lines().take(MOST_ROWS + 1).count() > MOST_ROWS || fields > MOST_CELLS {
         let mut problems = Problems::new(name);
-        problems.error("E312", Place::FILE, format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
+        problems.error("E312", FilePosition::FILE, format!("more than {MOST_ROWS} rows or {MOST_CELLS} numbers"), "");
         return Some(Err(problems.finish().err().unwrap_or_default()));
     }
     Some(read(name, text).map(|mut read| {

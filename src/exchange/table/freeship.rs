@@ -5,10 +5,10 @@
 //! last: each becomes a knuckle of the table, and sections stand at every x of their points, straight between the
 //! chines, the chines straight between their points. Round hulls are written with five decimals.
 
-use super::fields::{Line, Separator, finish, lines};
+use super::fields::{Separator, TextLine, finish, lines};
 use super::outline::{line_of, point};
-use super::problem::{Place, Problems};
-use super::sections::{Body, Origin, Section, refuse_negative, table};
+use super::problem::{FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{FeatureLine, LineKind, Marks, OffsetTable, OutlinePoint, StatedParticulars};
 use std::fmt::Write as _;
@@ -48,7 +48,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         for curve in curves.iter().filter(|curve| !flat(curve)) {
             let (low, high) = range(curve);
             let message = format!("the section runs from x = {low} to {high} m; the others stand at one x each");
-            problems.error("E323", Place::row(curve.row), message, "Is a blank line missing, or a number wrong?");
+            problems.error(
+                "E323",
+                FilePosition::row(curve.row),
+                message,
+                "Is a blank line missing, or a number wrong?",
+            );
         }
         return finish(problems, None);
     }
@@ -65,7 +70,7 @@ fn range(curve: &Curve) -> (f64, f64) {
     curve.points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[0]), b.max(p[0])))
 }
 
-fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
+fn curves(rows: &[TextLine<'_>], problems: &mut Problems) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     let mut open = false;
     let mut lines = rows.iter().skip_while(|line| line.fields.is_empty());
@@ -76,7 +81,7 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
         other => {
             let (row, text) = other.map_or((1, ""), |line| (line.row, line.text));
             let message = "the first line is the precision, one whole number".to_owned();
-            problems.error("E326", (Place::row(row), text), message, "Write 0.");
+            problems.error("E326", (FilePosition::row(row), text), message, "Write 0.");
         }
     }
     // The program's own files end with a line EOF.
@@ -87,7 +92,7 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
         }
         let [x, y, z] = line.fields[..] else {
             let message = format!("{} fields; a point is x, y, z", line.fields.len());
-            problems.error("E326", (Place::row(line.row), line.text), message, "Write three numbers.");
+            problems.error("E326", (FilePosition::row(line.row), line.text), message, "Write three numbers.");
             continue;
         };
         if !open {
@@ -100,20 +105,20 @@ fn curves(rows: &[Line<'_>], problems: &mut Problems) -> Vec<Curve> {
         }
     }
     if curves.is_empty() && !problems.any_errors() {
-        problems.error("E328", Place::FILE, "the file has no points".to_owned(), "");
+        problems.error("E328", FilePosition::FILE, "the file has no points".to_owned(), "");
     }
     curves
 }
 
 fn body(sections: Vec<Section>) -> Body {
     let stated = StatedParticulars::default();
-    Body { name: String::new(), stated, sections, origin: Origin::Unknown, unit: 1.0 }
+    Body { name: String::new(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }
 }
 
 fn round_hull(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<TableProblem>> {
     let mut sections = Vec::new();
     for curve in curves {
-        let (x, place) = (curve.points[0][0], Place::row(curve.row));
+        let (x, place) = (curve.points[0][0], FilePosition::row(curve.row));
         let mut points: Vec<OutlinePoint> = curve.points.iter().map(|p| point(p[1], p[2])).collect();
         refuse_negative(&mut points, x, place, &mut problems);
         sections.push(Section { name: None, x, place, branches: vec![points], deck: None });
@@ -125,11 +130,11 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
     let count: usize = curves.iter().map(|curve| curve.points.len()).sum();
     if curves.len() > MOST_CHINES || count > MOST_POINTS {
         let message = format!("{} chines with {count} points; at most {MOST_CHINES} and {MOST_POINTS}", curves.len());
-        problems.error("E312", Place::FILE, message, "Are these sections, with x that varies?");
+        problems.error("E312", FilePosition::FILE, message, "Are these sections, with x that varies?");
     }
     let mut lines: Vec<FeatureLine> = Vec::new();
     for (k, curve) in curves.iter().enumerate() {
-        let place = Place::row(curve.row);
+        let place = FilePosition::row(curve.row);
         let mut points = curve.points.clone();
         let mut plane: Vec<OutlinePoint> = points.iter().map(|p| point(p[1], p[2])).collect();
         refuse_negative(&mut plane, points[0][0], place, &mut problems);
@@ -165,7 +170,7 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
             (points.len() > 1).then(|| Section {
                 name: None,
                 x,
-                place: Place::FILE,
+                place: FilePosition::FILE,
                 branches: vec![points],
                 deck: None,
             })
@@ -173,7 +178,7 @@ fn chines(curves: &[Curve], mut problems: Problems) -> Result<ReadTable, Vec<Tab
         .collect();
     let message =
         format!("{} chines: sections at {} x are made of straight lines between them", lines.len(), sections.len());
-    problems.warning("W334", Place::FILE, message, "");
+    problems.warning("W334", FilePosition::FILE, message, "");
     let first = sections.first().map_or(0.0, |section| section.x);
     let mut read = table(body(sections), problems)?;
     // The table may have been moved to AP; its lines move with it.

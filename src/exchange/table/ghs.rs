@@ -8,10 +8,10 @@
 //!
 //! Limits: shell thickness of shapes is not applied. Written are half sections of side 0 in 1e-4 ft (0.03 mm).
 
-use super::fields::{Line, Separator, finish, lines};
+use super::fields::{Separator, TextLine, finish, lines};
 use super::outline::{Deck, line_of, point, take_off_deck};
-use super::problem::{Field, Place, Problems};
-use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::problem::{Field, FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
 use crate::units::counted;
@@ -62,34 +62,34 @@ pub(super) fn recognise(name: &str, text: &str) -> bool {
 }
 
 /// Lines one after another.
-struct Reader<'a> {
-    lines: Vec<Line<'a>>,
+struct LineReader<'a> {
+    lines: Vec<TextLine<'a>>,
     next: usize,
 }
 
-impl<'a> Reader<'a> {
-    fn peek(&mut self) -> Option<&Line<'a>> {
+impl<'a> LineReader<'a> {
+    fn peek(&mut self) -> Option<&TextLine<'a>> {
         while self.lines.get(self.next).is_some_and(|line| line.text.is_empty()) {
             self.next += 1;
         }
         self.lines.get(self.next)
     }
 
-    fn take(&mut self) -> Option<Line<'a>> {
+    fn take(&mut self) -> Option<TextLine<'a>> {
         self.peek()?;
         self.next += 1;
         self.lines.get(self.next - 1).cloned()
     }
 
     /// The next line unless it begins with `*`.
-    fn data(&mut self) -> Option<Line<'a>> {
+    fn data(&mut self) -> Option<TextLine<'a>> {
         if self.peek()?.text.starts_with('*') { None } else { self.take() }
     }
 
     /// Row of the next line, or of the last of the file.
-    fn place(&mut self) -> Place {
+    fn place(&mut self) -> FilePosition {
         let last = self.lines.last().map_or(1, |line| line.row);
-        Place::row(self.peek().map_or(last, |line| line.row))
+        FilePosition::row(self.peek().map_or(last, |line| line.row))
     }
 
     /// Takes the mark that ends a block, skipping what is before it; says so when it is missing.
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let mut reader = Reader { lines: lines(text, Separator::CommaOrBlank), next: 0 };
+    let mut reader = LineReader { lines: lines(text, Separator::CommaOrBlank), next: 0 };
     let title = reader.data().map_or("", |line| line.text);
     let length = header(&mut reader, &mut problems);
     let shapes = shapes(&mut reader, &mut problems);
@@ -125,7 +125,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let named: usize = parts.iter().map(|part| 1 + part.components.len()).sum();
     if shapes.len().max(components.len()).max(named) > MOST_NAMES {
         let message = format!("more than {MOST_NAMES} shapes, components or parts");
-        problems.error("E312", Place::FILE, message, "Keep those of the hull.");
+        problems.error("E312", FilePosition::FILE, message, "Keep those of the hull.");
     }
     if problems.any_errors() {
         return finish(problems, None);
@@ -133,14 +133,14 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     let Some(component) = hull(&shapes, &components, &parts, &mut problems) else { return finish(problems, None) };
     let sections = sections(component, &shapes, &mut problems);
     let stated = StatedParticulars { length_between_perpendiculars: length.map(|l| l * FOOT), ..Default::default() };
-    table(Body { name: title.to_owned(), stated, sections, origin: Origin::Unknown, unit: FOOT }, problems)
+    table(Body { name: title.to_owned(), stated, sections, origin: XOrigin::Unknown, unit: FOOT }, problems)
 }
 
 /// The `KEY:value` lines; gives the length `L:` \[ft\].
-fn header(reader: &mut Reader<'_>, problems: &mut Problems) -> Option<f64> {
+fn header(reader: &mut LineReader<'_>, problems: &mut Problems) -> Option<f64> {
     let mut length = None;
     while let Some(line) = reader.data() {
-        let place = Place::row(line.row);
+        let place = FilePosition::row(line.row);
         match line.text.split_once(':') {
             Some(("L", value)) => {
                 length = problems.number(Field { text: value.trim(), row: line.row, column: 0 }, "the length L")
@@ -159,7 +159,7 @@ fn header(reader: &mut Reader<'_>, problems: &mut Problems) -> Option<f64> {
     length.filter(|l| *l > 0.0)
 }
 
-fn shapes<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Shape<'a>> {
+fn shapes<'a>(reader: &mut LineReader<'a>, problems: &mut Problems) -> Vec<Shape<'a>> {
     let mut shapes = Vec::new();
     while let Some(line) = reader.data() {
         match shape(&line, reader, problems) {
@@ -170,14 +170,14 @@ fn shapes<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Shape<'a>
     }
     reader.mark("**", "the shapes", problems);
     if shapes.is_empty() && !problems.any_errors() {
-        problems.error("E328", Place::FILE, "the file has no shapes".to_owned(), "");
+        problems.error("E328", FilePosition::FILE, "the file has no shapes".to_owned(), "");
     }
     shapes
 }
 
-fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems) -> Option<Shape<'a>> {
+fn shape<'a>(title: &TextLine<'a>, reader: &mut LineReader<'a>, problems: &mut Problems) -> Option<Shape<'a>> {
     let name = title.text;
-    let missing = |what: &str, reader: &mut Reader<'a>, problems: &mut Problems| {
+    let missing = |what: &str, reader: &mut LineReader<'a>, problems: &mut Problems| {
         let place = reader.place();
         let found = reader.peek().map_or("", |line| line.text);
         let message = format!("{what} expected");
@@ -190,7 +190,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
     if line.fields.len() != 1 {
         let message = format!("shape '{name}': number of sections expected, one number");
         let remedy = "Is the number of sections of the shape before it, or of the points of its last section, right?";
-        problems.error("E322", (Place::row(line.row), line.text), message, remedy);
+        problems.error("E322", (FilePosition::row(line.row), line.text), message, remedy);
         return None;
     }
     let announced = problems.count(line.fields[0], "the number of sections", 1)?;
@@ -210,7 +210,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
         });
         let [x, count] = head.fields[..] else {
             let message = format!("section {} of '{name}': x and number of points expected{blame}", k + 1);
-            problems.error("E322", (Place::row(head.row), head.text), message, "Is the count before it right?");
+            problems.error("E322", (FilePosition::row(head.row), head.text), message, "Is the count before it right?");
             return None;
         };
         let x = problems.length(x, "x of the section");
@@ -229,7 +229,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
             let [y, z] = line.fields[..] else {
                 let message = format!("point {} of {count}: y, z expected", i + 1);
                 let remedy = format!("Is the number of points in row {} right?", head.row);
-                problems.error("E322", (Place::row(line.row), line.text), message, &remedy);
+                problems.error("E322", (FilePosition::row(line.row), line.text), message, &remedy);
                 return None;
             };
             if let (Some(y), Some(z)) = (problems.length(y, "y"), problems.length(z, "z")) {
@@ -245,7 +245,7 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
     {
         problems.warning(
             "W334",
-            Place::row(line.row),
+            FilePosition::row(line.row),
             format!("the three numbers after shape '{name}' are not applied"),
             "",
         );
@@ -253,13 +253,13 @@ fn shape<'a>(title: &Line<'a>, reader: &mut Reader<'a>, problems: &mut Problems)
     Some(Shape { name, sections })
 }
 
-fn triple(line: &Line<'_>) -> Option<[f64; 3]> {
+fn triple(line: &TextLine<'_>) -> Option<[f64; 3]> {
     let [a, b, c] = line.fields[..] else { return None };
     let number = |field: Field<&str>| super::fields::plain_number(field.text);
     Some([number(a)?, number(b)?, number(c)?])
 }
 
-fn components<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Component<'a>> {
+fn components<'a>(reader: &mut LineReader<'a>, problems: &mut Problems) -> Vec<Component<'a>> {
     let mut components = Vec::new();
     while let Some(title) = reader.data() {
         let wanted = ["side (0, 1 or -1)", "effectiveness", "offset x, y, z", "name of the shape"];
@@ -279,7 +279,12 @@ fn components<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Compo
         let shift = triple(offset);
         if shift.is_none() {
             let message = format!("component '{}': offset x, y, z expected", title.text);
-            problems.error("E322", (Place::row(offset.row), offset.text), message, "Write three numbers with commas.");
+            problems.error(
+                "E322",
+                (FilePosition::row(offset.row), offset.text),
+                message,
+                "Write three numbers with commas.",
+            );
         }
         components.push(Component {
             name: title.text,
@@ -293,7 +298,7 @@ fn components<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Compo
     components
 }
 
-fn parts<'a>(reader: &mut Reader<'a>, problems: &mut Problems) -> Vec<Part<'a>> {
+fn parts<'a>(reader: &mut LineReader<'a>, problems: &mut Problems) -> Vec<Part<'a>> {
     let mut parts = Vec::new();
     while let Some(title) = reader.data() {
         let mut counted = None;
@@ -340,23 +345,23 @@ fn hull<'c, 'a>(
         for name in &part.components {
             if !components.iter().any(|c| c.name == *name) {
                 let message = format!("part '{}' has a component that the file does not define", part.name);
-                problems.error("E326", (Place::row(part.row), *name), message, "Check the name.");
+                problems.error("E326", (FilePosition::row(part.row), *name), message, "Check the name.");
             }
         }
     }
     for component in components {
         if !shapes.iter().any(|s| s.name == component.shape) {
             let message = format!("component '{}' has a shape that the file does not define", component.name);
-            problems.error("E326", (Place::row(component.row), component.shape), message, "Check the name.");
+            problems.error("E326", (FilePosition::row(component.row), component.shape), message, "Check the name.");
         }
     }
     let named = |wanted: fn(&str) -> bool| parts.iter().find(|p| wanted(&p.name.to_ascii_uppercase()));
     let Some(part) = named(|n| n == "HULL").or_else(|| named(|n| n.contains("HULL"))).or(parts.first()) else {
-        problems.error("E328", Place::FILE, "the file has no parts".to_owned(), "A part HULL is needed.");
+        problems.error("E328", FilePosition::FILE, "the file has no parts".to_owned(), "A part HULL is needed.");
         return None;
     };
     for other in parts.iter().filter(|other| other.row != part.row) {
-        problems.warning("W332", Place::row(other.row), format!("part '{}' is left out", other.name), "");
+        problems.warning("W332", FilePosition::row(other.row), format!("part '{}' is left out", other.name), "");
     }
     let mut best: Option<(usize, &Component<'_>)> = None;
     let mut left_out = Vec::new();
@@ -378,7 +383,7 @@ fn hull<'c, 'a>(
         let text = describe(component, shape);
         problems.warning(
             "W332",
-            Place::row(component.row),
+            FilePosition::row(component.row),
             format!("component '{}' is left out: {text}", component.name),
             "",
         );
@@ -388,7 +393,7 @@ fn hull<'c, 'a>(
         let message =
             format!("no component of part '{}' is a hull over the centreplane; {}", part.name, all.join("; "));
         let remedy = "A half section needs side 0; a loop must go around both sides.";
-        problems.error("E328", (Place::row(part.row), part.name), message, remedy);
+        problems.error("E328", (FilePosition::row(part.row), part.name), message, remedy);
         return None;
     };
     Some(hull)
@@ -428,7 +433,7 @@ fn sections(component: &Component<'_>, shapes: &[Shape<'_>], problems: &mut Prob
     let mut gaps = Vec::new();
     let mut sections = Vec::new();
     for section in &shape.sections {
-        let place = Place::row(section.row);
+        let place = FilePosition::row(section.row);
         let x = 0.0 - (section.x + component.offset[0]) * FOOT;
         let mut points = shifted(component, section);
         let both = points.iter().any(|p| p.y < -1e-9) && points.iter().any(|p| p.y > 1e-9);

@@ -3,7 +3,7 @@
 //! Fields follow RFC 4180: a field in quotes may hold separators, line ends and doubled quotes. A line whose first
 //! character is `#` is a comment. Memory is bounded by [`LARGEST_TABLE`] bytes of text and [`MOST_CELLS`] fields.
 
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 
 /// Longer files are not tables of offsets \[bytes\].
 pub const LARGEST_TABLE: usize = 16 << 20;
@@ -35,7 +35,7 @@ pub(super) struct Grid {
 pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
     if bytes.len() > LARGEST_TABLE {
         let message = format!("the file has {} bytes; a table has at most {LARGEST_TABLE}", bytes.len());
-        problems.error("E312", Place::FILE, message, "");
+        problems.error("E312", FilePosition::FILE, message, "");
         return None;
     }
     let wide = match bytes {
@@ -56,7 +56,12 @@ pub(super) fn decode(bytes: &[u8], problems: &mut Problems) -> Option<String> {
         }
     };
     if text.chars().any(|c| c.is_control() && !matches!(c, '\t' | '\n' | '\r')) {
-        problems.error("E300", Place::FILE, "the file is not text".to_owned(), "Give the table as CSV, TSV or XLSX.");
+        problems.error(
+            "E300",
+            FilePosition::FILE,
+            "the file is not text".to_owned(),
+            "Give the table as CSV, TSV or XLSX.",
+        );
         return None;
     }
     Some(text)
@@ -112,7 +117,7 @@ pub(super) fn split(text: &str, separator: Option<char>, problems: &mut Problems
         grid.rows.push(row);
         if grid.rows.len() > MOST_ROWS || cells > MOST_CELLS {
             let message = format!("more than {MOST_ROWS} rows or {MOST_CELLS} cells");
-            problems.error("E312", Place::row(line), message, "");
+            problems.error("E312", FilePosition::row(line), message, "");
             return None;
         }
         line += lines;
@@ -154,7 +159,12 @@ fn record<'t>(
                 let next = Field { row: line, column: field.column + 1, text: String::new() };
                 fields.push(std::mem::replace(&mut field, next));
                 if fields.len() > MOST_COLUMNS {
-                    problems.error("E312", Place::row(line), format!("more than {MOST_COLUMNS} fields in a row"), "");
+                    problems.error(
+                        "E312",
+                        FilePosition::row(line),
+                        format!("more than {MOST_COLUMNS} fields in a row"),
+                        "",
+                    );
                     return None;
                 }
             }

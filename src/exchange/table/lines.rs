@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 use super::super::cad::{CadCurve, CadSurfaces, is_iges, read_iges};
 use super::body::{Given, Placement};
 use super::outline::point;
-use super::problem::{Place, Problems};
-use super::sections::{Body, Origin, Section, note_asymmetry, starboard_of, table};
+use super::problem::{FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::Settings;
 use super::{ReadTable, TableProblem, beside};
 use crate::hull::OutlinePoint;
@@ -29,12 +29,12 @@ const LEAST_WATERLINES: usize = 3;
 const SECTIONS: usize = 40;
 
 /// A curve in the ship's frame.
-struct Line {
+struct SpaceCurve {
     row: usize,
     points: Vec<[f64; 3]>,
 }
 
-impl Line {
+impl SpaceCurve {
     fn range(&self, axis: usize) -> [f64; 2] {
         let values = self.points.iter().map(|point| point[axis]);
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
@@ -60,7 +60,7 @@ pub(super) fn read(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> Option<
     for (name, text) in beside {
         beside::read(name, text, &mut settings, &mut problems);
     }
-    notes.into_iter().for_each(|note| problems.warning("W352", Place::FILE, note, ""));
+    notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
     let unit = unit.unwrap_or(1.0);
     problems
         .note(format!("{} (IGES) without surfaces; the unit of the file is {unit} m", counted(curves.len(), "curve")));
@@ -79,14 +79,14 @@ pub(super) fn read(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> Option<
         name: settings.name.unwrap_or_default(),
         stated: settings.stated,
         sections,
-        origin: if settings.frame.x_origin.is_some() { Origin::AfterPerpendicular } else { Origin::Unknown },
+        origin: if settings.frame.x_origin.is_some() { XOrigin::AfterPerpendicular } else { XOrigin::Unknown },
         unit: 1.0,
     };
     Some(table(body, problems))
 }
 
 /// The curves in the ship's frame.
-fn placed(curves: &[CadCurve], settings: &Settings, unit: f64, problems: &mut Problems) -> Option<Vec<Line>> {
+fn placed(curves: &[CadCurve], settings: &Settings, unit: f64, problems: &mut Problems) -> Option<Vec<SpaceCurve>> {
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let first = *points().next()?;
     let fold =
@@ -94,7 +94,7 @@ fn placed(curves: &[CadCurve], settings: &Settings, unit: f64, problems: &mut Pr
     let bounds = [fold(f64::min), fold(f64::max)];
     let given = Given { unit, axes: None, surfaces: false };
     let placement = Placement::of(bounds, settings, &given, problems)?;
-    let line = |curve: &CadCurve| Line {
+    let line = |curve: &CadCurve| SpaceCurve {
         row: curve.line,
         points: curve.points.iter().map(|&point| placement.place(point)).collect(),
     };
@@ -102,7 +102,7 @@ fn placed(curves: &[CadCurve], settings: &Settings, unit: f64, problems: &mut Pr
 }
 
 /// Sections of the curves that are such, or of waterlines.
-fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
+fn sections(lines: &[SpaceCurve], problems: &mut Problems) -> Vec<Section> {
     let size = (0..3)
         .map(|axis| {
             let ranges = lines.iter().map(|line| line.range(axis));
@@ -111,8 +111,9 @@ fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
         })
         .fold(0.0, f64::max);
     let slack = FLAT * size;
-    let (across, along): (Vec<&Line>, Vec<&Line>) = lines.iter().partition(|line| line.is_flat(0, slack));
-    let (level, others): (Vec<&Line>, Vec<&Line>) = along.iter().copied().partition(|line| line.is_flat(2, slack));
+    let (across, along): (Vec<&SpaceCurve>, Vec<&SpaceCurve>) = lines.iter().partition(|line| line.is_flat(0, slack));
+    let (level, others): (Vec<&SpaceCurve>, Vec<&SpaceCurve>) =
+        along.iter().copied().partition(|line| line.is_flat(2, slack));
     let mut list = of_sections(&across, slack, problems);
     let mut left = others.len();
     if list.len() >= 2 {
@@ -127,7 +128,7 @@ fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
                 across.len(),
                 level.len()
             );
-            let place = lines.first().map_or(Place::FILE, |line| Place::row(line.row));
+            let place = lines.first().map_or(FilePosition::FILE, |line| FilePosition::row(line.row));
             problems.error("E328", place, message, "Give surfaces, or curves in such planes.");
         } else {
             list = made;
@@ -135,12 +136,12 @@ fn sections(lines: &[Line], problems: &mut Problems) -> Vec<Section> {
     }
     if left > 0 && !list.is_empty() {
         let message = format!("left out: {}, in no plane of a section", counted(left, "curve"));
-        problems.warning("W332", Place::FILE, message, "");
+        problems.warning("W332", FilePosition::FILE, message, "");
     }
     list
 }
 
-fn of_sections(lines: &[&Line], slack: f64, problems: &mut Problems) -> Vec<Section> {
+fn of_sections(lines: &[&SpaceCurve], slack: f64, problems: &mut Problems) -> Vec<Section> {
     let mut sorted = lines.to_vec();
     sorted.sort_by(|a, b| a.points[0][0].total_cmp(&b.points[0][0]));
     let (mut list, mut gaps): (Vec<Section>, Vec<(f64, f64)>) = (Vec::new(), Vec::new());
@@ -170,7 +171,7 @@ fn of_sections(lines: &[&Line], slack: f64, problems: &mut Problems) -> Vec<Sect
             // The other side of a section that is there already says nothing new.
             Some(section) if negative && !positive && !section.branches.is_empty() => {}
             Some(section) => section.branches.extend(branches),
-            None => list.push(Section { name: None, x, place: Place::row(line.row), branches, deck: None }),
+            None => list.push(Section { name: None, x, place: FilePosition::row(line.row), branches, deck: None }),
         }
     }
     list.retain(|section| !section.branches.is_empty());
@@ -182,7 +183,7 @@ fn of_sections(lines: &[&Line], slack: f64, problems: &mut Problems) -> Vec<Sect
 }
 
 /// The greatest half-breadth of a waterline at x.
-fn breadth(line: &Line, x: f64) -> Option<f64> {
+fn breadth(line: &SpaceCurve, x: f64) -> Option<f64> {
     line.points
         .windows(2)
         .filter_map(|pair| {
@@ -194,8 +195,8 @@ fn breadth(line: &Line, x: f64) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-fn of_waterlines(lines: &[&Line], slack: f64, problems: &mut Problems) -> Vec<Section> {
-    let mut heights: Vec<(f64, Vec<&Line>)> = Vec::new();
+fn of_waterlines(lines: &[&SpaceCurve], slack: f64, problems: &mut Problems) -> Vec<Section> {
+    let mut heights: Vec<(f64, Vec<&SpaceCurve>)> = Vec::new();
     let mut sorted = lines.to_vec();
     sorted.sort_by(|a, b| a.points[0][2].total_cmp(&b.points[0][2]));
     for line in sorted {
@@ -212,15 +213,15 @@ fn of_waterlines(lines: &[&Line], slack: f64, problems: &mut Problems) -> Vec<Se
     let [aft, fore] = ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |p, q| [p[0].min(q[0]), p[1].max(q[1])]);
     let message =
         format!("{} waterlines: sections at {} x are made of straight lines between them", heights.len(), SECTIONS + 1);
-    problems.warning("W334", Place::FILE, message, "");
+    problems.warning("W334", FilePosition::FILE, message, "");
     let sections = (0..=SECTIONS).map(|k| {
         let x = aft + 0.5 * (fore - aft) * (1.0 - (PI * k as f64 / SECTIONS as f64).cos());
-        let at = |(z, list): &(f64, Vec<&Line>)| {
+        let at = |(z, list): &(f64, Vec<&SpaceCurve>)| {
             let y = list.iter().filter_map(|line| breadth(line, x)).max_by(f64::total_cmp)?;
             Some(point(y, *z))
         };
         let branch: Vec<OutlinePoint> = heights.iter().filter_map(at).collect();
-        Section { name: None, x, place: Place::FILE, branches: vec![branch], deck: None }
+        Section { name: None, x, place: FilePosition::FILE, branches: vec![branch], deck: None }
     });
     sections
         .filter(|section| section.branches[0].len() > 1 && section.branches[0].iter().any(|p| p.y > slack))

@@ -5,14 +5,14 @@
 //! and does not taper upwards.
 
 use super::header::{Axis, Corner, axis_of, side_of};
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::settings::Settings;
 use crate::hull::{Rows, SideKind};
 use crate::units::counted;
 
 /// One station, or one ending, of a block.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Line {
+pub(super) struct MatrixRow {
     /// Its position.
     pub(super) head: Field,
     /// Its name, when that stands in a field of its own.
@@ -25,7 +25,7 @@ pub(super) struct Line {
 
 /// A side column of a block.
 #[derive(Debug, Clone)]
-pub(super) struct Side {
+pub(super) struct SideHeader {
     pub(super) kind: SideKind,
     pub(super) head: Field,
     /// Before the offsets.
@@ -46,11 +46,11 @@ pub(super) struct Block {
     pub(super) across: Axis,
     /// Positions of the waterlines or buttocks.
     pub(super) heads: Vec<Field>,
-    pub(super) sides: Vec<Side>,
+    pub(super) sides: Vec<SideHeader>,
     pub(super) name_column: Option<Field>,
-    pub(super) stations: Vec<Line>,
+    pub(super) stations: Vec<MatrixRow>,
     /// Stern and stem.
-    pub(super) endings: Vec<(SideKind, Line)>,
+    pub(super) endings: Vec<(SideKind, MatrixRow)>,
     /// Every row ended with an empty field.
     pub(super) trailing: bool,
 }
@@ -96,7 +96,7 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
         );
         problems.error(
             "E308",
-            Place::row(wrong[0][0].row),
+            FilePosition::row(wrong[0][0].row),
             message,
             "Separate the fields with ';' or tabs, or write decimal points",
         );
@@ -109,7 +109,7 @@ fn rectangle(part: &[Vec<Field>], problems: &mut Problems) -> Option<(Vec<Vec<Fi
         } else {
             "Fill up with empty fields where there is no hull"
         };
-        problems.error("E307", Place::row(row[0].row), message, remedy);
+        problems.error("E307", FilePosition::row(row[0].row), message, remedy);
     }
     // The other rows, and what stands in these, are looked at all the same.
     let even = part.iter().map(|row| {
@@ -181,7 +181,12 @@ fn orientation(fields: &[Vec<Field>], settings: &Settings, problems: &mut Proble
                  as if the stations stood the other way",
                 fields[0][0].trimmed()
             );
-            problems.warning("W320", Place::FILE, message, "Declare rows = \"stations\" or rows = \"waterlines\"");
+            problems.warning(
+                "W320",
+                FilePosition::FILE,
+                message,
+                "Declare rows = \"stations\" or rows = \"waterlines\"",
+            );
         }
         return (rows, "by the words of the headers");
     }
@@ -285,7 +290,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
     for (j, head) in heads.iter().enumerate().skip(left + 1) {
         if let Some(kind) = side_of(head.trimmed()).filter(|kind| !matches!(kind, SideKind::Stern | SideKind::Stem)) {
             let before = block.heads.is_empty();
-            block.sides.push(Side { kind, head: head.clone(), before });
+            block.sides.push(SideHeader { kind, head: head.clone(), before });
             columns[j] = Some(true);
         } else if head.is_blank() {
             if let Some(full) = fields.iter().skip(top + 1).map(|row| &row[j]).find(|f| !f.is_blank()) {
@@ -298,7 +303,7 @@ fn block(part: &[Vec<Field>], settings: &Settings, problems: &mut Problems) -> O
         }
     }
     for row in fields.into_iter().skip(top + 1) {
-        let mut line = Line::default();
+        let mut line = MatrixRow::default();
         for (j, field) in row.into_iter().enumerate() {
             match columns[j] {
                 _ if j == left => line.head = field,

@@ -7,8 +7,8 @@
 //! and draught, by their comments; x counts from the aftmost point, z from the lowest. Everything else that is written
 //! is a start for the user: salt water at 15 degrees, 41 speeds up to Fn 0.5 by ITTC 1957, even keel.
 
-use super::fields::{Line, Separator, finish, lines};
-use super::problem::{Place, Problems};
+use super::fields::{Separator, TextLine, finish, lines};
+use super::problem::{FilePosition, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{
     Cell, Entry, Marks, OffsetTable, StatedParticulars, StationOffsets, TableForm, TableLayout, Written,
@@ -44,9 +44,9 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 }
 
 /// The values under each comment that begins so, up to the next comment.
-fn blocks<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> impl Iterator<Item = &'b [Line<'a>]> {
-    let comment = |line: &Line<'_>| line.text.starts_with('#');
-    let named = move |line: &Line<'_>| {
+fn blocks<'a, 'b>(rows: &'b [TextLine<'a>], label: &str) -> impl Iterator<Item = &'b [TextLine<'a>]> {
+    let comment = |line: &TextLine<'_>| line.text.starts_with('#');
+    let named = move |line: &TextLine<'_>| {
         let words = line.text.trim_start_matches('#').trim().to_ascii_lowercase();
         comment(line) && words.starts_with(label)
     };
@@ -58,13 +58,13 @@ fn blocks<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> impl Iterator<Item = &'b
 
 /// The values under a comment; those of the first hull. Comments with nothing under them, such as the title, are passed
 /// over.
-fn under<'a, 'b>(rows: &'b [Line<'a>], label: &str) -> &'b [Line<'a>] {
+fn under<'a, 'b>(rows: &'b [TextLine<'a>], label: &str) -> &'b [TextLine<'a>] {
     blocks(rows, label).find(|block| !block.is_empty()).unwrap_or(&[])
 }
 
 /// The offsets: the first block of their label whose rows have more than one value, else the first with values.
-fn offsets<'a, 'b>(rows: &'b [Line<'a>]) -> &'b [Line<'a>] {
-    let grid = |block: &&[Line<'_>]| block.first().is_some_and(|line| line.fields.len() > 1);
+fn offsets<'a, 'b>(rows: &'b [TextLine<'a>]) -> &'b [TextLine<'a>] {
+    let grid = |block: &&[TextLine<'_>]| block.first().is_some_and(|line| line.fields.len() > 1);
     blocks(rows, LABELS[2]).find(grid).unwrap_or_else(|| under(rows, LABELS[2]))
 }
 
@@ -74,13 +74,13 @@ fn offsets<'a, 'b>(rows: &'b [Line<'a>]) -> &'b [Line<'a>] {
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let rows: Vec<Line<'_>> =
+    let rows: Vec<TextLine<'_>> =
         lines(text, Separator::CommaOrBlank).into_iter().filter(|line| !line.text.is_empty()).collect();
     let value = |label: &str, problems: &mut Problems| {
         let field = under(&rows, label).first().and_then(|line| line.fields.first().copied());
         if field.is_none() {
             let message = format!("no value under a comment '# {label}'");
-            problems.error("E326", Place::FILE, message, "Write it under its comment.");
+            problems.error("E326", FilePosition::FILE, message, "Write it under its comment.");
         }
         field
     };
@@ -104,7 +104,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         && wanted[1] != Some(line.fields.len())
     {
         let message = "the hull is one of a series given by parameters".to_owned();
-        problems.error("E328", (Place::row(line.row), line.text), message, "Give its offsets.");
+        problems.error("E328", (FilePosition::row(line.row), line.text), message, "Give its offsets.");
         return finish(problems, None);
     }
     let ([Some(stations), Some(waterlines)], Some(length), Some(draught)) = (wanted, length, draught) else {
@@ -114,13 +114,18 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let row = block.first().map_or(1, |line| line.row);
         let message =
             format!("{} announced, {} of offsets read", counted(stations, "station"), counted(block.len(), "row"));
-        problems.error("E322", Place::row(row), message, "Correct the number, or the rows.");
+        problems.error("E322", FilePosition::row(row), message, "Correct the number, or the rows.");
     }
     let mut list = Vec::new();
     for (k, line) in block.iter().enumerate() {
         if line.fields.len() != waterlines {
             let message = format!("{} announced, the row has {}", counted(waterlines, "waterline"), line.fields.len());
-            problems.error("E322", (Place::row(line.row), line.text), message, "Correct the number, or the row.");
+            problems.error(
+                "E322",
+                (FilePosition::row(line.row), line.text),
+                message,
+                "Correct the number, or the row.",
+            );
             continue;
         }
         let share = 1.0 - k as f64 / (stations.max(2) - 1) as f64;
@@ -151,7 +156,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         let message = format!(
             "the offsets enclose {own:.4} m3, the file states {volume:.4} m3, to which Michlet scales them; they are read as written"
         );
-        problems.warning("W334", Place::FILE, message, "");
+        problems.warning("W334", FilePosition::FILE, message, "");
     }
     problems.note(format!(
         "{stations} stations from the bow aft and {waterlines} waterlines of the immersed hull; x counts from its aftmost point, z \

@@ -60,7 +60,7 @@ pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table
 pub use xlsx::MOST_UNPACKED;
 
 use self::grid::Grid;
-use self::problem::{Field, Place, Problems};
+use self::problem::{Field, FilePosition, Problems};
 use self::settings::Settings;
 use crate::hull::{OffsetTable, Order, Rows, TableForm, TableLayout};
 use crate::units::{CellRules, CellWriting, Notation, counted, parse_cell};
@@ -104,7 +104,7 @@ pub fn read_table_with<'a>(
         let message = format!("{format} is not read");
         problems.error(
             "E300",
-            Place::FILE,
+            FilePosition::FILE,
             message,
             "Give a table of offsets, or sections, as CSV, XLSX or a text format of offsets",
         );
@@ -129,7 +129,7 @@ pub fn read_table_with<'a>(
         let message = "no table of offsets is recognised".to_owned();
         problems.error(
             "E300",
-            Place::FILE,
+            FilePosition::FILE,
             message,
             "Give a matrix with a row of headers, or columns station,x,curve,z,y,flag",
         );
@@ -162,7 +162,12 @@ fn fields(bytes: &[u8], settings: &mut Settings, problems: &mut Problems) -> Opt
         return None;
     }
     if grid.rows.iter().all(Vec::is_empty) {
-        problems.error("E300", Place::FILE, "the file is empty".to_owned(), "Give the table as CSV, TSV or XLSX");
+        problems.error(
+            "E300",
+            FilePosition::FILE,
+            "the file is empty".to_owned(),
+            "Give the table as CSV, TSV or XLSX",
+        );
         return None;
     }
     let layout = settings.layout.unwrap_or_else(|| {

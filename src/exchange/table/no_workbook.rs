@@ -1,7 +1,7 @@
 //! What stands for workbooks in a library that was built without them.
 
 use super::grid::Grid;
-use super::problem::{Place, Problems};
+use super::problem::{FilePosition, Problems};
 use crate::hull::TableForm;
 
 /// What is missing.
@@ -9,7 +9,7 @@ const MISSING: &str = "workbooks need the feature `workbooks` of the library";
 
 /// The rows of a workbook: a problem here.
 pub(super) fn grid(_: &[u8], problems: &mut Problems) -> Option<(Grid, String)> {
-    problems.error("E300", Place::FILE, MISSING.to_owned(), "Give the table as CSV");
+    problems.error("E300", FilePosition::FILE, MISSING.to_owned(), "Give the table as CSV");
     None
 }
 

@@ -3,7 +3,7 @@
 //! When all stations have the same heights the pairs are a matrix of half-breadths in disguise and become one; otherwise
 //! they are outlines.
 
-use super::assemble::Reader;
+use super::assemble::TableReader;
 use super::header::{Corner, Position, position};
 use super::problem::{Field, Problems};
 use super::scale::{Size, ends_from_midship, origin, units};
@@ -78,7 +78,7 @@ pub(super) fn read(
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], numbers, problems);
     let origin = ends_from_midship(origin, settings, &positions, units.x, problems);
     let form = TableForm { origin, layout: TableLayout::Pairs, ..form };
-    let mut reader = Reader::new(settings, form, units, problems);
+    let mut reader = TableReader::new(settings, form, units, problems);
     let xs: Vec<f64> = positions.into_iter().map(|p| reader.along(p)).collect();
     let fields: Vec<Field> = heads.iter().map(|(field, _)| field.clone()).collect();
     let mut table = OffsetTable::default();

@@ -5,10 +5,10 @@
 //! unsymmetric body are cut at the centreplane and the half of y > 0 is taken. A gap after a point is where a new
 //! branch begins. Written with four decimals, seven numbers a line.
 
-use super::fields::{Line, Separator, finish, lines};
+use super::fields::{Separator, TextLine, finish, lines};
 use super::outline::{point, section_of};
-use super::problem::{Field, Place, Problems};
-use super::sections::{Body, Origin, Section, note_asymmetry, refuse_negative, starboard_of, table};
+use super::problem::{Field, FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, note_asymmetry, refuse_negative, starboard_of, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars};
 use crate::units::counted;
@@ -37,13 +37,13 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let rows: Vec<Line<'_>> =
+    let rows: Vec<TextLine<'_>> =
         lines(text, Separator::Blank).into_iter().filter(|line| !line.fields.is_empty()).collect();
     let Some([count, symmetric, draught]) = rows.first().map(|line| &line.fields[..]) else {
         let message = "the first line is number of sections, t or f for symmetric, and draught".to_owned();
         problems.error(
             "E326",
-            (Place::row(1), rows.first().map_or("", |l| l.text)),
+            (FilePosition::row(1), rows.first().map_or("", |l| l.text)),
             message,
             "Write for example '19 t 0.96'.",
         );
@@ -84,18 +84,18 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     }
     note_asymmetry(&gaps, &mut problems);
     let stated = StatedParticulars { draught: draught.filter(|t| *t > 0.0), ..StatedParticulars::default() };
-    table(Body { name: String::new(), stated, sections, origin: Origin::Unknown, unit: 1.0 }, problems)
+    table(Body { name: String::new(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }, problems)
 }
 
 /// One section; none where the rest of the file cannot be told apart.
 fn section(
-    rows: &[Line<'_>],
+    rows: &[TextLine<'_>],
     index: &mut usize,
     number: usize,
     problems: &mut Problems,
-) -> Option<(f64, Place, Vec<Vec<OutlinePoint>>)> {
+) -> Option<(f64, FilePosition, Vec<Vec<OutlinePoint>>)> {
     let head = &rows[*index];
-    let place = Place::row(head.row);
+    let place = FilePosition::row(head.row);
     *index += 1;
     let [x, count, gap_count, gaps @ ..] = &head.fields[..] else {
         let message = format!("section {number}: x, number of points and number of gaps expected");
@@ -130,11 +130,11 @@ fn section(
 
 /// The fields of as many lines as the list needs; it ends with a line.
 fn list<'a>(
-    rows: &[Line<'a>],
+    rows: &[TextLine<'a>],
     index: &mut usize,
     count: usize,
     what: &str,
-    head: &Line<'_>,
+    head: &TextLine<'_>,
     problems: &mut Problems,
 ) -> Option<Vec<Field<&'a str>>> {
     let mut fields: Vec<Field<&'a str>> = Vec::new();
@@ -143,7 +143,7 @@ fn list<'a>(
         let Some(line) = rows.get(*index) else {
             let message =
                 format!("the file ends after {} of {count} {what} of the section in row {}", fields.len(), head.row);
-            problems.error("E322", Place::row(row), message, "Is the count right, or was the file cut off?");
+            problems.error("E322", FilePosition::row(row), message, "Is the count right, or was the file cut off?");
             return None;
         };
         row = line.row;
@@ -157,7 +157,12 @@ fn list<'a>(
             head.row,
             fields.len()
         );
-        problems.error("E322", (Place::row(row), fields[count].text), message, "Correct the count, or the line.");
+        problems.error(
+            "E322",
+            (FilePosition::row(row), fields[count].text),
+            message,
+            "Correct the count, or the line.",
+        );
         return None;
     }
     Some(fields)

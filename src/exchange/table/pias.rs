@@ -4,10 +4,10 @@
 //! point; any other flag is a knuckle, as far as the public samples (all flags 1) let one tell, and is noted. Written
 //! with four decimals, knuckles with flag 2.
 
-use super::fields::{Line, Separator, lines};
+use super::fields::{Separator, TextLine, lines};
 use super::outline::line_of;
-use super::problem::{Place, Problems};
-use super::sections::{Body, Origin, Section, refuse_negative, table};
+use super::problem::{FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{Marks, OffsetTable, OutlinePoint, StatedParticulars};
 use crate::units::counted;
@@ -38,14 +38,14 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 /// Every problem of the file.
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let rows: Vec<Line<'_>> =
+    let rows: Vec<TextLine<'_>> =
         lines(text, Separator::Blank).into_iter().filter(|line| !line.fields.is_empty()).collect();
     let announced = rows.first().and_then(|line| problems.count(line.fields[0], "the number of sections", 1));
     let mut sections: Vec<Section> = Vec::new();
     let mut knuckles = 0;
     let mut index = 1;
     while let Some(head) = rows.get(index) {
-        let place = Place::row(head.row);
+        let place = FilePosition::row(head.row);
         let ([x], Some([count])) = (&head.fields[..], rows.get(index + 1).map(|line| &line.fields[..])) else {
             let message =
                 format!("section {}: a line with x and one with the number of points expected", sections.len() + 1);
@@ -67,7 +67,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             found += 1;
             let [y, z, flag] = line.fields[..] else {
                 let message = "a point is y, z and a flag".to_owned();
-                problems.error("E322", (Place::row(line.row), line.text), message, "Write three numbers.");
+                problems.error("E322", (FilePosition::row(line.row), line.text), message, "Write three numbers.");
                 continue;
             };
             let (y, z) = (problems.length(y, "y"), problems.length(z, "z"));
@@ -88,14 +88,19 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     }
     if let Some(announced) = announced.filter(|&n| n != sections.len()) {
         let message = format!("the file announces {}, {} there", counted(announced, "section"), sections.len());
-        problems.error("E322", (Place::row(1), rows[0].text), message, "Correct the count; was the file cut off?");
+        problems.error(
+            "E322",
+            (FilePosition::row(1), rows[0].text),
+            message,
+            "Correct the count; was the file cut off?",
+        );
     }
     if knuckles > 0 {
         let message = format!("{} with a flag other than 1: read as knuckles", counted(knuckles, "point"));
-        problems.warning("W334", Place::FILE, message, "");
+        problems.warning("W334", FilePosition::FILE, message, "");
     }
     let stated = StatedParticulars::default();
-    table(Body { name: String::new(), stated, sections, origin: Origin::Unknown, unit: 1.0 }, problems)
+    table(Body { name: String::new(), stated, sections, origin: XOrigin::Unknown, unit: 1.0 }, problems)
 }
 
 /// Writes sections from keel to deck.

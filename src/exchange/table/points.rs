@@ -5,11 +5,11 @@
 //! or, without stations, of one x, are a section; each of its loops is a branch. Points are taken in the order of the
 //! column `point` or, without one, of the rows, and turned round when a branch begins above its end.
 
-use super::fields::{Line, Separator, finish, lines};
+use super::fields::{Separator, TextLine, finish, lines};
 use super::outline::{point, take_off_deck};
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::ratio::separator;
-use super::sections::{Body, Origin, Section, refuse_negative, table};
+use super::sections::{Body, Section, XOrigin, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OutlinePoint, StatedParticulars};
 
@@ -74,13 +74,13 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
 }
 
 /// A row with its numbers.
-struct Row<'a> {
+struct PointRow<'a> {
     station: Option<&'a str>,
     x: f64,
     branch: f64,
     order: f64,
     point: OutlinePoint,
-    place: Place,
+    place: FilePosition,
 }
 
 /// Reads sections given by points.
@@ -90,16 +90,16 @@ struct Row<'a> {
 pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
     let mark = head(text).map_or(',', |(mark, _)| mark);
-    let lines: Vec<Line<'_>> = lines(text, Separator::Exactly(mark))
+    let lines: Vec<TextLine<'_>> = lines(text, Separator::Exactly(mark))
         .into_iter()
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .collect();
     let Some((head, lines)) = lines.split_first() else {
-        problems.error("E324", Place::FILE, "the file is empty".to_owned(), "");
+        problems.error("E324", FilePosition::FILE, "the file is empty".to_owned(), "");
         return finish(problems, None);
     };
     let mut columns: Vec<(Column, usize, f64)> = Vec::new();
-    let mut origin = Origin::Unknown;
+    let mut origin = XOrigin::Unknown;
     for (index, field) in head.fields.iter().enumerate() {
         let Some((kind, unit, from_ap)) = column(field.text) else {
             let message = "a column is station, x, loop, point, y or z, perhaps with m, mm or ft".to_owned();
@@ -111,20 +111,20 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
             problems.error("E326", field, message, "Leave one out.");
         }
         if from_ap && kind == Column::X {
-            origin = Origin::AfterPerpendicular;
+            origin = XOrigin::AfterPerpendicular;
         }
         columns.push((kind, index, unit));
     }
     for (kind, name) in [(Column::X, "x"), (Column::Y, "y"), (Column::Z, "z")] {
         if !columns.iter().any(|(other, _, _)| *other == kind) {
             let message = format!("the head has no column {name}");
-            problems.error("E326", (Place::row(head.row), head.text), message, "Points need x, y and z.");
+            problems.error("E326", (FilePosition::row(head.row), head.text), message, "Points need x, y and z.");
         }
     }
     if problems.any_errors() {
         return finish(problems, None);
     }
-    let rows: Vec<Row<'_>> =
+    let rows: Vec<PointRow<'_>> =
         lines.iter().filter_map(|line| row(line, head.fields.len(), &columns, &mut problems)).collect();
     let sections = group(&rows, &mut problems);
     let unit = columns.iter().find(|(kind, _, _)| *kind == Column::Y).map_or(1.0, |(_, _, unit)| *unit);
@@ -133,14 +133,19 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
 }
 
 fn row<'a>(
-    line: &Line<'a>,
+    line: &TextLine<'a>,
     width: usize,
     columns: &[(Column, usize, f64)],
     problems: &mut Problems,
-) -> Option<Row<'a>> {
+) -> Option<PointRow<'a>> {
     if line.fields.len() != width {
         let message = format!("{} fields, the head has {width}", line.fields.len());
-        problems.error("E322", (Place::row(line.row), line.text), message, "A decimal comma, or a cell missing?");
+        problems.error(
+            "E322",
+            (FilePosition::row(line.row), line.text),
+            message,
+            "A decimal comma, or a cell missing?",
+        );
         return None;
     }
     let field = |kind: Column| -> Option<(Field<&'a str>, f64)> {
@@ -160,13 +165,13 @@ fn row<'a>(
     };
     let (branch, order) = (number(Column::Loop, "the loop"), number(Column::Point, "the point"));
     let station = field(Column::Station).map(|(field, _)| field.text);
-    let place = Place::row(line.row);
-    Some(Row { station, x: x?, branch: branch?, order: order?, point: point(y?, z?), place })
+    let place = FilePosition::row(line.row);
+    Some(PointRow { station, x: x?, branch: branch?, order: order?, point: point(y?, z?), place })
 }
 
 /// Sections of rows that follow each other.
-fn group(rows: &[Row<'_>], problems: &mut Problems) -> Vec<Section> {
-    let same = |a: &Row<'_>, b: &Row<'_>| match (a.station, b.station) {
+fn group(rows: &[PointRow<'_>], problems: &mut Problems) -> Vec<Section> {
+    let same = |a: &PointRow<'_>, b: &PointRow<'_>| match (a.station, b.station) {
         (Some(a), Some(b)) => a == b,
         _ => (a.x - b.x).abs() <= SAME_X,
     };
@@ -185,7 +190,7 @@ fn group(rows: &[Row<'_>], problems: &mut Problems) -> Vec<Section> {
         }
         let mut branches: Vec<Vec<OutlinePoint>> = Vec::new();
         for rows in rows.chunk_by(|a, b| (a.branch - b.branch).abs() < 0.5) {
-            let mut rows: Vec<&Row<'_>> = rows.iter().collect();
+            let mut rows: Vec<&PointRow<'_>> = rows.iter().collect();
             rows.sort_by(|a, b| a.order.total_cmp(&b.order));
             let mut points: Vec<OutlinePoint> = rows.iter().map(|row| row.point).collect();
             if points[0].z > points[points.len() - 1].z {

@@ -95,14 +95,14 @@ const MOST_LISTED: usize = 100;
 
 /// A place in a file; rows and columns from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Place {
+pub(super) struct FilePosition {
     /// Line.
     pub(super) row: Option<usize>,
     /// Field of the line.
     pub(super) column: Option<usize>,
 }
 
-impl Place {
+impl FilePosition {
     /// The whole file.
     pub(super) const FILE: Self = Self { row: None, column: None };
 
@@ -125,9 +125,9 @@ pub(super) struct Field<T = String> {
 
 impl<T> Field<T> {
     /// Where it stands.
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> FilePosition {
         let known = |index: usize| Some(index).filter(|&index| index > 0);
-        Place { row: known(self.row), column: known(self.column) }
+        FilePosition { row: known(self.row), column: known(self.column) }
     }
 }
 
@@ -149,30 +149,30 @@ impl Field {
 
 /// A place, and what stands there where that is worth a quotation.
 #[derive(Debug)]
-pub(super) struct Spot<'t> {
-    place: Place,
+pub(super) struct QuotedPosition<'t> {
+    place: FilePosition,
     found: &'t str,
 }
 
-impl From<Place> for Spot<'_> {
-    fn from(place: Place) -> Self {
+impl From<FilePosition> for QuotedPosition<'_> {
+    fn from(place: FilePosition) -> Self {
         Self { place, found: "" }
     }
 }
 
-impl<'t> From<(Place, &'t str)> for Spot<'t> {
-    fn from((place, found): (Place, &'t str)) -> Self {
+impl<'t> From<(FilePosition, &'t str)> for QuotedPosition<'t> {
+    fn from((place, found): (FilePosition, &'t str)) -> Self {
         Self { place, found }
     }
 }
 
-impl<'t, T: AsRef<str>> From<&'t Field<T>> for Spot<'t> {
+impl<'t, T: AsRef<str>> From<&'t Field<T>> for QuotedPosition<'t> {
     fn from(field: &'t Field<T>) -> Self {
         Self { place: field.place(), found: field.text.as_ref() }
     }
 }
 
-impl<'t> From<Field<&'t str>> for Spot<'t> {
+impl<'t> From<Field<&'t str>> for QuotedPosition<'t> {
     fn from(field: Field<&'t str>) -> Self {
         Self { place: field.place(), found: field.text }
     }
@@ -205,30 +205,43 @@ impl Problems {
         self.errors > 0
     }
 
-    fn push(&mut self, severity: Severity, code: &'static str, spot: Spot<'_>, message: String, remedy: &str) {
+    fn push(
+        &mut self,
+        severity: Severity,
+        code: &'static str,
+        spot: QuotedPosition<'_>,
+        message: String,
+        remedy: &str,
+    ) {
         let count = if severity == Severity::Error { &mut self.errors } else { &mut self.remarks };
         *count += 1;
         if *count > MOST_LISTED {
             return;
         }
-        let Spot { place: Place { row, column }, found } = spot;
+        let QuotedPosition { place: FilePosition { row, column }, found } = spot;
         let (file, found, remedy) = (self.file.clone(), quoted(found), remedy.to_owned());
         self.list.push(TableProblem { severity, code, file, row, column, found, message, remedy });
     }
 
     /// An error.
-    pub(super) fn error<'t>(&mut self, code: &'static str, at: impl Into<Spot<'t>>, message: String, remedy: &str) {
+    pub(super) fn error<'t>(
+        &mut self,
+        code: &'static str,
+        at: impl Into<QuotedPosition<'t>>,
+        message: String,
+        remedy: &str,
+    ) {
         self.push(Severity::Error, code, at.into(), message, remedy);
     }
 
     /// Something that the reader of the table should know.
-    pub(super) fn warning(&mut self, code: &'static str, at: Place, message: String, remedy: &str) {
+    pub(super) fn warning(&mut self, code: &'static str, at: FilePosition, message: String, remedy: &str) {
         self.push(Severity::Warning, code, at.into(), message, remedy);
     }
 
     /// Something that was detected.
     pub(super) fn note(&mut self, message: String) {
-        self.push(Severity::Note, "N321", Place::FILE.into(), message, "");
+        self.push(Severity::Note, "N321", FilePosition::FILE.into(), message, "");
     }
 
     /// An error of another file, of the conventions beside the table.
@@ -267,8 +280,8 @@ mod tests {
     fn many_problems_are_counted() {
         let mut problems = Problems::new("a");
         for row in 0..1000 {
-            problems.error("E321", (Place::row(1000 - row), "x"), "bad".to_owned(), "");
-            problems.warning("W332", Place::row(row + 1), "odd".to_owned(), "");
+            problems.error("E321", (FilePosition::row(1000 - row), "x"), "bad".to_owned(), "");
+            problems.warning("W332", FilePosition::row(row + 1), "odd".to_owned(), "");
         }
         let list = problems.finish().unwrap_err();
         let of = |severity: Severity| list.iter().filter(|p| p.severity == severity).collect::<Vec<_>>();

@@ -13,8 +13,8 @@
 //! or, the dimensions, in a TOML beside it. Without a word about station 0 it is FP, as in Series 60 (Todd, DTMB 1712,
 //! 1963), and a note says so.
 
-use super::fields::{Line, Separator, decimals, finish, lines, plain_number};
-use super::problem::{Field, Place, Problems};
+use super::fields::{Separator, TextLine, decimals, finish, lines, plain_number};
+use super::problem::{Field, FilePosition, Problems};
 use super::sections::decimals_in_metres;
 use super::{ReadTable, TableProblem};
 use crate::hull::{
@@ -71,7 +71,7 @@ pub fn read_with(name: &str, text: &str, beside: &StatedParticulars) -> Result<R
     let mut stated = *beside;
     let mut layout = Layout::default();
     for (row, line) in comments(text) {
-        comment(line, Place::row(row), &mut stated, &mut layout, &mut problems);
+        comment(line, FilePosition::row(row), &mut stated, &mut layout, &mut problems);
     }
     let missing: Vec<&str> =
         [(stated.length_between_perpendiculars, "L (Lpp)"), (stated.breadth, "B"), (stated.draught, "T")]
@@ -82,10 +82,10 @@ pub fn read_with(name: &str, text: &str, beside: &StatedParticulars) -> Result<R
         let message = format!("the table holds fractions; missing, or not above 0: {}", missing.join(", "));
         let remedy =
             "Write a line '# Lpp = ... m, B = ... m, T = ... m', or lpp, beam and draught in a TOML beside the table.";
-        problems.error("E327", Place::FILE, message, remedy);
+        problems.error("E327", FilePosition::FILE, message, remedy);
     }
     let main = [stated.length_between_perpendiculars, stated.breadth, stated.draught].map(|v| v.unwrap_or(1.0));
-    let rows: Vec<Line<'_>> = lines(text, Separator::Exactly(separator(text)))
+    let rows: Vec<TextLine<'_>> = lines(text, Separator::Exactly(separator(text)))
         .into_iter()
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .collect();
@@ -106,7 +106,13 @@ struct Layout {
     own_maximum: bool,
 }
 
-fn comment(line: &str, place: Place, stated: &mut StatedParticulars, layout: &mut Layout, problems: &mut Problems) {
+fn comment(
+    line: &str,
+    place: FilePosition,
+    stated: &mut StatedParticulars,
+    layout: &mut Layout,
+    problems: &mut Problems,
+) {
     let close = line.to_ascii_lowercase().replace(' ', "");
     layout.own_maximum |= close.contains("y/ymax");
     if let Some((_, rest)) = close.split_once("waterlinekatz=k") {
@@ -189,34 +195,34 @@ struct Waterline {
     largest: f64,
 }
 
-fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut Problems) -> Option<OffsetTable> {
+fn fractions(rows: &[TextLine<'_>], main: [f64; 3], layout: &Layout, problems: &mut Problems) -> Option<OffsetTable> {
     let [length, breadth, _] = main;
     let Some((head, rows)) = rows.split_first() else {
-        problems.error("E324", Place::FILE, "the table is empty".to_owned(), "");
+        problems.error("E324", FilePosition::FILE, "the table is empty".to_owned(), "");
         return None;
     };
     let mut waterlines = waterlines(head, main, layout, problems);
-    let (maxima, stations): (Vec<&Line<'_>>, Vec<&Line<'_>>) =
+    let (maxima, stations): (Vec<&TextLine<'_>>, Vec<&TextLine<'_>>) =
         rows.iter().partition(|row| row.fields.first().is_some_and(|field| is_maxima(field.text)));
     match maxima[..] {
         [] if layout.own_maximum => {
             let message = "fractions of each waterline's own maximum, and no row of maxima".to_owned();
             let remedy = "Add a last row 'max, ...' with the largest half-breadth of each waterline over B/2.";
-            problems.error("E326", Place::FILE, message, remedy);
+            problems.error("E326", FilePosition::FILE, message, remedy);
         }
-        [] => problems.warning("W334", Place::FILE, "no row of maxima: fractions are of B/2".to_owned(), ""),
+        [] => problems.warning("W334", FilePosition::FILE, "no row of maxima: fractions are of B/2".to_owned(), ""),
         [row, ..] => {
             for waterline in &mut waterlines {
                 let Some(field) = row.fields.get(waterline.index) else {
                     let message = "the row of maxima is shorter than the head".to_owned();
-                    problems.error("E322", (Place::row(row.row), row.text), message, "");
+                    problems.error("E322", (FilePosition::row(row.row), row.text), message, "");
                     break;
                 };
                 waterline.largest = 0.5 * breadth * problems.number(*field, "the maximum").unwrap_or(1.0);
             }
             if let Some(second) = maxima.get(1) {
                 let message = "a second row of maxima".to_owned();
-                problems.error("E326", (Place::row(second.row), second.text), message, "Leave one out.");
+                problems.error("E326", (FilePosition::row(second.row), second.text), message, "Leave one out.");
             }
         }
     }
@@ -234,7 +240,12 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
         for waterline in &waterlines {
             let Some(field) = row.fields.get(waterline.index).copied() else {
                 let message = format!("{} cells, the head has {}", row.fields.len(), head.fields.len());
-                problems.error("E322", (Place::row(row.row), row.text), message, "Write - where there is no hull.");
+                problems.error(
+                    "E322",
+                    (FilePosition::row(row.row), row.text),
+                    message,
+                    "Write - where there is no hull.",
+                );
                 break;
             };
             let entry = fraction(field, problems);
@@ -257,16 +268,16 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
     }
     if read.len() < 2 {
         let message = format!("only {}", counted(read.len(), "station"));
-        problems.error("E328", Place::FILE, message, "At least two are needed.");
+        problems.error("E328", FilePosition::FILE, message, "At least two are needed.");
         return None;
     }
     let last = layout.last.unwrap_or_else(|| read.iter().map(|(number, _)| *number).fold(0.0, f64::max));
     if last <= 0.0 {
-        problems.error("E323", Place::FILE, format!("the last station is {last}"), "Number stations from 0.");
+        problems.error("E323", FilePosition::FILE, format!("the last station is {last}"), "Number stations from 0.");
     }
     let zero_is_ap = layout.zero_is_ap.unwrap_or_else(|| {
         let message = format!("no comment says where station 0 is; taken as FP, and station {last} as AP");
-        problems.warning("W334", Place::FILE, message, "Write '# station 0 = AP' if it is not.");
+        problems.warning("W334", FilePosition::FILE, message, "Write '# station 0 = AP' if it is not.");
         false
     });
     let mut stations: Vec<StationOffsets> = read
@@ -291,7 +302,7 @@ fn fractions(rows: &[Line<'_>], main: [f64; 3], layout: &Layout, problems: &mut 
     Some(OffsetTable { waterlines: heights, stations, endings, form, ..OffsetTable::default() })
 }
 
-fn waterlines(head: &Line<'_>, main: [f64; 3], layout: &Layout, problems: &mut Problems) -> Vec<Waterline> {
+fn waterlines(head: &TextLine<'_>, main: [f64; 3], layout: &Layout, problems: &mut Problems) -> Vec<Waterline> {
     let [_, breadth, draught] = main;
     let mut waterlines: Vec<Waterline> = Vec::new();
     for (index, field) in head.fields.iter().enumerate().skip(1) {
@@ -323,7 +334,7 @@ fn waterlines(head: &Line<'_>, main: [f64; 3], layout: &Layout, problems: &mut P
         waterlines.push(Waterline { index, z, tangent: label.contains("tangent"), largest: 0.5 * breadth });
     }
     if waterlines.is_empty() {
-        problems.error("E326", (Place::row(head.row), head.text), "the head names no waterlines".to_owned(), "");
+        problems.error("E326", (FilePosition::row(head.row), head.text), "the head names no waterlines".to_owned(), "");
     }
     waterlines
 }

@@ -1,9 +1,9 @@
 //! Units and origins: from what a table declares, and else from the size of its numbers.
 
 use super::header::{Coordinate, Corner, From, Position};
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::settings::{Settings, StationScale};
-use crate::hull::Origin;
+use crate::hull::StationDatum;
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
 
 /// No half-breadth is larger \[m\]; larger plain numbers are millimetres.
@@ -153,11 +153,11 @@ fn contradiction(what: &str, unit: Notation, size: Size, largest: f64, declared:
     if matches!(unit, Notation::Metres | Notation::Feet) && unit.metres(found) > largest {
         let message =
             format!("the largest {what} is {found}, which looks like millimetres, but the unit is {}", unit.as_str());
-        problems.error("E305", Place::FILE, message, "Declare units = \"mm\"");
+        problems.error("E305", FilePosition::FILE, message, "Declare units = \"mm\"");
     }
     if unit == Notation::Millimetres && found > 0.0 && found < SMALLEST_MILLIMETRES && size.decimals > 0 {
         let message = format!("the largest {what} is {found}, which looks like metres, but the unit is mm");
-        problems.error("E305", Place::FILE, message, "Declare units = \"m\"");
+        problems.error("E305", FilePosition::FILE, message, "Declare units = \"m\"");
     }
 }
 
@@ -168,13 +168,14 @@ const PERPENDICULARS: f64 = 0.9;
 /// station as far forward of it, if it stands near the end of the table; `unit` is that of the distances. Without such
 /// a pair x is 0 at midship.
 pub(super) fn ends_from_midship(
-    origin: Origin,
+    origin: StationDatum,
     settings: &Settings,
     heads: &[Position],
     unit: Notation,
     problems: &mut Problems,
-) -> Origin {
-    if origin != (Origin::Shifted { offset: 0.0, sign: 1.0 }) || settings.stated.length_between_perpendiculars.is_some()
+) -> StationDatum {
+    if origin != (StationDatum::Shifted { offset: 0.0, sign: 1.0 })
+        || settings.stated.length_between_perpendiculars.is_some()
     {
         return origin;
     }
@@ -197,8 +198,8 @@ pub(super) fn ends_from_midship(
     } else {
         (0.0, "distances count from midship and L_PP is not known: x is 0 at midship".to_owned())
     };
-    problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
-    Origin::Shifted { offset, sign: 1.0 }
+    problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
+    StationDatum::Shifted { offset, sign: 1.0 }
 }
 
 /// Where stations are counted from, and how far apart they are.
@@ -208,7 +209,7 @@ pub(super) fn origin(
     heads: &[Position],
     largest_half_breadth: f64,
     problems: &mut Problems,
-) -> (Origin, bool) {
+) -> (StationDatum, bool) {
     use super::header::Axis;
     let length = settings.stated.length_between_perpendiculars;
     let plain: Vec<f64> =
@@ -231,7 +232,7 @@ pub(super) fn origin(
         StationScale { from: corner.from.unwrap_or(From::AftPerpendicular), numbers }
     });
     if plain.is_empty() || !scale.numbers && scale.from == From::AftPerpendicular {
-        return (Origin::Lengths, scale.numbers);
+        return (StationDatum::Lengths, scale.numbers);
     }
     if !scale.numbers {
         let (offset, sign) = match (scale.from, length) {
@@ -240,7 +241,7 @@ pub(super) fn origin(
             (From::ForePerpendicular, None) => {
                 let message =
                     "distances count from FP and L_PP is not known: x is 0 at FP and negative aft of it".to_owned();
-                problems.warning("W320", Place::FILE, message, "Give Lpp in the conventions");
+                problems.warning("W320", FilePosition::FILE, message, "Give Lpp in the conventions");
                 (0.0, -1.0)
             }
             // `ends_from_midship` finds AP, once the unit is known.
@@ -250,7 +251,7 @@ pub(super) fn origin(
             let place = if sign > 0.0 { "midship" } else { "FP" };
             problems.note(format!("distances count from {place}, which is {offset} m forward of AP"));
         }
-        return (Origin::Shifted { offset, sign }, false);
+        return (StationDatum::Shifted { offset, sign }, false);
     }
     // Twenty or ten spaces are what drawings have; others have to be said.
     let usual = [20.0, 10.0].into_iter().find(|&n| plain.iter().any(|&p: &f64| (p - n).abs() < 1e-9) && high < n + 2.0);
@@ -267,7 +268,7 @@ pub(super) fn origin(
         _ => {
             let message =
                 "stations are numbered and neither L_PP nor their spacing is known: taken as 1 m apart".to_owned();
-            problems.warning("W320", Place::FILE, message, "Give Lpp, or station_spacing, in the conventions");
+            problems.warning("W320", FilePosition::FILE, message, "Give Lpp, or station_spacing, in the conventions");
             1.0
         }
     };
@@ -275,8 +276,8 @@ pub(super) fn origin(
         // Without L_PP the last number is AP.
         let from_fp = length.or(spaces.map(|n| n * spacing)).unwrap_or(high * spacing);
         problems.note(format!("station 0 is FP, {from_fp} m forward of AP"));
-        return (Origin::Numbers { offset: from_fp, spacing: -spacing }, true);
+        return (StationDatum::Numbers { offset: from_fp, spacing: -spacing }, true);
     }
     let offset = if scale.from == From::Midship { 0.5 * length.unwrap_or(0.0) } else { 0.0 };
-    (Origin::Numbers { offset, spacing }, true)
+    (StationDatum::Numbers { offset, spacing }, true)
 }

@@ -6,8 +6,8 @@
 
 use super::fields::{Separator, finish, lines};
 use super::outline::point;
-use super::problem::{Field, Place, Problems};
-use super::sections::{Body, Origin, Section, refuse_negative, table};
+use super::problem::{Field, FilePosition, Problems};
+use super::sections::{Body, Section, XOrigin, refuse_negative, table};
 use super::{ReadTable, TableProblem};
 use crate::hull::StatedParticulars;
 use crate::units::counted;
@@ -27,7 +27,7 @@ pub(super) fn recognise(name: &str, text: &str) -> bool {
 struct Stream<'a> {
     fields: Vec<Field<&'a str>>,
     next: usize,
-    last: Place,
+    last: FilePosition,
 }
 
 impl<'a> Stream<'a> {
@@ -61,7 +61,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
         .take_while(|line| !line.text.starts_with('*'))
         .flat_map(|line| line.fields.clone())
         .collect();
-    let last = fields.last().map_or(Place::FILE, |field| Place { column: None, ..field.place() });
+    let last = fields.last().map_or(FilePosition::FILE, |field| FilePosition { column: None, ..field.place() });
     let mut stream = Stream { fields, next: 0, last };
     let body = read_body(title, &mut stream, &mut problems);
     if !rows.iter().any(|line| line.text.starts_with('*')) {
@@ -85,7 +85,7 @@ fn read_body(title: String, stream: &mut Stream<'_>, problems: &mut Problems) ->
     let [draught, trim, length, from_aft] = main;
     if trim.abs() > 0.0 {
         let message = format!("trim {trim} m is not applied: heights are those of the file");
-        problems.warning("W334", Place::row(3), message, "");
+        problems.warning("W334", FilePosition::row(3), message, "");
     }
     let announced = stream.take("the number of intervals", problems)?;
     let intervals = problems.count(announced, "the number of intervals", 1)?;
@@ -134,7 +134,7 @@ fn read_body(title: String, stream: &mut Stream<'_>, problems: &mut Problems) ->
         draught: Some(draught * fz).filter(|t| *t > 0.0),
         ..StatedParticulars::default()
     };
-    Some(Body { name: title, stated, sections, origin: Origin::AfterPerpendicular, unit: 1.0 })
+    Some(Body { name: title, stated, sections, origin: XOrigin::AfterPerpendicular, unit: 1.0 })
 }
 
 fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Problems) -> Option<Section> {
@@ -158,7 +158,7 @@ fn section(number: usize, x: f64, stream: &mut Stream<'_>, problems: &mut Proble
             line.push(point(y, z));
         }
     }
-    let place = Place { column: None, ..station.place() };
+    let place = FilePosition { column: None, ..station.place() };
     // A section ends with its line: a wrong count does not go unnoticed where the numbers happen to fit.
     if let Some(after) = stream.fields.get(stream.next).filter(|field| field.place().column != Some(1)) {
         let message = format!("{what} announces {}, the last of them within a line", counted(points, "point"));

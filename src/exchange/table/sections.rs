@@ -2,7 +2,7 @@
 
 use super::fields::finish;
 use super::outline::{Deck, Halves, branches, deviation, halves};
-use super::problem::{Place, Problems};
+use super::problem::{FilePosition, Problems};
 use super::{ReadTable, TableProblem};
 use crate::hull::{OffsetTable, OutlinePoint, StatedParticulars, StationOffsets, TableForm, TableLayout};
 use crate::units::counted;
@@ -15,7 +15,7 @@ pub(super) struct Section {
     /// Position, positive forward \[m\].
     pub(super) x: f64,
     /// Where it begins in the file.
-    pub(super) place: Place,
+    pub(super) place: FilePosition,
     /// Its branches.
     pub(super) branches: Vec<Vec<OutlinePoint>>,
     /// The deck, where the file draws it.
@@ -24,7 +24,7 @@ pub(super) struct Section {
 
 /// From where a file counts x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(super) enum XOrigin {
     /// From the after perpendicular.
     AfterPerpendicular,
     /// The file does not say.
@@ -41,7 +41,7 @@ pub(super) struct Body {
     /// The sections in the order of the file.
     pub(super) sections: Vec<Section>,
     /// From where x counts.
-    pub(super) origin: Origin,
+    pub(super) origin: XOrigin,
     /// Metres in a unit of the file.
     pub(super) unit: f64,
 }
@@ -51,7 +51,7 @@ const DUST: f64 = 1e-4;
 
 /// Refuses negative half-breadths of a half section, all of a section in one message; dust is put on the centreplane,
 /// with a note.
-pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: Place, problems: &mut Problems) {
+pub(super) fn refuse_negative(points: &mut [OutlinePoint], x: f64, place: FilePosition, problems: &mut Problems) {
     let largest = points.iter().map(|p| p.y).fold(0.0, f64::max);
     let Some(least) = points.iter().map(|p| p.y).filter(|&y| y < 0.0).min_by(f64::total_cmp) else { return };
     let count = points.iter().filter(|p| p.y < 0.0).count();
@@ -98,7 +98,7 @@ pub(super) fn note_asymmetry(gaps: &[(f64, f64)], problems: &mut Problems) {
              sections by more than 1 mm",
             gaps.len()
         );
-        problems.warning("W331", Place::FILE, message, "");
+        problems.warning("W331", FilePosition::FILE, message, "");
     }
 }
 
@@ -107,7 +107,7 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
     let Body { name, stated, mut sections, origin, unit } = body;
     if sections.len() > super::grid::MOST_LINES {
         let message = format!("{} sections; a table has at most {}", sections.len(), super::grid::MOST_LINES);
-        problems.error("E312", Place::FILE, message, "");
+        problems.error("E312", FilePosition::FILE, message, "");
         return finish(problems, None);
     }
     for section in &sections {
@@ -120,14 +120,14 @@ pub(super) fn table(body: Body, mut problems: Problems) -> Result<ReadTable, Vec
     check_order(&mut sections, &mut problems);
     if sections.len() < 2 && !problems.any_errors() {
         let message = format!("only {}", counted(sections.len(), "section"));
-        problems.error("E328", Place::FILE, message, "At least two are needed.");
+        problems.error("E328", FilePosition::FILE, message, "At least two are needed.");
     }
     if problems.any_errors() {
         return finish(problems, None);
     }
     let shift = match origin {
-        Origin::AfterPerpendicular => 0.0,
-        Origin::Unknown => place_after_perpendicular(&sections, &stated, &mut problems),
+        XOrigin::AfterPerpendicular => 0.0,
+        XOrigin::Unknown => place_after_perpendicular(&sections, &stated, &mut problems),
     };
     let stations = sections
         .into_iter()
@@ -205,6 +205,6 @@ fn place_after_perpendicular(sections: &[Section], stated: &StatedParticulars, p
     let moved = if shift.abs() > 0.0 { format!("; moved forward by {shift:.4} m") } else { String::new() };
     let message =
         format!("sections from {aft:.4} to {forward:.4} m forward of the file's origin, taken as {origin}{moved}");
-    problems.warning("W330", Place::FILE, message, "");
+    problems.warning("W330", FilePosition::FILE, message, "");
     shift
 }

@@ -15,10 +15,10 @@
 //! branch of a section. Distances along diagonals (`DG`) have no place in the table and are announced. The order of
 //! rows is free.
 
-use super::assemble::{Reader, SAME};
+use super::assemble::{SAME, TableReader};
 use super::grid::{MOST_CELLS, MOST_LINES};
 use super::header::{Axis, Corner, Position, position, unit_of};
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::scale::{Size, origin, units};
 use super::settings::{Settings, nearest};
 use super::write::Writer;
@@ -82,7 +82,7 @@ fn rows_of<'g>(rows: &'g [Vec<Field>], blank: &'g Field, problems: &mut Problems
     for row in rows {
         if row.len() != header.len() {
             let message = format!("the row has {} fields, the header has {}", row.len(), header.len());
-            problems.error("E307", Place::row(row[0].row), message, "");
+            problems.error("E307", FilePosition::row(row[0].row), message, "");
             continue;
         }
         let field = |k: usize| columns[k].map_or(blank, |at| &row[at]);
@@ -146,7 +146,7 @@ pub(super) fn read(
     let (origin, numbers) = origin(settings, corner, &positions, y.largest, problems);
     let units = units(settings, corner, [Size::of_positions(positions.iter()), y, z], numbers, problems);
     let form = TableForm { origin, layout: TableLayout::Tidy, ..form };
-    let mut reader = Reader::new(settings, form, units, problems);
+    let mut reader = TableReader::new(settings, form, units, problems);
     let mut table = OffsetTable::default();
     let mut read: Vec<(&Record<'_>, f64, Option<f64>, Cell)> = Vec::with_capacity(records.len());
     for record in &records {
@@ -187,7 +187,7 @@ pub(super) fn read(
             table.waterlines.len(),
             table.buttocks.len()
         );
-        reader.problems.error("E312", Place::FILE, message, "");
+        reader.problems.error("E312", FilePosition::FILE, message, "");
         return None;
     }
     for &x in &xs {
@@ -229,7 +229,7 @@ fn flags(cell: &mut Cell, flag: &str) {
 /// Puts one row where it belongs.
 fn put(
     table: &mut OffsetTable,
-    reader: &mut Reader<'_>,
+    reader: &mut TableReader<'_>,
     (record, x, other, cell): (&Record<'_>, f64, Option<f64>, Cell),
     xs: &[f64],
 ) {
@@ -309,7 +309,7 @@ pub(super) fn records(table: &OffsetTable, writer: &mut Writer) -> Vec<Vec<Strin
         [name.to_owned(), x.to_owned(), curve.to_owned(), z, y, String::new()].into()
     };
     // Station numbers stand in the column of stations; x is a length.
-    writer.form.origin = crate::hull::Origin::Lengths;
+    writer.form.origin = crate::hull::StationDatum::Lengths;
     if table.form.layout != TableLayout::Tidy {
         writer.form.station_heads.clear();
     }

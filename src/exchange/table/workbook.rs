@@ -13,7 +13,7 @@ use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError}
 use zip::ZipArchive;
 
 use super::grid::{Grid, LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_ROWS};
-use super::problem::{Field, Place, Problems};
+use super::problem::{Field, FilePosition, Problems};
 use super::xlsx::MOST_UNPACKED;
 use crate::hull::TableForm;
 
@@ -62,21 +62,21 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
             "{} bytes, unpacked {stated}; a workbook has at most {LARGEST_TABLE}, unpacked {MOST_UNPACKED}",
             bytes.len()
         );
-        problems.error("E312", Place::FILE, message, "");
+        problems.error("E312", FilePosition::FILE, message, "");
         return None;
     }
     let claimed = claimed_texts(bytes);
     if claimed > MOST_CELLS as u64 {
         let message =
             format!("the workbook says that it has {claimed} shared texts; a table has at most {MOST_CELLS} cells");
-        problems.error("E312", Place::FILE, message, "");
+        problems.error("E312", FilePosition::FILE, message, "");
         return None;
     }
     let failed = |error: String| format!("not a workbook that can be read: {error}");
     let mut book = match Xlsx::new(Cursor::new(bytes)) {
         Ok(book) => book,
         Err(error) => {
-            problems.error("E300", Place::FILE, failed(error.to_string()), "Give the table as XLSX or CSV");
+            problems.error("E300", FilePosition::FILE, failed(error.to_string()), "Give the table as XLSX or CSV");
             return None;
         }
     };
@@ -94,7 +94,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
                 Ok(Some(cell)) => cell,
                 Ok(None) => break,
                 Err(error) => {
-                    problems.error("E300", Place::FILE, failed(error.to_string()), "");
+                    problems.error("E300", FilePosition::FILE, failed(error.to_string()), "");
                     return None;
                 }
             };
@@ -136,7 +136,7 @@ pub(super) fn grid(bytes: &[u8], problems: &mut Problems) -> Option<(Grid, Strin
         }
     }
     if !problems.any_errors() {
-        problems.error("E300", Place::FILE, "no sheet of the workbook has cells".to_owned(), "");
+        problems.error("E300", FilePosition::FILE, "no sheet of the workbook has cells".to_owned(), "");
     }
     None
 }

@@ -7,7 +7,7 @@
 use super::header::{side_name, unit_of};
 use super::tidy;
 use crate::hull::{
-    Cell, Entry, Kept, Marks, OffsetTable, Order, Origin, Rows, SideKind, SideLine, StationOffsets, TableForm,
+    Cell, Entry, Kept, Marks, OffsetTable, Order, Rows, SideKind, SideLine, StationDatum, StationOffsets, TableForm,
     TableLayout, Written,
 };
 use crate::units::{CellEntry, CellReading, CellRules, CellWriting, Notation, parse_cell};
@@ -145,14 +145,14 @@ pub fn write_table(table: &OffsetTable, writing: TableWriting) -> WrittenTable {
         // The headers of the file speak of other units or of another layout, and its conventions may not go with the new
         // file: positions become lengths from AP. Station numbers become names.
         let named = |columns: &[SideLine]| columns.iter().any(|side| side.kind == SideKind::Name);
-        if matches!(form.origin, Origin::Numbers { .. }) {
+        if matches!(form.origin, StationDatum::Numbers { .. }) {
             let columns = if table.waterlines.is_empty() { &mut form.buttock_columns } else { &mut form.side_columns };
             if !named(columns) {
                 let head = "station".to_owned();
                 columns.insert(0, SideLine { kind: SideKind::Name, head, before: true, texts: Vec::new() });
             }
         }
-        form.origin = Origin::Lengths;
+        form.origin = StationDatum::Lengths;
         // One unit for all, as the new header says.
         (form.x_notation, form.z_notation) = (notation, notation);
         form.station_heads.clear();
@@ -322,9 +322,9 @@ impl Writer {
     pub(super) fn station(&mut self, x: f64) -> String {
         let heads = std::mem::take(&mut self.form.station_heads);
         let (value, unit) = match self.form.origin {
-            Origin::Lengths => (x, self.form.x_notation),
-            Origin::Shifted { offset, sign } => (sign * (x - offset), self.form.x_notation),
-            Origin::Numbers { offset, spacing } => ((x - offset) / spacing, Notation::Metres),
+            StationDatum::Lengths => (x, self.form.x_notation),
+            StationDatum::Shifted { offset, sign } => (sign * (x - offset), self.form.x_notation),
+            StationDatum::Numbers { offset, spacing } => ((x - offset) / spacing, Notation::Metres),
         };
         let text = match heads.iter().find_map(|head| head.text_of(x)) {
             Some(text) => text.to_owned(),
@@ -348,7 +348,7 @@ impl Writer {
         }
         let full = if self.form.full_breadths && is_breadth(side.kind) { 2.0 } else { 1.0 };
         let (value, unit) = match (side.kind, self.form.origin) {
-            (SideKind::Stern | SideKind::Stem, Origin::Shifted { offset, sign }) => {
+            (SideKind::Stern | SideKind::Stem, StationDatum::Shifted { offset, sign }) => {
                 (sign * (value - offset), self.form.x_notation)
             }
             (SideKind::Stern | SideKind::Stem, _) => (value, self.form.x_notation),
@@ -403,7 +403,7 @@ impl Writer {
 
     /// One block: half-breadths, or heights.
     fn block(&mut self, table: &OffsetTable, sides: &[SideLine], rows: &[SideLine], half: bool) -> Vec<Vec<String>> {
-        let numbered = matches!(self.form.origin, Origin::Numbers { .. });
+        let numbered = matches!(self.form.origin, StationDatum::Numbers { .. });
         let (first, across) = (if numbered { "station" } else { "x" }, if half { "z" } else { "y" });
         let own = if self.form.rows == Rows::Waterlines {
             format!("{across}\\{first} [{}]", self.form.notation.as_str())

@@ -4,13 +4,13 @@
 use super::DesignTargets;
 use crate::parametric::midship::{MidshipProblem, MidshipSection};
 use crate::parametric::presets::{Preset, ShipType};
-use crate::parametric::{DesignValue, Infeasible, Origin, Remark};
+use crate::parametric::{DesignValue, Infeasible, Remark, ValueOrigin};
 
 /// A number with its origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sourced {
     pub(super) value: f64,
-    pub(super) origin: Origin,
+    pub(super) origin: ValueOrigin,
 }
 
 /// Collects values and problems while gaps are filled.
@@ -37,7 +37,7 @@ impl Ledger {
         source: &str,
         range: (f64, f64),
     ) -> Sourced {
-        let (value, origin) = given.map_or((default, Origin::Preset), |value| (value, Origin::Given));
+        let (value, origin) = given.map_or((default, ValueOrigin::Preset), |value| (value, ValueOrigin::Given));
         let shown = value * scale;
         if !value.is_finite() || shown < range.0 || shown > range.1 {
             let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
@@ -48,7 +48,7 @@ impl Ledger {
             };
             self.problem("E101", &[key], format!("{key} ({name}) is {shown:.4}{unit}; it must be {range}"));
         }
-        let source = if origin == Origin::Given { String::new() } else { source.to_owned() };
+        let source = if origin == ValueOrigin::Given { String::new() } else { source.to_owned() };
         self.values.push(DesignValue { key, name, value: shown, unit, origin, source });
         Sourced { value, origin }
     }
@@ -87,7 +87,7 @@ pub(super) fn midship_section(
             ] {
                 if !given {
                     let source = format!("for Cm {cm:.4}");
-                    book.values.push(DesignValue { key, name, value, unit, origin: Origin::Solved, source });
+                    book.values.push(DesignValue { key, name, value, unit, origin: ValueOrigin::Solved, source });
                 }
             }
             Some(section)

@@ -7,7 +7,7 @@ use super::resolve::Resolved;
 use super::solve::{self, Goal};
 use crate::hull::PrincipalParticulars;
 use crate::numeric::bracketed_root;
-use crate::parametric::{DesignValue, Generated, Infeasible, Origin, Target, achieved};
+use crate::parametric::{DesignValue, Generated, Infeasible, Target, ValueOrigin, achieved};
 
 /// Extremeness below which no other waterplane coefficient is tried.
 const ORDINARY: f64 = 4.0;
@@ -18,7 +18,7 @@ impl Resolved {
         let law = Law { keel: 0.6, waterline: 0.7, character: self.character, flare: 0.0 };
         // A preset that starts to rise forward of the shoulder gives way.
         let cut_up = match self.cut_up.origin {
-            Origin::Given => self.cut_up.value,
+            ValueOrigin::Given => self.cut_up.value,
             _ => (rise * self.cut_up.value).min(0.85 * aft_shoulder),
         };
         Form {
@@ -91,7 +91,7 @@ impl Resolved {
     /// Waterplane coefficients to try, the usual one first.
     pub(super) fn waterplanes(&self) -> Vec<f64> {
         let usual = self.waterplane.value;
-        if self.waterplane.origin == Origin::Given {
+        if self.waterplane.origin == ValueOrigin::Given {
             return vec![usual];
         }
         std::iter::once(usual)
@@ -106,13 +106,13 @@ impl Resolved {
         let bodies = self.bodies();
         let mut best: Option<(f64, Form, Sourced, Sourced)> = None;
         for fine in [false, true] {
-            if fine && self.waterplane.origin != Origin::Given {
+            if fine && self.waterplane.origin != ValueOrigin::Given {
                 break;
             }
             let usual = bodies.iter().map(|&body| (body, 1.0));
             let others = [0.6, 1.4, 0.3].map(|rise| (bodies[0], rise));
             for (body, rise) in usual.chain(others) {
-                if (rise - 1.0f64).abs() > 1e-9 && self.cut_up.origin == Origin::Given {
+                if (rise - 1.0f64).abs() > 1e-9 && self.cut_up.origin == ValueOrigin::Given {
                     break;
                 }
                 let form = self.form(body, rise);
@@ -124,7 +124,7 @@ impl Resolved {
                     let goal = self.goal(waterplane, self.lcb.value);
                     let Some(found) = solve::solve(&form, &nodes, &goal, fine) else { continue };
                     let same = (waterplane - self.waterplane.value).abs() < 1e-12;
-                    let origin = if same { self.waterplane.origin } else { Origin::Solved };
+                    let origin = if same { self.waterplane.origin } else { ValueOrigin::Solved };
                     let far = ((waterplane - self.waterplane.value) / 0.04).powi(2);
                     let cost = found.extremeness + far;
                     if best.as_ref().is_none_or(|b| cost < b.0) {
@@ -138,7 +138,7 @@ impl Resolved {
                     break;
                 }
             }
-            if best.is_none() && self.lcb.origin != Origin::Given {
+            if best.is_none() && self.lcb.origin != ValueOrigin::Given {
                 best = self.search_lcb(bodies[0]);
             }
             if best.is_some() {
@@ -160,7 +160,7 @@ impl Resolved {
             let (low, high) = solve::reach(&form, &nodes, &goal).lcb?;
             let value = self.lcb.value.clamp(low + 0.25 * (high - low), high - 0.25 * (high - low));
             let found = solve::solve(&form, &nodes, &self.goal(waterplane, value), true)?;
-            let origin = Origin::Solved;
+            let origin = ValueOrigin::Solved;
             Some((found.extremeness, found.form, Sourced { value: waterplane, origin }, Sourced { value, origin }))
         })
     }
@@ -182,7 +182,7 @@ impl Resolved {
             return Some(*form);
         }
         let free = |wanted: Sourced, scales: &'static [f64]| {
-            if wanted.origin == Origin::Given { &scales[..1] } else { scales }
+            if wanted.origin == ValueOrigin::Given { &scales[..1] } else { scales }
         };
         let heights = free(self.transom_height, &[1.0, 1.06, 0.94, 0.88, 0.8]);
         let rises = free(self.cut_up, &[1.0, 0.8, 1.2, 0.6, 1.5, 0.4, 0.25]);
@@ -362,7 +362,7 @@ impl Resolved {
             origin: if (form.stern.cut_up - self.cut_up.value).abs() < 1e-12 {
                 self.cut_up.origin
             } else {
-                Origin::Solved
+                ValueOrigin::Solved
             },
         };
         let height = Sourced {
@@ -370,7 +370,7 @@ impl Resolved {
             origin: if (form.stern.height - self.transom_height.value).abs() < 1e-12 {
                 self.transom_height.origin
             } else {
-                Origin::Solved
+                ValueOrigin::Solved
             },
         };
         for (key, sourced, why) in [
@@ -380,13 +380,13 @@ impl Resolved {
             ("LCB", lcb, "nearest to the usual value that Cb and Cwp allow"),
         ] {
             if let Some(value) = self.values.iter_mut().find(|v| v.key == key)
-                && sourced.origin == Origin::Solved
+                && sourced.origin == ValueOrigin::Solved
             {
-                (value.value, value.origin, value.source) = (sourced.value, Origin::Solved, why.to_owned());
+                (value.value, value.origin, value.source) = (sourced.value, ValueOrigin::Solved, why.to_owned());
             }
         }
         let given = self.aft_shoulder.is_some() && self.fore_shoulder.is_some();
-        let body = if given { Origin::Given } else { Origin::Preset };
+        let body = if given { ValueOrigin::Given } else { ValueOrigin::Preset };
         let source = if given { String::new() } else { "(Cp - 0.66) / 0.34 of Lpp, near LCB".to_owned() };
         let mut add = |key, name, value, unit, origin, source: &str| {
             self.values.push(DesignValue { key, name, value, unit, origin, source: source.to_owned() });
@@ -399,7 +399,7 @@ impl Resolved {
             "fullness of the entrance at the design waterline",
             form.entrance.waterline,
             "-",
-            Origin::Solved,
+            ValueOrigin::Solved,
             solved,
         );
         add(
@@ -407,7 +407,7 @@ impl Resolved {
             "fullness of the entrance on the keel",
             form.entrance.keel,
             "-",
-            Origin::Solved,
+            ValueOrigin::Solved,
             solved,
         );
         add(
@@ -415,16 +415,16 @@ impl Resolved {
             "fullness of the run at the design waterline",
             form.run.waterline,
             "-",
-            Origin::Solved,
+            ValueOrigin::Solved,
             solved,
         );
-        add("run_fullness_keel", "fullness of the run on the keel", form.run.keel, "-", Origin::Solved, solved);
+        add("run_fullness_keel", "fullness of the run on the keel", form.run.keel, "-", ValueOrigin::Solved, solved);
         add(
             "entrance_half_angle",
             "half angle of entrance",
             form.half_entrance().to_degrees(),
             "deg",
-            Origin::Solved,
+            ValueOrigin::Solved,
             solved,
         );
         if self.transom && self.transom_breadth.is_none() {
@@ -434,7 +434,7 @@ impl Resolved {
                 "breadth of the transom at the deck over B",
                 beam,
                 "-",
-                Origin::Solved,
+                ValueOrigin::Solved,
                 "by the stern profile",
             );
         }

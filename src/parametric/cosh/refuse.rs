@@ -4,7 +4,7 @@ use super::form::Form;
 use super::resolve::Resolved;
 use super::solve::{self, Goal, Reach};
 use crate::hull::Hull;
-use crate::parametric::{Infeasible, Origin};
+use crate::parametric::{Infeasible, ValueOrigin};
 
 /// The union of what is reached with each waterplane area.
 fn union(reaches: &[Reach]) -> Reach {
@@ -25,7 +25,7 @@ impl Resolved {
     pub(super) fn infeasible(&self, form: &Form, goal: &Goal) -> Vec<Infeasible> {
         let (l, lb) = (self.length, self.length * self.breadth);
         let nodes = form.height_nodes();
-        let given = self.waterplane.origin == Origin::Given;
+        let given = self.waterplane.origin == ValueOrigin::Given;
         let areas = if given { vec![goal.waterplane / lb] } else { self.waterplanes() };
         let reaches: Vec<Reach> = areas
             .iter()

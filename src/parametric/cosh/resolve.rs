@@ -7,7 +7,7 @@ use crate::parametric::midship::MidshipSection;
 use crate::parametric::presets::{
     ShipType, lcb_percent_prismatic, midship_benford, midship_hsva, midship_kerlen, waterplane_schneekluth,
 };
-use crate::parametric::{DesignValue, Infeasible, Origin, Remark};
+use crate::parametric::{DesignValue, Infeasible, Remark, ValueOrigin};
 
 /// The targets with every gap filled \[m, rad\].
 #[derive(Debug, Clone)]
@@ -133,18 +133,18 @@ impl Resolved {
             &label,
             (0.15, 0.98),
         );
-        let regression = |formula: &str| (formula.to_owned(), Origin::Preset);
+        let regression = |formula: &str| (formula.to_owned(), ValueOrigin::Preset);
         let (value, (source, origin)) = match requested.midship_coefficient {
-            Some(MidshipTarget::Value(value)) => (value, (String::new(), Origin::Given)),
+            Some(MidshipTarget::Value(value)) => (value, (String::new(), ValueOrigin::Given)),
             Some(MidshipTarget::Kerlen) => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
             Some(MidshipTarget::Hsva) => (midship_hsva(block.value), regression("HSVA: 1 / (1 + (1 - Cb)^3.5)")),
             Some(MidshipTarget::Benford) => {
                 (midship_benford(block.value), regression("Benford: 0.977 + 0.085 (Cb - 0.60)"))
             }
-            None if typed => (preset.midship, (label.clone(), Origin::Preset)),
+            None if typed => (preset.midship, (label.clone(), ValueOrigin::Preset)),
             None => (midship_kerlen(block.value), regression("Kerlen: 1.006 - 0.0056 Cb^-3.56")),
         };
-        let given = (origin == Origin::Given).then_some(value);
+        let given = (origin == ValueOrigin::Given).then_some(value);
         let midship = book.take("Cm", "midship section coefficient", "-", 1.0, given, value, &source, (0.4, 0.9999));
         let prismatic = block.value / midship.value;
         if prismatic >= 1.0 {
@@ -194,7 +194,7 @@ impl Resolved {
             "(1 + 2 Cb / sqrt(Cm)) / 3 (Schneekluth & Bertram 1998)",
             (0.2, 0.9999),
         );
-        if waterplane.origin == Origin::Given && waterplane.value <= block.value {
+        if waterplane.origin == ValueOrigin::Given && waterplane.value <= block.value {
             book.problem(
                 "E103",
                 &["Cwp", "Cb"],
@@ -287,7 +287,7 @@ impl Resolved {
                 (0.05, 0.98),
             );
         }
-        let (mut transom_height, mut overhang) = (Sourced { value: draught, origin: Origin::Preset }, 0.0);
+        let (mut transom_height, mut overhang) = (Sourced { value: draught, origin: ValueOrigin::Preset }, 0.0);
         if transom {
             transom_height = book.take(
                 "transom_height",

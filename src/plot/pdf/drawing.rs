@@ -121,13 +121,13 @@ fn check_plain(group: &Group) -> Result<(), PlotError> {
 
 /// Letters in a row that wait for their operator: strings of codes, with moves between them.
 #[derive(Default)]
-struct Row {
+struct LetterRow {
     /// Codes and the move after them \[thousandths of the size, to the left\].
     parts: Vec<(Vec<u8>, f32)>,
     codes: Vec<u8>,
 }
 
-impl Row {
+impl LetterRow {
     fn shift(&mut self, thousandths: f32) {
         self.parts.push((std::mem::take(&mut self.codes), thousandths));
     }
@@ -392,7 +392,7 @@ impl<'a> PageContent<'a> {
 
     /// Glyphs of one size, in as few rows as their places allow.
     fn glyphs(&mut self, glyphs: &[PositionedGlyph], size: f64) {
-        let mut row = Row::default();
+        let mut row = LetterRow::default();
         let mut pen: Option<Pen> = None;
         for glyph in glyphs {
             // usvg counts in units of the font, y down.
@@ -417,7 +417,7 @@ impl<'a> PageContent<'a> {
     }
 
     /// Brings the pen to the place of a letter: along its row, or to the start of another.
-    fn go_to(&mut self, pen: Option<Pen>, row: &mut Row, place: Pen, size: f64) -> Pen {
+    fn go_to(&mut self, pen: Option<Pen>, row: &mut LetterRow, place: Pen, size: f64) -> Pen {
         if let Some(mut pen) = pen.filter(|pen| pen.is_parallel_to(&place)) {
             let [along, up] = pen.steps_to(place.at);
             if up.abs() < SLACK * size {

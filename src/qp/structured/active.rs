@@ -13,7 +13,7 @@
 //! turn over more than [`FALL`] of what the round before did end it, and the interior point takes over.
 
 use super::newton::{Newton, Right};
-use super::point::{Point, Side};
+use super::point::{Iterate, Slack};
 use super::scaled::Scaled;
 
 /// Most rounds.
@@ -38,9 +38,9 @@ pub(super) enum Binding {
 }
 
 /// The rows that bind at a solution.
-pub(super) fn bindings(point: &Point) -> Vec<Binding> {
-    let binds = |side: Side| side.exists() && side.z > side.s;
-    let of = |(upper, lower): (&Side, &Side)| match (binds(*upper), binds(*lower)) {
+pub(super) fn bindings(point: &Iterate) -> Vec<Binding> {
+    let binds = |side: Slack| side.exists() && side.z > side.s;
+    let of = |(upper, lower): (&Slack, &Slack)| match (binds(*upper), binds(*lower)) {
         (true, false) => Binding::Upper,
         (false, true) => Binding::Lower,
         // Of two limits that are next to each other the one that pulls more.
@@ -58,7 +58,7 @@ pub(super) fn bindings(point: &Point) -> Vec<Binding> {
 
 /// The solution from the rows that bound the last one, and the rounds that it took; none where the rounds come to
 /// nothing.
-pub(super) fn resume(scaled: &Scaled, newton: &mut Newton, bound: &[Binding]) -> Option<(Point, usize)> {
+pub(super) fn resume(scaled: &Scaled, newton: &mut Newton, bound: &[Binding]) -> Option<(Iterate, usize)> {
     let m = bound.len();
     // A limit that is there no longer does not bind.
     let there = |(row, binding): (usize, &Binding)| match binding {
@@ -109,9 +109,9 @@ pub(super) fn resume(scaled: &Scaled, newton: &mut Newton, bound: &[Binding]) ->
 }
 
 /// The point of a solution: slacks of rows that bind are 0.
-fn solution(scaled: &Scaled, held: &Scaled, x: Vec<f64>, multipliers: &[f64], values: &[f64]) -> Point {
+fn solution(scaled: &Scaled, held: &Scaled, x: Vec<f64>, multipliers: &[f64], values: &[f64]) -> Iterate {
     let m = values.len();
-    let mut point = Point { x, z: vec![0.0; m], upper: vec![Side::NONE; m], lower: vec![Side::NONE; m] };
+    let mut point = Iterate { x, z: vec![0.0; m], upper: vec![Slack::NONE; m], lower: vec![Slack::NONE; m] };
     for row in 0..m {
         let z = multipliers[row];
         if scaled.equal[row] {
@@ -120,8 +120,8 @@ fn solution(scaled: &Scaled, held: &Scaled, x: Vec<f64>, multipliers: &[f64], va
         }
         let t = values[row].clamp(scaled.lower[row], scaled.upper[row]);
         let z = if held.equal[row] { z } else { 0.0 };
-        point.upper[row] = Side { s: scaled.upper[row] - t, z: z.max(0.0) };
-        point.lower[row] = Side { s: t - scaled.lower[row], z: (-z).max(0.0) };
+        point.upper[row] = Slack { s: scaled.upper[row] - t, z: z.max(0.0) };
+        point.lower[row] = Slack { s: t - scaled.lower[row], z: (-z).max(0.0) };
         point.z[row] = z;
     }
     point

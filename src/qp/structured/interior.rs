@@ -2,7 +2,7 @@
 
 use super::super::problem::{Progress, Settings};
 use super::newton::{Newton, Right, Step, inverse};
-use super::point::{Direction, Point, Residuals, Side};
+use super::point::{Direction, Iterate, Residuals, Slack};
 use super::scaled::Scaled;
 
 /// Residuals and complementarity within this multiple of the tolerance count when no iteration lowers them any more: the
@@ -51,7 +51,7 @@ struct Targets {
 }
 
 /// The right side of the Newton system for the targets (mathematics in the parent module).
-fn right_side(scaled: &Scaled, point: &Point, residuals: &Residuals, weights: &[f64], targets: &Targets) -> Right {
+fn right_side(scaled: &Scaled, point: &Iterate, residuals: &Residuals, weights: &[f64], targets: &Targets) -> Right {
     let f = residuals.dual.iter().map(|value| -value).collect();
     let g = (0..point.z.len())
         .map(|row| {
@@ -68,7 +68,7 @@ fn right_side(scaled: &Scaled, point: &Point, residuals: &Residuals, weights: &[
 }
 
 /// dt = A dx - r_p and the changes of the multipliers that go with (dx, dz).
-fn completed(scaled: &Scaled, point: &Point, residuals: &Residuals, targets: &Targets, step: Step) -> Direction {
+fn completed(scaled: &Scaled, point: &Iterate, residuals: &Residuals, targets: &Targets, step: Step) -> Direction {
     let m = point.z.len();
     let mut direction = Direction { t: vec![0.0; m], upper: vec![0.0; m], lower: vec![0.0; m], step };
     for row in 0..m {
@@ -92,8 +92,8 @@ fn corrected(affine: &Direction, target: f64) -> Targets {
 
 /// Targets moved so that the products after a step of length `aim` come back between a tenth and ten times the target
 /// (Gondzio 1996).
-fn centred(point: &Point, step: &Direction, targets: &Targets, target: f64, aim: f64) -> Targets {
-    let moved = |sides: &[Side], dz: &[f64], sign: f64, old: &[f64]| {
+fn centred(point: &Iterate, step: &Direction, targets: &Targets, target: f64, aim: f64) -> Targets {
+    let moved = |sides: &[Slack], dz: &[f64], sign: f64, old: &[f64]| {
         (0..sides.len())
             .map(|row| {
                 let side = sides[row];
@@ -117,20 +117,20 @@ fn centred(point: &Point, step: &Direction, targets: &Targets, target: f64, aim:
 pub(super) fn iterate(
     scaled: &Scaled,
     newton: &mut Newton,
-    point: &mut Point,
+    point: &mut Iterate,
     settings: &Settings,
-    (kept, progress): (&mut Option<Point>, &mut Vec<Progress>),
+    (kept, progress): (&mut Option<Iterate>, &mut Vec<Progress>),
 ) -> (usize, End) {
     *kept = None;
     let (tolerance, most) = (settings.tolerance, settings.iterations);
     let m = point.z.len();
     let sides = point.sides();
     let linear_program = scaled.quadratic.values().iter().all(|value| *value == 0.0);
-    let mut finishing: Option<(usize, Point, f64)> = None;
+    let mut finishing: Option<(usize, Iterate, f64)> = None;
     let mut residuals = point.residuals(scaled);
     let (mut short, mut slow, mut least) = (0, 0, f64::INFINITY);
     // The best iterate within reach of the tolerance, and iterations since.
-    let mut near: Option<(f64, Point, usize)> = None;
+    let mut near: Option<(f64, Iterate, usize)> = None;
     for count in 0..most {
         let mean = residuals.complementarity / sides.max(1) as f64;
         let size = residuals.objective.abs().max(scaled.objective_scale);
@@ -182,7 +182,7 @@ pub(super) fn iterate(
         least = least.min(residuals.complementarity);
         let weights = point.weights();
         let failed = finishing.is_some();
-        let ended = |point: &mut Point, finishing: Option<(usize, Point, f64)>| {
+        let ended = |point: &mut Iterate, finishing: Option<(usize, Iterate, f64)>| {
             let best = finishing.map(|(_, best, _)| best).or(near.as_ref().map(|(_, best, _)| best.clone()));
             let end = if best.is_some() { End::Optimal } else { End::Stalled };
             if let Some(best) = best {
@@ -274,7 +274,7 @@ pub(super) fn iterate(
 
 /// Whether the iterate has become a proof that no solution exists: multipliers that separate, or a direction of endless
 /// fall. The caller looks at it again.
-fn hopeless(scaled: &Scaled, point: &Point, residuals: &Residuals) -> bool {
+fn hopeless(scaled: &Scaled, point: &Iterate, residuals: &Residuals) -> bool {
     let reach = point.x.iter().fold(1.0_f64, |most, value| most.max(value.abs()));
     if residuals.support < 0.0 && residuals.pull * reach.min(1e6) <= PROOF * -residuals.support {
         return true;

@@ -48,7 +48,7 @@ use super::problem::{Problem, ProblemError, Progress, Settings, Solution, Status
 use active::Binding;
 use interior::End;
 use newton::Newton;
-use point::Point;
+use point::Iterate;
 use scaled::Scaled;
 
 /// A solver that keeps orderings, patterns and the last solution over changes of the numbers.
@@ -57,7 +57,7 @@ pub struct Solver {
     settings: Settings,
     scaled: Scaled,
     newton: Newton,
-    kept: Option<Point>,
+    kept: Option<Iterate>,
     /// The rows that bound the last solution, as long as limits alone have changed since.
     bound: Option<Vec<Binding>>,
     auxiliary: bool,

@@ -6,21 +6,21 @@ use super::scaled::Scaled;
 /// x, the slacks s_u = u - t, s_l = t - l > 0 (infinite without a limit) and the multipliers; of an equality only z
 /// counts.
 #[derive(Clone)]
-pub(super) struct Point {
+pub(super) struct Iterate {
     pub(super) x: Vec<f64>,
     pub(super) z: Vec<f64>,
-    pub(super) upper: Vec<Side>,
-    pub(super) lower: Vec<Side>,
+    pub(super) upper: Vec<Slack>,
+    pub(super) lower: Vec<Slack>,
 }
 
 /// A slack with its multiplier.
 #[derive(Clone, Copy)]
-pub(super) struct Side {
+pub(super) struct Slack {
     pub(super) s: f64,
     pub(super) z: f64,
 }
 
-impl Side {
+impl Slack {
     /// No limit.
     pub(super) const NONE: Self = Self { s: f64::INFINITY, z: 0.0 };
 
@@ -52,14 +52,14 @@ pub(super) struct Residuals {
 
 impl Residuals {
     /// The duality gap that a certificate will find: sums of s z and of |z r_p|, and |r_d|_1 |x|_inf.
-    pub(super) fn gap(&self, point: &Point) -> f64 {
+    pub(super) fn gap(&self, point: &Iterate) -> f64 {
         let reach = point.x.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let missed: f64 = self.primal.iter().zip(&point.z).map(|(r, z)| (r * z).abs()).sum();
         self.complementarity + missed + reach * self.dual.iter().map(|value| value.abs()).sum::<f64>()
     }
 }
 
-impl Point {
+impl Iterate {
     /// Number of slacks.
     pub(super) fn sides(&self) -> usize {
         self.upper.iter().chain(&self.lower).filter(|side| side.exists()).count()

@@ -1,7 +1,7 @@
 //! Where the iteration starts.
 
 use super::newton::{Newton, Right};
-use super::point::{Point, Side};
+use super::point::{Iterate, Slack};
 use super::scaled::Scaled;
 
 /// Weight of every inequality in the first fit, in units of the mean diagonal of P.
@@ -18,7 +18,7 @@ const SPREAD: f64 = 10.0;
 
 /// The least of 1/2 x'Px + q'x + SOFT/2 |A x - t|^2 on the equalities, t the nearest admissible values to 0, and all
 /// products s z equal.
-pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
+pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Iterate> {
     let m = scaled.rows.row_count();
     // Numbers near the greatest there are overflow.
     let is_number = |row: usize| scaled.lower[row] < f64::INFINITY && scaled.upper[row] > f64::NEG_INFINITY;
@@ -63,9 +63,9 @@ pub(super) fn cold(scaled: &Scaled, newton: &mut Newton) -> Option<Point> {
 }
 
 /// The point with these x, its slacks at least `margin` (or a quarter of the width), multipliers mu / s.
-fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -> Point {
+fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -> Iterate {
     let m = values.len();
-    let mut point = Point { x, z: vec![0.0; m], upper: vec![Side::NONE; m], lower: vec![Side::NONE; m] };
+    let mut point = Iterate { x, z: vec![0.0; m], upper: vec![Slack::NONE; m], lower: vec![Slack::NONE; m] };
     for (row, &value) in values.iter().enumerate() {
         let (l, u) = (scaled.lower[row], scaled.upper[row]);
         if scaled.equal[row] {
@@ -74,10 +74,10 @@ fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -
         let inset = margin.min(0.25 * (u - l));
         let t = value.clamp(l + inset, u - inset);
         if u.is_finite() {
-            point.upper[row] = Side { s: u - t, z: mu / (u - t) };
+            point.upper[row] = Slack { s: u - t, z: mu / (u - t) };
         }
         if l.is_finite() {
-            point.lower[row] = Side { s: t - l, z: mu / (t - l) };
+            point.lower[row] = Slack { s: t - l, z: mu / (t - l) };
         }
         point.z[row] = point.upper[row].z - point.lower[row].z;
     }
@@ -87,14 +87,14 @@ fn centred(scaled: &Scaled, x: Vec<f64>, values: &[f64], margin: f64, mu: f64) -
 /// A kept iterate in the limits of a changed problem: x and multipliers stay, every t moves to where both its slacks
 /// are at least what they were (or a quarter of the width), and products that fall outside [mu / SPREAD, mu SPREAD] are
 /// brought back.
-pub(super) fn warm(scaled: &Scaled, kept: &Point) -> Point {
+pub(super) fn warm(scaled: &Scaled, kept: &Iterate) -> Iterate {
     let mut point = kept.clone();
     let values = scaled.rows.apply(&kept.x);
     let mu = kept.complementarity() / kept.sides().max(1) as f64;
-    let side = |s: f64, z: f64| Side { s, z: z.clamp(mu / (SPREAD * s), mu * SPREAD / s) };
+    let side = |s: f64, z: f64| Slack { s, z: z.clamp(mu / (SPREAD * s), mu * SPREAD / s) };
     for (row, &value) in values.iter().enumerate() {
         let (l, u) = (scaled.lower[row], scaled.upper[row]);
-        (point.upper[row], point.lower[row]) = (Side::NONE, Side::NONE);
+        (point.upper[row], point.lower[row]) = (Slack::NONE, Slack::NONE);
         if scaled.equal[row] {
             continue;
         }

@@ -17,7 +17,7 @@ use crate::hull::{Chart, FitMethod, Hull, OffsetTable, PointResidual, Thinned};
 use crate::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics, Quantity};
 pub use page::{validation_csv, validation_json, validation_page};
 pub use reference::Tolerance;
-use reference::{Figure, Origin, Reference};
+use reference::{CentreDatum, Figure, Reference};
 
 /// Whether a difference is within the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -295,10 +295,10 @@ fn value(figure: &Figure, row: &Hydrostatics, Frame { length, moved }: Frame) ->
     let quantity = Quantity::of(figure.known.key)?;
     let value = (quantity.value)(row).filter(|value| value.is_finite())?;
     Some(match figure.known.origin {
-        Origin::Plain => value,
-        Origin::Forward => value - 0.5 * length,
-        Origin::Aft => 0.5 * length - value,
-        Origin::Table => value - moved,
+        CentreDatum::Plain => value,
+        CentreDatum::Forward => value - 0.5 * length,
+        CentreDatum::Aft => 0.5 * length - value,
+        CentreDatum::Table => value - moved,
     })
 }
 
@@ -321,10 +321,10 @@ fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &Of
     Comparison {
         key: figure.known.key,
         measured: match figure.known.origin {
-            Origin::Plain => "",
-            Origin::Forward => "from midship, + forward",
-            Origin::Aft => "from midship, + aft",
-            Origin::Table => "from x = 0 of the file",
+            CentreDatum::Plain => "",
+            CentreDatum::Forward => "from midship, + forward",
+            CentreDatum::Aft => "from midship, + aft",
+            CentreDatum::Table => "from x = 0 of the file",
         },
         unit: quantity.map_or("", |quantity| quantity.unit),
         basis: figure.section,

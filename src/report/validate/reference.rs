@@ -27,7 +27,7 @@ use toml::{Table, Value};
 
 /// Where a centre is measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(super) enum CentreDatum {
     /// As it is.
     Plain,
     /// From midship, + forward.
@@ -44,7 +44,7 @@ pub(super) struct Known {
     pub(super) written: &'static [&'static str],
     /// Key of the quantity.
     pub(super) key: &'static str,
-    pub(super) origin: Origin,
+    pub(super) origin: CentreDatum,
     /// Keys of `[tolerance]`: absolute, and in % of the published figure.
     absolute: &'static str,
     percent: &'static str,
@@ -53,7 +53,7 @@ pub(super) struct Known {
 const fn known(
     written: &'static [&'static str],
     key: &'static str,
-    origin: Origin,
+    origin: CentreDatum,
     absolute: &'static str,
     percent: &'static str,
 ) -> Known {
@@ -61,27 +61,33 @@ const fn known(
 }
 
 const KNOWN: [Known; 21] = [
-    known(&["volume_m3"], "DISPVOL", Origin::Plain, "volume_m3", "volume_percent"),
-    known(&["displacement_t"], "DISPM", Origin::Plain, "displacement_t", "displacement_percent"),
-    known(&["cb"], "CB", Origin::Plain, "cb", "cb_percent"),
-    known(&["cm"], "CM", Origin::Plain, "cm", "cm_percent"),
-    known(&["cp"], "CP", Origin::Plain, "cp", "cp_percent"),
-    known(&["cwp"], "CWP", Origin::Plain, "cwp", "cwp_percent"),
-    known(&["lcb_percent_lpp_fwd"], "XCBPC", Origin::Plain, "lcb_percent_lpp", ""),
-    known(&["lcb_from_ap_m"], "XCB", Origin::Plain, "lcb_m", ""),
-    known(&["lcb_x_m"], "XCB", Origin::Table, "lcb_m", ""),
-    known(&["lcb_m"], "XCB", Origin::Forward, "lcb_m", ""),
-    known(&["lcb_m_aft_of_midship"], "XCB", Origin::Aft, "lcb_m", ""),
-    known(&["lcf_m"], "XWL", Origin::Forward, "lcf_m", ""),
-    known(&["kb_m"], "KB", Origin::Plain, "kb_m", "kb_percent"),
-    known(&["km_m", "kmt_m"], "KMT", Origin::Plain, "km_m", "km_percent"),
-    known(&["bmt_m"], "BMT", Origin::Plain, "bmt_m", "bmt_percent"),
-    known(&["bml_m"], "BML", Origin::Plain, "bml_m", "bml_percent"),
-    known(&["it_m4"], "IT", Origin::Plain, "it_m4", "it_percent"),
-    known(&["il_m4"], "IL", Origin::Plain, "il_m4", "il_percent"),
-    known(&["waterplane_area_m2", "awp_m2"], "AWL", Origin::Plain, "waterplane_area_m2", "waterplane_area_percent"),
-    known(&["wetted_surface_m2"], "S", Origin::Plain, "wetted_surface_m2", "wetted_surface_percent"),
-    known(&["tpc_t_per_cm"], "TPC", Origin::Plain, "tpc_t_per_cm", "tpc_percent"),
+    known(&["volume_m3"], "DISPVOL", CentreDatum::Plain, "volume_m3", "volume_percent"),
+    known(&["displacement_t"], "DISPM", CentreDatum::Plain, "displacement_t", "displacement_percent"),
+    known(&["cb"], "CB", CentreDatum::Plain, "cb", "cb_percent"),
+    known(&["cm"], "CM", CentreDatum::Plain, "cm", "cm_percent"),
+    known(&["cp"], "CP", CentreDatum::Plain, "cp", "cp_percent"),
+    known(&["cwp"], "CWP", CentreDatum::Plain, "cwp", "cwp_percent"),
+    known(&["lcb_percent_lpp_fwd"], "XCBPC", CentreDatum::Plain, "lcb_percent_lpp", ""),
+    known(&["lcb_from_ap_m"], "XCB", CentreDatum::Plain, "lcb_m", ""),
+    known(&["lcb_x_m"], "XCB", CentreDatum::Table, "lcb_m", ""),
+    known(&["lcb_m"], "XCB", CentreDatum::Forward, "lcb_m", ""),
+    known(&["lcb_m_aft_of_midship"], "XCB", CentreDatum::Aft, "lcb_m", ""),
+    known(&["lcf_m"], "XWL", CentreDatum::Forward, "lcf_m", ""),
+    known(&["kb_m"], "KB", CentreDatum::Plain, "kb_m", "kb_percent"),
+    known(&["km_m", "kmt_m"], "KMT", CentreDatum::Plain, "km_m", "km_percent"),
+    known(&["bmt_m"], "BMT", CentreDatum::Plain, "bmt_m", "bmt_percent"),
+    known(&["bml_m"], "BML", CentreDatum::Plain, "bml_m", "bml_percent"),
+    known(&["it_m4"], "IT", CentreDatum::Plain, "it_m4", "it_percent"),
+    known(&["il_m4"], "IL", CentreDatum::Plain, "il_m4", "il_percent"),
+    known(
+        &["waterplane_area_m2", "awp_m2"],
+        "AWL",
+        CentreDatum::Plain,
+        "waterplane_area_m2",
+        "waterplane_area_percent",
+    ),
+    known(&["wetted_surface_m2"], "S", CentreDatum::Plain, "wetted_surface_m2", "wetted_surface_percent"),
+    known(&["tpc_t_per_cm"], "TPC", CentreDatum::Plain, "tpc_t_per_cm", "tpc_percent"),
 ];
 
 /// What a figure may differ by.
@@ -154,13 +160,13 @@ fn meaning(written: &str) -> Option<(&'static Known, bool)> {
     KNOWN.iter().find(|known| known.written.contains(&plain)).map(|known| (known, printed))
 }
 
-struct Reader<'a> {
+struct ReferenceReader<'a> {
     root: &'a Table,
     reversed: bool,
     reference: Reference,
 }
 
-impl Reader<'_> {
+impl ReferenceReader<'_> {
     fn tolerance(&self, known: &Known) -> Option<Tolerance> {
         let table = self.root.get("tolerance")?.as_table()?;
         let find = |key: &str| if key.is_empty() { None } else { table.get(key).and_then(number) };
@@ -174,7 +180,7 @@ impl Reader<'_> {
             self.reference.unread.push(format!("{section}.{written}"));
             return;
         };
-        let reversed = printed && self.reversed && known.origin != Origin::Plain;
+        let reversed = printed && self.reversed && known.origin != CentreDatum::Plain;
         let value = if reversed { -value } else { value };
         let tolerance = self.tolerance(known);
         // A table and a list may say the same.
@@ -231,7 +237,7 @@ pub(super) fn read(text: &str, published_table: Option<&str>) -> Result<Referenc
         aftmost: first(&root, &sizes, &["x_min"]),
         ..Reference::default()
     };
-    let mut reader = Reader { root: &root, reversed: root.contains_key("sign_trap"), reference };
+    let mut reader = ReferenceReader { root: &root, reversed: root.contains_key("sign_trap"), reference };
     for (name, value) in &root {
         let Some(table) = value.as_table() else { continue };
         if name.ends_with("published") {

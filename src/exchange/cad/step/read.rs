@@ -42,13 +42,13 @@ impl Instance {
 }
 
 /// Runs over the characters of a file.
-struct Reader<'t> {
+struct StepReader<'t> {
     text: &'t [u8],
     at: usize,
     line: usize,
 }
 
-impl Reader<'_> {
+impl StepReader<'_> {
     /// Passes blanks and comments.
     fn blanks(&mut self) {
         loop {
@@ -212,7 +212,7 @@ impl Reader<'_> {
 /// Every fault of the file, up to a number of them.
 pub(in super::super::super) fn read_step(bytes: &[u8]) -> Result<CadSurfaces, Vec<RecordFault>> {
     let mut faults = Faults::default();
-    let mut reader = Reader { text: bytes, at: 0, line: 1 };
+    let mut reader = StepReader { text: bytes, at: 0, line: 1 };
     let mut instances: BTreeMap<u64, Instance> = BTreeMap::new();
     while let Some(b) = reader.peek() {
         if b != b'#' {

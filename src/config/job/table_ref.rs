@@ -2,13 +2,13 @@
 
 use super::super::diagnostic::Diagnostic;
 use super::super::document::{Document, Raw};
-use super::{JobFile, Place, name};
+use super::{JobFile, Location, name};
 use crate::hull::OffsetTable;
 use crate::units::parse_length;
 
 /// A line or a cell of a table, by its indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Spot {
+pub enum TableItem {
     /// A station.
     Station(usize),
     /// A waterline.
@@ -17,7 +17,7 @@ pub enum Spot {
     Cell(usize, usize),
 }
 
-impl Spot {
+impl TableItem {
     /// Its cells that hold an offset: (station, waterline).
     #[must_use]
     pub fn cells(self, table: &OffsetTable) -> Vec<(usize, usize)> {
@@ -36,7 +36,7 @@ impl Spot {
 
 /// What a name is the name of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sort {
+enum ItemKind {
     Station,
     Waterline,
     Cell,
@@ -44,13 +44,14 @@ enum Sort {
 
 /// A name of a station, a waterline or a cell with the place where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mark {
+pub struct TableRef {
     text: String,
-    sort: Sort,
-    pub(super) place: Place,
+    sort: ItemKind,
+    pub(super) place: Location,
 }
 
-const LISTS: [(&str, Sort); 3] = [("stations", Sort::Station), ("waterlines", Sort::Waterline), ("cells", Sort::Cell)];
+const LISTS: [(&str, ItemKind); 3] =
+    [("stations", ItemKind::Station), ("waterlines", ItemKind::Waterline), ("cells", ItemKind::Cell)];
 
 /// Reads `[tolerance]` and `[lock]` but for the tolerance of the whole table.
 pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
@@ -97,19 +98,19 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 /// A mark, when the text has the form of its sort.
-fn mark(document: &mut Document<'_>, text: &str, sort: Sort, key: &str, byte: usize) -> Option<Mark> {
-    if sort == Sort::Cell && text.split('@').filter(|part| !part.trim().is_empty()).count() != 2 {
+fn mark(document: &mut Document<'_>, text: &str, sort: ItemKind, key: &str, byte: usize) -> Option<TableRef> {
+    if sort == ItemKind::Cell && text.split('@').filter(|part| !part.trim().is_empty()).count() != 2 {
         let help = "Write \"station@waterline\", as \"5@6.5\".".into();
         document.problem("E123", key, &(byte..byte), format!("{key}: \"{text}\" is no cell"), help);
         return None;
     }
-    Some(Mark { text: text.trim().to_owned(), sort, place: Place::new(document, key, byte) })
+    Some(TableRef { text: text.trim().to_owned(), sort, place: Location::new(document, key, byte) })
 }
 
-impl Mark {
+impl TableRef {
     /// A name to be looked up for another key, whose messages it has.
-    pub(super) fn new(place: &Place) -> Self {
-        Self { text: String::new(), sort: Sort::Cell, place: place.clone() }
+    pub(super) fn new(place: &Location) -> Self {
+        Self { text: String::new(), sort: ItemKind::Cell, place: place.clone() }
     }
 
     /// The message that the same line or cell has another tolerance \[m\] already.
@@ -122,15 +123,15 @@ impl Mark {
     ///
     /// # Errors
     /// A message that says what the table has.
-    pub fn find(&self, table: &OffsetTable) -> Result<Spot, Box<Diagnostic>> {
+    pub fn find(&self, table: &OffsetTable) -> Result<TableItem, Box<Diagnostic>> {
         match self.sort {
-            Sort::Station => self.station(table, &self.text).map(Spot::Station),
-            Sort::Waterline => self.waterline(table, &self.text).map(Spot::Waterline),
-            Sort::Cell => {
+            ItemKind::Station => self.station(table, &self.text).map(TableItem::Station),
+            ItemKind::Waterline => self.waterline(table, &self.text).map(TableItem::Waterline),
+            ItemKind::Cell => {
                 let (station, waterline) = self.text.split_once('@').unwrap_or((&self.text, ""));
                 let (i, j) = (self.station(table, station.trim())?, self.waterline(table, waterline.trim())?);
                 if table.stations[i].half_breadths.get(j).is_some_and(|cell| cell.value().is_some()) {
-                    return Ok(Spot::Cell(i, j));
+                    return Ok(TableItem::Cell(i, j));
                 }
                 Err(self.problem("E173", format!("the table has no offset at {}", self.text), String::new()))
             }

@@ -7,13 +7,13 @@ use super::super::document::Document;
 
 /// A key of a job file with line and column, or an option of the command.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct Location {
     file: String,
     pub(super) key: String,
     at: Option<(usize, usize)>,
 }
 
-impl Place {
+impl Location {
     /// A byte of the document, which belongs to the key.
     pub(super) fn new(document: &Document<'_>, key: &str, byte: usize) -> Self {
         let at = Some(position(document.text, byte));
@@ -48,7 +48,7 @@ impl Place {
 }
 
 /// `job.toml:12`, or `--lcb`.
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.file)?;
         self.at.map_or(Ok(()), |(line, _)| write!(f, ":{line}"))
