@@ -3,11 +3,10 @@
 use crate::support::{carried, read_text, sources};
 
 /// Every module with its floor.
-const FLOORS: [(&str, usize); 15] = [
+const FLOORS: [(&str, usize); 14] = [
     ("numeric", 0),
     ("units", 0),
     ("spline", 1),
-    ("qp", 1),
     ("qp", 1),
     ("hull", 2),
     ("hydrostatics", 3),

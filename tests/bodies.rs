@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use loftsman::exchange::{CadUnit, Severity, read_body, read_subdivision, read_table, write_ftm};
 use loftsman::hull::{FitMethod, Hull, PanelMesh, PanelSettings, TriangleMesh};
 use loftsman::hydrostatics::{Conventions, CurvesOfForm, Hydrostatics};
-use loftsman::report::{ExportFormat, ExportSettings, export, read_floating, read_source};
+use loftsman::report::{ExportFormat, ExportSettings, export, read_hydrostatic_body, read_source};
 
 use crate::random::Random;
 use crate::support::{carried, folder, program, read_text, stderr};
@@ -106,9 +106,9 @@ fn exported_meshes_float_as_their_hulls() {
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(name);
         for path in files(&folder, &hull, name, &MESHES) {
-            let floating = read_floating(&path).unwrap();
-            assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
-            let found = floating.curves_of_form(&draughts, &Conventions::default()).rows;
+            let body = read_hydrostatic_body(&path).unwrap();
+            assert!((body.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
+            let found = body.curves_of_form(&draughts, &Conventions::default()).rows;
             for (a, b) in found.iter().zip(&exact) {
                 for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                     assert!(
@@ -131,7 +131,7 @@ fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("surfaces-{name}"));
         for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges]) {
-            let found = read_floating(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
+            let found = read_hydrostatic_body(&path).unwrap().curves_of_form(&draughts, &Conventions::default()).rows;
             for (a, b) in found.iter().zip(&exact) {
                 for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                     // A single line is not averaged over the triangles as a volume is.
@@ -380,9 +380,9 @@ fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("nets-{name}"));
         let path = files(&folder, &hull, name, &[ExportFormat::Ftm]).remove(0);
-        let floating = read_floating(&path).unwrap();
-        assert!((floating.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
-        for (a, b) in floating.curves_of_form(&draughts, &Conventions::default()).rows.iter().zip(&exact) {
+        let body = read_hydrostatic_body(&path).unwrap();
+        assert!((body.particulars.breadth - hull.particulars().breadth).abs() < 1e-12);
+        for (a, b) in body.curves_of_form(&draughts, &Conventions::default()).rows.iter().zip(&exact) {
             for (k, (x, y)) in main_quantities(a).into_iter().zip(main_quantities(b)).enumerate() {
                 assert!((x / y - 1.0).abs() < 4e-3, "{name} at {}: quantity {k} is {x} for {y}", a.draught);
             }

@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     #[arg(short, long, value_parser = super::export::format, value_name = "FORMAT")]
     format: Option<ExportFormat>,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     /// How lengths are written: m, mm, feet-inches-eighths, cm, ft or in; as in the table where none is given
     #[arg(long, value_parser = super::offsets::notation)]
     notation: Option<Notation>,
@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = arguments.output.as_deref().or(arguments.output_file.as_deref());
     let inputs = source_files(&arguments.table);
     let target = stream::Target { file: output, inputs: &inputs, force: arguments.force };
-    let said = arguments.said.said();
+    let overrides = arguments.conventions.overrides();
     let of_name = || output.and_then(|path| ExportFormat::from_ending(&path.to_string_lossy()));
     let hull = arguments.table.is_dir()
         || arguments.table.extension().is_some_and(|e| HULLS.iter().any(|known| e.eq_ignore_ascii_case(known)));
@@ -88,14 +88,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let Some(format) = said_format.or(table) {
         let name = output.unwrap_or(&arguments.table).to_string_lossy().into_owned();
-        let (file, messages) = convert_file(&arguments.table, &said, &name, format, &ExportSettings::default())?;
+        let (file, messages) = convert_file(&arguments.table, &overrides, &name, format, &ExportSettings::default())?;
         if !arguments.quiet {
             messages.iter().for_each(|message| stream::message(message));
         }
         return target.bytes(file.contents);
     }
     let writing = TableWriting { notation: arguments.notation, layout: arguments.layout };
-    let converted = convert_table(&arguments.table, &said, writing)?;
+    let converted = convert_table(&arguments.table, &overrides, writing)?;
     if !arguments.quiet {
         converted.messages.iter().for_each(|message| stream::message(message));
     }

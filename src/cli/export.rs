@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     #[arg(long, value_parser = unit, value_name = "UNIT", default_value = "m")]
     unit: CadUnit,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     /// Version of DXF files: r12 or r2000
     #[arg(long, value_parser = dxf_version, value_name = "VERSION", default_value = "r12")]
     dxf: DxfVersion,
@@ -118,7 +118,7 @@ fn datum(text: &str) -> Result<Datum, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
+    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     let stem = arguments.hull.file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {

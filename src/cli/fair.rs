@@ -8,7 +8,7 @@ use clap::Args;
 use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{
-    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_telling, fair_page, read_fair,
+    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, read_fair,
 };
 use crate::units::counted;
 
@@ -142,10 +142,10 @@ impl Arguments {
             ("--inflection-cost", "inflections.cost", &self.inflection_cost),
             ("--accept-lines", "lines.accept", &self.accept_lines),
         ];
-        let said = |(option, key, value): (&'static str, &'static str, &Option<String>)| {
+        let given = |(option, key, value): (&'static str, &'static str, &Option<String>)| {
             value.as_ref().map(|value| (option, key, value.clone()))
         };
-        let mut options: Vec<_> = named.into_iter().filter_map(said).collect();
+        let mut options: Vec<_> = named.into_iter().filter_map(given).collect();
         for lock in &self.lock {
             let (key, name) = match lock.trim().split_once(char::is_whitespace) {
                 Some(("station", name)) => ("lock.stations", name),
@@ -193,7 +193,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     let scale = job.reading.iter().filter(|note| note.code == "W320");
     scale.for_each(|note| stream::message(&note.to_string()));
     let told = |text: &str| progress(format!("{:6.1} s  {text}", start.elapsed().as_secs_f64()));
-    let outputs = match fair_outputs_telling(&job, !arguments.files.no_figures, &told) {
+    let outputs = match fair_outputs_with_progress(&job, !arguments.files.no_figures, &told) {
         Ok(outputs) => outputs,
         Err(failure) => return (Some(job), Err(failure)),
     };
@@ -248,12 +248,12 @@ fn watch(
     match (done, &job) {
         (Ok((outputs, seconds)), Some(job)) => {
             print(arguments, job, &outputs, seconds)?;
-            said(&outputs.verdict());
+            report(&outputs.verdict());
         }
         (Err(failure @ (Failure::Usage(_) | Failure::Exists(_) | Failure::FileSystem { .. })), _) => {
             return Err(failure);
         }
-        (done, _) => said(&done.map(|_| ())),
+        (done, _) => report(&done.map(|_| ())),
     }
     // What was written since the first run began has not been seen.
     let mut seen: Vec<_> = stamps(&files).into_iter().map(|time| time.filter(|&time| time <= started)).collect();
@@ -279,14 +279,14 @@ fn watch(
         match done {
             Ok((outputs, _)) => {
                 stream::data(&fair_line(&outputs))?;
-                said(&outputs.verdict());
+                report(&outputs.verdict());
             }
             Err(failure) => stream::message(&failure.to_string()),
         }
     }
 }
 
-fn said(verdict: &Result<(), Failure>) {
+fn report(verdict: &Result<(), Failure>) {
     if let Err(failure) = verdict {
         stream::message(&failure.to_string());
     }

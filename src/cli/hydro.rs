@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
 use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
-use crate::report::{Failure, hydrostatics_page, read_floating_with, source_files};
+use crate::report::{Failure, hydrostatics_page, read_hydrostatic_body_with, source_files};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     draughts: Lengths,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     /// Every quantity as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
@@ -109,7 +109,7 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_floating_with(&arguments.hull, &arguments.said.said())?;
+    let source = read_hydrostatic_body_with(&arguments.hull, &arguments.conventions.overrides())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let table = source.curves_of_form(&arguments.draughts.0, &conventions(arguments, source.conventions));
     let text = if arguments.json {

@@ -16,7 +16,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, or a table of offsets, a mesh or a CAD file (fitted first)
     hull: PathBuf,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     /// Stations, from AP [m]; each list that is not given has the lines of a table of offsets
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     stations: Option<Lengths>,
@@ -87,7 +87,7 @@ fn diagonal_angle(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
+    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let hull = source.hull;
     let usual = Planes::with_defaults(&hull);

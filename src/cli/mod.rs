@@ -25,7 +25,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::report::{Failure, Said};
+use crate::report::{Failure, Overrides};
 use crate::units::Notation;
 
 /// The tables of offsets that are read, for the help of every command that takes one.
@@ -108,10 +108,10 @@ struct BodyFlags {
 }
 
 impl BodyFlags {
-    fn said(&self) -> Said {
+    fn overrides(&self) -> Overrides {
         let unit = self.input_unit.map(|unit| unit.as_str().to_owned());
         let keys = [("units", unit), ("up", self.up.clone()), ("axes", self.axes.clone())];
-        Said { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect(), file: None }
+        Overrides { keys: keys.into_iter().filter_map(|(key, value)| Some((key, value?))).collect(), file: None }
     }
 }
 

@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     /// Stations, from AP [m]
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     stations: Lengths,
@@ -41,7 +41,7 @@ pub(super) fn notation(word: &str) -> Result<Notation, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
+    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let buttocks = arguments.buttocks.as_ref().map_or(&[][..], |list| &list.0);
     let table = offsets(&source.hull, &arguments.stations.0, &arguments.waterlines.0, buttocks)?;

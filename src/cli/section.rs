@@ -14,7 +14,7 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, a table of offsets, a mesh or a CAD file
     hull: PathBuf,
     #[command(flatten)]
-    said: super::BodyFlags,
+    conventions: super::BodyFlags,
     #[command(flatten)]
     plane: Plane,
     /// Largest distance between the points' chords and the curve [m]
@@ -74,7 +74,7 @@ impl Plane {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_source_with(&arguments.hull, &arguments.said.said())?;
+    let source = read_source_with(&arguments.hull, &arguments.conventions.overrides())?;
     source.notes.iter().for_each(|note| stream::message(note));
     let cut = arguments.plane.cut().ok_or_else(|| Failure::Internal("no plane".to_owned()))?;
     let section = sections_of(&source.hull, cut);

@@ -82,13 +82,13 @@ fn name_and_unit(text: &str) -> (String, Option<String>) {
 }
 
 /// The unit of a column whose head says one.
-fn unit_of(said: Option<&str>, area: bool, name: &str, unit: Notation) -> Result<Notation, CurveProblem> {
-    let Some(said) = said.filter(|said| !said.is_empty()) else { return Ok(unit) };
-    let sides = said.strip_suffix("^2").or_else(|| said.strip_suffix(['2', '²']));
-    let found = if area { sides.and_then(Notation::from_word) } else { Notation::from_word(said) };
+fn unit_of(written: Option<&str>, area: bool, name: &str, unit: Notation) -> Result<Notation, CurveProblem> {
+    let Some(written) = written.filter(|written| !written.is_empty()) else { return Ok(unit) };
+    let sides = written.strip_suffix("^2").or_else(|| written.strip_suffix(['2', '²']));
+    let found = if area { sides.and_then(Notation::from_word) } else { Notation::from_word(written) };
     found.filter(|unit| !area || *unit != Notation::FeetInchesEighths).ok_or_else(|| CurveProblem {
         line: Some(1),
-        message: format!("'{said}' is no unit of {} in the column {name}", if area { "areas" } else { "lengths" }),
+        message: format!("'{written}' is no unit of {} in the column {name}", if area { "areas" } else { "lengths" }),
         remedy: if area { "Expected m2, cm2, mm2, ft2 or in2." } else { "Expected m, cm, mm, ft or in." }.to_owned(),
     })
 }
@@ -107,8 +107,8 @@ fn columns(header: &[String], unit: Notation) -> Result<Columns, CurveProblem> {
     };
     let area = named[y].0 == "area";
     let column = |at: usize, area: bool| {
-        let (name, said) = &named[at];
-        Ok(Column { at, unit: unit_of(said.as_deref(), area, name, unit)?, area })
+        let (name, written) = &named[at];
+        Ok(Column { at, unit: unit_of(written.as_deref(), area, name, unit)?, area })
     };
     let tolerance = find(&["tolerance", "tol", "band"]);
     Ok(Columns {

@@ -25,7 +25,7 @@ use super::surface::{FairSurface, Origin};
 use super::suspects::Suspects;
 use super::told::{Counted, Watched, changes, predicted, written};
 use crate::hull::{Hull, OffsetTable};
-use crate::numeric::at_once;
+use crate::numeric::join;
 use crate::qp::{RepeatedSolver, Status};
 use crate::units::counted;
 
@@ -235,7 +235,7 @@ impl<'a> Run<'a> {
         let (lines_before, faired) = {
             let Self { surface, settings, prepared, solver, .. } = &mut self;
             let seen = settings.seen;
-            at_once(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
+            join(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
         };
         let faired = faired?;
         (self.progress)(&format!(
@@ -405,7 +405,7 @@ impl<'a> Run<'a> {
         let Self { surface, settings, prepared, solver, before, wished, .. } = self;
         if surface.own {
             // Nothing is repeated on a net of its own: the prices are final.
-            let (lines, held) = at_once(
+            let (lines, held) = join(
                 || watched.turns(&after),
                 || held::constraints(surface, settings, &faired, [before, &after], solver),
             );
@@ -448,7 +448,7 @@ impl<'a> Run<'a> {
         };
         let half = lines.len() / 2;
         let (some, others) = lines.split_at_mut(half);
-        at_once(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
+        join(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
     }
 
     /// What is told, what bends more often before all else: whoever reads no further should know it.

@@ -13,7 +13,7 @@ use super::suspects::{Suspects, point_suspects, suspects};
 use super::told::Watched;
 use super::unbroken::{Along, Breaks};
 use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
-use crate::numeric::at_once;
+use crate::numeric::join;
 use crate::units::counted;
 
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
@@ -186,7 +186,7 @@ impl Modelled {
         let fitted = Hull::fit(charted, &FitMethod::Graded)?;
         let before = fitted.hull;
         let (mut watched, modelled) =
-            at_once(|| Watched::new(clean, &before), || Self::surface(job, table, found, (noise, own), &before));
+            join(|| Watched::new(clean, &before), || Self::surface(job, table, found, (noise, own), &before));
         let (proposals, refitted, (start, breaks), surface, search) = modelled?;
         // Without a line that the hull has, the surface through the table is another one between the offsets.
         let before = match refitted {

@@ -16,4 +16,4 @@ pub use least_squares::BandedLeastSquares;
 pub use median::median;
 pub use quadrature::{GaussRule, gauss_legendre};
 pub use root::{RootError, bracketed_root};
-pub use threads::at_once;
+pub use threads::join;

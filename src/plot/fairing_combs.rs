@@ -7,7 +7,7 @@ use super::fairing_long;
 use crate::fairing::inspect::{Comb, Planes, combs};
 use crate::fairing::record::FairRecord;
 use crate::hull::{Cut, Hull};
-use crate::numeric::at_once;
+use crate::numeric::join;
 
 /// Teeth of a comb; its tips are joined.
 pub(super) const TEETH: usize = 241;
@@ -118,7 +118,7 @@ impl FairingCombs {
             }
         }
         let of = |hull: &Hull| combs(hull, &cuts, TEETH, record.tolerance());
-        let (before, after) = at_once(|| of(&record.before), || of(&record.after));
+        let (before, after) = join(|| of(&record.before), || of(&record.after));
         let scales = std::array::from_fn(|k| {
             let own = || before.iter().chain(&after).filter(move |comb| kind(&comb.cut) == k);
             let plan = || CombScale::fitting(own(), SHORT[usize::from(k > 0)], USUAL * LONGEST);

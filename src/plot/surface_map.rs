@@ -20,7 +20,7 @@ use super::zero_lines::{FAINT, zero_lines};
 use super::{PlotError, Svg, caption};
 use crate::fairing::inspect::{KnotLine, MapPoint, SurfaceMap};
 use crate::hull::Hull;
-use crate::numeric::at_once;
+use crate::numeric::join;
 use std::f64::consts::PI;
 
 /// Columns and rows of the grid, about.
@@ -189,7 +189,7 @@ impl SurfaceMaps {
     pub fn new(hull: &Hull, before: Option<&Hull>) -> Self {
         let map = |hull: &Hull| SurfaceMap::at_stations(hull, GRID[0], GRID[1]);
         let (before, after) = match before {
-            Some(before) => at_once(|| Some(map(before)), || map(hull)),
+            Some(before) => join(|| Some(map(before)), || map(hull)),
             None => (None, map(hull)),
         };
         let surface = hull.surface();

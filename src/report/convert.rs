@@ -5,7 +5,7 @@ use std::path::Path;
 use super::export::{ExportFormat, ExportSettings, export};
 use super::failure::Failure;
 use super::files::OutputFile;
-use super::source::{Said, beside, read_bytes, read_source_with, read_table_file_with};
+use super::source::{Overrides, read_bytes, read_source_with, read_table_file_with, sidecar};
 use crate::exchange::{
     Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship,
     write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii,
@@ -30,8 +30,8 @@ pub struct Converted {
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table; [`Failure::Usage`] when the layout that
 /// is asked for cannot hold the table.
-pub fn convert_table(path: &Path, said: &Said, writing: TableWriting) -> Result<Converted, Failure> {
-    let (table, notes) = read_table_file_with(path, said)?;
+pub fn convert_table(path: &Path, overrides: &Overrides, writing: TableWriting) -> Result<Converted, Failure> {
+    let (table, notes) = read_table_file_with(path, overrides)?;
     let sections = only_sections(&table);
     if sections && writing.layout.is_some_and(|layout| layout != TableLayout::Tidy) {
         return Err(Failure::Usage(
@@ -94,14 +94,14 @@ fn of_table_in(format: ExportFormat, sections: bool) -> Option<fn(&OffsetTable) 
 type WithMessages = (Vec<u8>, Vec<String>);
 
 /// The file of a body of triangles in a format of meshes; none of other formats.
-fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option<WithMessages>, Failure> {
+fn of_triangles(path: &Path, overrides: &Overrides, format: ExportFormat) -> Result<Option<WithMessages>, Failure> {
     if !format.is_mesh() {
         return Ok(None);
     }
-    let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
+    let (bytes, list) = (read_bytes(path)?, sidecar(path, overrides)?);
     let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
     let Some(body) = read_body(&path.display().to_string(), &bytes, list) else { return Ok(None) };
-    let body = body.map_err(|problems| said.refused(problems))?;
+    let body = body.map_err(|problems| overrides.refused(problems))?;
     let triangles = body.meshes.first().cloned().unwrap_or_default();
     let mesh = HullMesh {
         vertices: triangles.vertices,
@@ -126,7 +126,7 @@ fn of_triangles(path: &Path, said: &Said, format: ExportFormat) -> Result<Option
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of what is read; those of [`export`].
 pub fn convert_file(
     path: &Path,
-    said: &Said,
+    overrides: &Overrides,
     name: &str,
     format: ExportFormat,
     settings: &ExportSettings,
@@ -135,22 +135,22 @@ pub fn convert_file(
     if !is_hull(path) {
         let takes = |sections| of_table_in(format, sections);
         if takes(false).is_some()
-            && let (table, notes) = read_table_file_with(path, said)?
+            && let (table, notes) = read_table_file_with(path, overrides)?
             && let Some(write) = takes(only_sections(&table))
         {
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }
-        if let (ExportFormat::Ftm, true) = (format, said.keys.is_empty())
+        if let (ExportFormat::Ftm, true) = (format, overrides.keys.is_empty())
             && let Some(read) = read_subdivision(&path.display().to_string(), &read_bytes(path)?)
         {
-            let project = read.map_err(|problems| said.refused(problems))?;
+            let project = read.map_err(|problems| overrides.refused(problems))?;
             return Ok((file(write_ftm(&project).into_bytes()), Vec::new()));
         }
-        if let Some((contents, notes)) = of_triangles(path, said, format)? {
+        if let Some((contents, notes)) = of_triangles(path, overrides, format)? {
             return Ok((file(contents), notes));
         }
     }
-    let source = read_source_with(path, said)?;
+    let source = read_source_with(path, overrides)?;
     let stem = Path::new(name).file_stem().unwrap_or_else(|| "hull".as_ref()).to_string_lossy().into_owned();
     let mut exported = export(&source.hull, &stem, &[format], settings)?;
     let contents = exported.files.pop().map(|file| file.contents).unwrap_or_default();

@@ -254,25 +254,25 @@ fn lowered(points: &mut [[f64; 3]], datum: f64) {
 /// Measures of the angles of a mesh.
 fn angles(mesh: &HullMesh, report: &MeshReport) -> String {
     let degrees = 180.0 / PI;
-    let mut said = format!(
+    let mut text = format!(
         "least angle {:.2} degrees (bound {:.0}, {} below it",
         report.least_angle * degrees,
         LEAST_ANGLE * degrees,
         counted(mesh.slivers(), "triangle")
     );
     if mesh.sharp_corners.is_empty() {
-        said.push(')');
-        return said;
+        text.push(')');
+        return text;
     }
-    said.push_str(&format!(" but at {} of the body: ", counted(mesh.sharp_corners.len(), "sharper corner")));
+    text.push_str(&format!(" but at {} of the body: ", counted(mesh.sharp_corners.len(), "sharper corner")));
     let corner = |corner: &SharpCorner| {
         let [x, y, z] = mesh.vertices[corner.vertex];
         format!("{} {:.2} degrees at ({x:.3}, {y:.3}, {z:.3}) m", corner.region.name(), corner.angle * degrees)
     };
     let named: Vec<String> = mesh.sharp_corners.iter().take(NAMED_CORNERS).map(corner).collect();
-    said.push_str(&named.join(", "));
-    said.push_str(if mesh.sharp_corners.len() > NAMED_CORNERS { " ...)" } else { ")" });
-    said
+    text.push_str(&named.join(", "));
+    text.push_str(if mesh.sharp_corners.len() > NAMED_CORNERS { " ...)" } else { ")" });
+    text
 }
 
 /// A mesh and its line on the page.

@@ -9,7 +9,7 @@ use super::check::suspect_json;
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
-use super::source::{Said, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
+use super::source::{Overrides, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
 use crate::config::{self, Diagnostic, JobFile};
 use crate::exchange::{
     COMPROMISE_LINE, CurveProblem, ManifestEntry, Particulars, RoundingEffect, Severity, TableProblem, TableWriting,
@@ -40,9 +40,9 @@ pub struct FairJob {
     pub conventions: Conventions,
     table_file: PathBuf,
     /// Name and text of the conventions beside the table.
-    beside: Option<(String, String)>,
+    sidecar: Option<(String, String)>,
     /// What file and options say, with its places.
-    said: JobFile,
+    request: JobFile,
     /// The files that were read; the first is the one that the command named.
     inputs: Vec<ManifestEntry>,
     files: Vec<PathBuf>,
@@ -63,7 +63,7 @@ pub struct FairOutputs {
     pub files: Vec<OutputFile>,
     pub(super) table_file: PathBuf,
     /// What file and options say, with its places.
-    pub(super) said: JobFile,
+    pub(super) request: JobFile,
 }
 
 /// The table file of a job file.
@@ -94,10 +94,10 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
         Ok(bytes)
     };
     let mut problems = Vec::new();
-    let mut said = JobFile::default();
+    let mut request = JobFile::default();
     if is_toml(path) {
         match config::read_job(&path.display().to_string(), &utf8(path, read(path)?)?) {
-            Ok(file) => said = file,
+            Ok(file) => request = file,
             Err(found) => problems.extend(found),
         }
     }
@@ -108,45 +108,45 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
             Err(found) => problems.extend(found),
         }
     }
-    said = said.with(asked);
+    request = request.with(asked);
     if !problems.is_empty() {
         return Err(Failure::Input(problems));
     }
-    let table_file = table_of(path, &said)?;
+    let table_file = table_of(path, &request)?;
     read(&table_file)?;
     let beside_file = table_file.with_extension("toml");
-    let beside = if beside_file.is_file() && beside_file != path {
+    let sidecar = if beside_file.is_file() && beside_file != path {
         Some((beside_file.display().to_string(), utf8(&beside_file, read(&beside_file)?)?))
     } else {
         None
     };
-    let (mut table, reading) = read_table_stated(&table_file, &said.stated, path)?;
+    let (mut table, reading) = read_table_stated(&table_file, &request.stated, path)?;
     if table.name.trim().is_empty() {
         table.name = ship_name(&table_file);
     }
     let length = match table.stated.length_between_perpendiculars {
         Some(length) => length,
         None => {
-            let hull = fitted(&table).map_err(|error| refusal(&said, &[], &table_file, &error.into()))?;
+            let hull = fitted(&table).map_err(|error| refusal(&request, &[], &table_file, &error.into()))?;
             hull.particulars().length_between_perpendiculars
         }
     };
     let area_file =
-        said.area_file().map(|(file, place)| (path.parent().unwrap_or(Path::new("")).join(file), place.clone()));
+        request.area_file().map(|(file, place)| (path.parent().unwrap_or(Path::new("")).join(file), place.clone()));
     if let Some((file, place)) = area_file {
         let curve = read_curve(&utf8(&file, read(&file)?)?, Notation::Metres).map_err(|problems| {
             let of = |p: CurveProblem| Diagnostic { line: p.line, ..problem("E340", &file, p.message, p.remedy) };
             Failure::Input(problems.into_iter().map(of).collect())
         })?;
-        let band = said.section_area_band;
+        let band = request.section_area_band;
         let rows = curve.points.iter().filter_map(|p| Some([p.x, p.y?, p.tolerance.unwrap_or(band)]));
-        said.section_areas.extend(rows.map(|row| (row, place.clone())));
+        request.section_areas.extend(rows.map(|row| (row, place.clone())));
     }
-    let job = said.for_table(&table, length).map_err(Failure::Input)?;
-    let density = said.density.unwrap_or(Conventions::default().density);
+    let job = request.for_table(&table, length).map_err(Failure::Input)?;
+    let density = request.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
-    Ok(FairJob { table, job, reading, conventions, table_file, beside, said, inputs, files })
+    Ok(FairJob { table, job, reading, conventions, table_file, sidecar, request, inputs, files })
 }
 
 /// The surface through a table.
@@ -236,17 +236,17 @@ fn with_texts(job: &FairJob, outcome: &Outcome) -> OffsetTable {
 }
 
 /// The dimensions that the job says.
-fn said(job: &FairJob) -> Said {
-    Said::dimensions(&job.said.stated, job.files.first().unwrap_or(&job.table_file))
+fn overrides(job: &FairJob) -> Overrides {
+    Overrides::dimensions(&job.request.stated, job.files.first().unwrap_or(&job.table_file))
 }
 
 /// What the table leaves open belongs to the new one as well: the conventions beside it, with the dimensions that the
 /// job says.
 fn conventions_beside(job: &FairJob) -> Option<String> {
-    let beside = job.beside.as_ref().map(|(_, text)| text.clone());
-    let Some((_, said)) = said(job).text() else { return beside };
-    let Some(beside) = beside else { return Some(said) };
-    let (mut all, over) = (beside.parse::<toml::Table>().ok()?, said.parse::<toml::Table>().ok()?);
+    let sidecar = job.sidecar.as_ref().map(|(_, text)| text.clone());
+    let Some((_, stated)) = overrides(job).text() else { return sidecar };
+    let Some(sidecar) = sidecar else { return Some(stated) };
+    let (mut all, over) = (sidecar.parse::<toml::Table>().ok()?, stated.parse::<toml::Table>().ok()?);
     for (name, keys) in over {
         let table = all.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
         if let (toml::Value::Table(table), toml::Value::Table(keys)) = (table, keys) {
@@ -258,9 +258,9 @@ fn conventions_beside(job: &FairJob) -> Option<String> {
 
 /// What rounding did to the offsets and to the volume; the table as it is read back.
 fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (RoundingEffect, Option<OffsetTable>) {
-    let said = said(job).text();
-    let beside = job.beside.iter().chain(&said).map(|(name, text)| (name.as_str(), text.as_str()));
-    let back = read_table_with(name, text.as_bytes(), beside).ok().map(|read| read.table);
+    let stated = overrides(job).text();
+    let sidecar = job.sidecar.iter().chain(&stated).map(|(name, text)| (name.as_str(), text.as_str()));
+    let back = read_table_with(name, text.as_bytes(), sidecar).ok().map(|read| read.table);
     let volume = |table: &OffsetTable| {
         let mut table = table.clone();
         table.stated = job.table.stated;
@@ -292,19 +292,19 @@ fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
 
 /// Why nothing was faired, at the place of the job that is infeasible; `lines` are the lines of the job
 /// as the table has them.
-fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &JobError) -> Failure {
+fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &JobError) -> Failure {
     // An option comes after the job and is what was changed last.
-    let first = |keys: &[&str]| keys.iter().filter_map(|key| said.place(key)).min_by_key(|place| !place.is_option());
+    let first = |keys: &[&str]| keys.iter().filter_map(|key| request.place(key)).min_by_key(|place| !place.is_option());
     let (code, place, help) = match error {
         JobError::Fair(FairError::Rules(list)) => {
             let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";
-            let at = |(rule, why): &(usize, String)| Some(said.rules.get(*rule)?.place.problem("E176", why, help));
+            let at = |(rule, why): &(usize, String)| Some(request.rules.get(*rule)?.place.problem("E176", why, help));
             return Failure::Input(list.iter().filter_map(at).collect());
         }
         JobError::NoCourse { course, kind, at } => {
             let same =
                 |line: &ProposedLine| (line.course, line.kind) == (*course, *kind) && line.at.total_cmp(at).is_eq();
-            let line = lines.iter().position(same).and_then(|line| said.lines.get(line));
+            let line = lines.iter().position(same).and_then(|line| request.lines.get(line));
             let help = "Take a waterline or a station that runs along the net of the surface, or declare the line beside the table";
             ("E180", line.map(|line| &line.place), help)
         }
@@ -334,18 +334,22 @@ fn refusal(said: &JobFile, lines: &[ProposedLine], table_file: &Path, error: &Jo
 /// [`Failure::Input`] when the table makes no hull or no problem; [`Failure::Internal`] when a file cannot be made.
 /// Infeasible targets are [`FairOutputs::verdict`].
 pub fn fair_outputs(job: &FairJob, figures: bool) -> Result<FairOutputs, Failure> {
-    fair_outputs_telling(job, figures, &|_| ())
+    fair_outputs_with_progress(job, figures, &|_| ())
 }
 
 /// The same, telling what is being done.
 ///
 /// # Errors
 /// As [`fair_outputs`].
-pub fn fair_outputs_telling(job: &FairJob, figures: bool, progress: Progress<'_>) -> Result<FairOutputs, Failure> {
+pub fn fair_outputs_with_progress(
+    job: &FairJob,
+    figures: bool,
+    progress: Progress<'_>,
+) -> Result<FairOutputs, Failure> {
     let mut outcome = job
         .job
         .run_telling(&job.table, progress)
-        .map_err(|error| refusal(&job.said, &job.job.lines, &job.table_file, &error))?;
+        .map_err(|error| refusal(&job.request, &job.job.lines, &job.table_file, &error))?;
     // What reading the table had to guess decides the hull as much.
     let guessed = job.reading.iter().filter(|problem| problem.severity == Severity::Warning);
     outcome.notes.splice(0..0, guessed.map(remark));
@@ -399,7 +403,7 @@ pub fn fair_outputs_telling(job: &FairJob, figures: bool, progress: Progress<'_>
         certificate,
         files,
         table_file: job.table_file.clone(),
-        said: job.said.clone(),
+        request: job.request.clone(),
     })
 }
 

@@ -65,7 +65,7 @@ impl FairOutputs {
     /// An energy of another order than was asked for.
     fn other_order(&self) -> Option<String> {
         let taken = self.outcome.order;
-        let wanted = self.said.order.filter(|wanted| *wanted != taken)?;
+        let wanted = self.request.order.filter(|wanted| *wanted != taken)?;
         let message = format!(
             "the energy is of order {taken}, not {wanted}: one of order {wanted} needs an independent net, which does not follow this table"
         );
@@ -207,12 +207,12 @@ impl Refused<'_> {
     }
 
     fn words(&self, constraint: &Constraint) -> String {
-        placed(constraint.words(), self.outputs.said.place_of(constraint))
+        placed(constraint.words(), self.outputs.request.place_of(constraint))
     }
 
     fn rule_words(&self, rule: usize) -> Option<String> {
         let words = self.outputs.outcome.rules.get(rule)?.rule.words();
-        Some(placed(words, self.outputs.said.rules.get(rule).map(|rule| &rule.place)))
+        Some(placed(words, self.outputs.request.rules.get(rule).map(|rule| &rule.place)))
     }
 
     fn reached(&self, reach: &Reach) -> Option<String> {

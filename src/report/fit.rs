@@ -10,9 +10,9 @@ use super::check::{suspects_json, suspects_line};
 use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
+use super::overshoot;
 use super::page::{WIDTH, conventions_line, quantities, wrapped};
 use super::result_files::source_words;
-use super::sanity;
 use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
 use crate::exchange::{
@@ -93,15 +93,15 @@ fn named_method(word: &str, inputs: &mut Vec<ManifestEntry>) -> Result<MethodFil
     read_method_file(path, inputs)
 }
 
-/// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `said` is a word of
+/// Reads what `fit` starts from: a table of offsets, or a method file (`.toml`) that names one. `method_name` is a word of
 /// [`METHODS`] or a method file; `draught` \[m\] overrides that of the files.
 ///
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of a file; [`Failure::Usage`].
-pub fn read_fit(path: &Path, said: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
+pub fn read_fit(path: &Path, method_name: Option<&str>, draught: Option<f64>) -> Result<FitJob, Failure> {
     let mut inputs = Vec::new();
     let (method, table_file) = if is_toml(path) {
-        if let Some(word) = said {
+        if let Some(word) = method_name {
             let message = format!("{} is a method file already; --method {word} says it twice", path.display());
             return Err(Failure::Usage(message));
         }
@@ -114,8 +114,8 @@ pub fn read_fit(path: &Path, said: Option<&str>, draught: Option<f64>) -> Result
         let table = path.parent().unwrap_or(Path::new("")).join(table);
         (file, table)
     } else {
-        let file =
-            said.map_or_else(|| Ok(MethodFile::new(FitMethod::default())), |word| named_method(word, &mut inputs))?;
+        let file = method_name
+            .map_or_else(|| Ok(MethodFile::new(FitMethod::default())), |word| named_method(word, &mut inputs))?;
         (file, path.to_owned())
     };
     let bytes = read_bytes(&table_file)?;
@@ -129,7 +129,7 @@ pub fn read_fit(path: &Path, said: Option<&str>, draught: Option<f64>) -> Result
     let suspects = suspects(&table);
     let mut files = source_files(&table_file);
     files.push(path.to_owned());
-    files.extend(said.map(PathBuf::from));
+    files.extend(method_name.map(PathBuf::from));
     Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs, files })
 }
 
@@ -252,7 +252,7 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let mut table = CurvesOfForm::new(&fitted.hull, &draughts, &conventions);
     let design_row = table.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, particulars.draught);
-    let warnings = sanity::warnings(&job.table, &fitted.hull, &design_row);
+    let warnings = overshoot::warnings(&job.table, &fitted.hull, &design_row);
     let summary = summary(job, &fitted, &estimate, &warnings, &design_row, &conventions);
 
     let surface = fitted.surface_table(&job.table);

@@ -12,18 +12,18 @@ mod fair_page;
 mod fair_refused;
 mod files;
 mod fit;
-mod floating;
 mod generate;
+mod hydrostatic_body;
 mod inspect;
 mod lines_plan;
 mod markdown;
+mod overshoot;
 mod page;
 mod result;
 mod result_figures;
 mod result_files;
 mod result_page;
 mod result_tables;
-mod sanity;
 mod self_test;
 mod source;
 mod validate;
@@ -33,20 +33,20 @@ pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, 
 pub use convert::{Converted, convert_file, convert_table};
 pub use export::{ExportFormat, ExportSettings, Exported, export};
 pub use failure::Failure;
-pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_telling, read_fair};
+pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};
 pub use fair_page::{fair_line, fair_page};
 pub use files::{Destination, OutputFile, same_path};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
-pub use floating::{Floating, read_floating, read_floating_with};
 pub use generate::{Outputs, generate_outputs};
+pub use hydrostatic_body::{HydrostaticBody, read_hydrostatic_body, read_hydrostatic_body_with};
 pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use result::{JobResult, read_result};
 pub use result_files::{ReportSettings, report_outputs};
 pub use self_test::{SelfCheck, self_test};
 pub use source::{
-    Said, Source, offsets, read_design, read_source, read_source_with, read_table_file, read_table_file_with,
+    Overrides, Source, offsets, read_design, read_source, read_source_with, read_table_file, read_table_file_with,
     sections_of, source_files,
 };
 pub use validate::{Case, Comparison, Tolerance, Verdict, validate, validation_csv, validation_json, validation_page};

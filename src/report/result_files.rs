@@ -12,7 +12,7 @@ use super::result_page::report_page;
 use super::result_tables::{page_tables, report_tables};
 use crate::exchange::ManifestEntry;
 use crate::hydrostatics::CurvesOfForm;
-use crate::numeric::at_once;
+use crate::numeric::join;
 use crate::plot::{FairingCombs, FigureInputs, Heading, Page, PlotError, Sheet, write_pdf};
 
 /// What a report is made with.
@@ -48,7 +48,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let chosen = comb_lines(result, settings)?;
     let combs = || result.fairing.as_ref().map(|(record, _)| FairingCombs::new(record, &chosen));
     // The combs take as long as the curves of form.
-    let (combs, mut curves) = at_once(combs, || CurvesOfForm::new(hull, &draughts, &result.conventions));
+    let (combs, mut curves) = join(combs, || CurvesOfForm::new(hull, &draughts, &result.conventions));
     let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
     let (source, dense) =
@@ -78,7 +78,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let pages = &pages;
     // The PDF takes as long as page and tables together.
     let heading = Heading { ship: hull.name(), source: &source, date: settings.date.as_deref() };
-    let (pdf, (page, tables)) = at_once(
+    let (pdf, (page, tables)) = join(
         || write_pdf(&heading, pages, settings.sheet),
         || {
             let tables = report_tables(result, &curves);

@@ -138,33 +138,33 @@ pub fn source_files(path: &Path) -> Vec<PathBuf> {
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
 pub fn read_source(path: &Path) -> Result<Source, Failure> {
-    read_source_with(path, &Said::default())
+    read_source_with(path, &Overrides::default())
 }
 
 /// The same, with conventions of a table or body over those of its file.
 ///
 /// # Errors
 /// Those of [`read_source`]; [`Failure::Usage`] when conventions are given for a file that has its own.
-pub fn read_source_with(path: &Path, said: &Said) -> Result<Source, Failure> {
+pub fn read_source_with(path: &Path, overrides: &Overrides) -> Result<Source, Failure> {
     let file: PathBuf = if path.is_dir() { path.join("hull.json") } else { path.to_owned() };
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if matches!(extension.as_str(), "toml" | "hgf" | "huf") {
-        said.refuse(&file)?;
+        overrides.refuse(&file)?;
         let (design, _) = read_design(&file)?;
         let hull = build(&design)?.hull;
         return Ok(Source { hull, conventions: design.conventions, notes: Vec::new() });
     }
-    source_of(&file, read_bytes(&file)?, said)
+    source_of(&file, read_bytes(&file)?, overrides)
 }
 
 /// The hull of a file, not a design, with these contents.
-pub(super) fn source_of(file: &Path, bytes: Vec<u8>, said: &Said) -> Result<Source, Failure> {
+pub(super) fn source_of(file: &Path, bytes: Vec<u8>, overrides: &Overrides) -> Result<Source, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
     if extension != "json" && first.is_some_and(|&b| b != b'{') {
-        return fitted(file, &bytes, said);
+        return fitted(file, &bytes, overrides);
     }
-    said.refuse(file)?;
+    overrides.refuse(file)?;
     let text = utf8(file, bytes)?;
     match exchange::read_hull(&text) {
         Ok(HullFile { hull, conventions }) => Ok(Source { hull, conventions, notes: Vec::new() }),
@@ -193,14 +193,14 @@ pub(super) fn hull_faults(code: &'static str, file: &Path, error: &HullFileError
 
 /// Conventions of a table or a body that override those of the TOML beside it: a value for each key of its `[table]`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Said {
+pub struct Overrides {
     /// Keys and values, as they would stand in the file.
     pub keys: Vec<(&'static str, String)>,
     /// The file that says them; none: the command line.
     pub file: Option<PathBuf>,
 }
 
-impl Said {
+impl Overrides {
     /// Main dimensions \[m\] that a job or a method file says, or the command line over it.
     pub(super) fn dimensions(stated: &StatedParticulars, path: &Path) -> Self {
         let dimensions = [
@@ -229,7 +229,7 @@ impl Said {
         Failure::Input(problems.into_iter().map(|problem| of_table(self.placed(problem))).collect())
     }
 
-    /// A problem of [`Said::text`] has no place in a file.
+    /// A problem of [`Overrides::text`] has no place in a file.
     fn placed(&self, problem: TableProblem) -> TableProblem {
         if problem.file == self.origin() { TableProblem { row: None, column: None, ..problem } } else { problem }
     }
@@ -250,14 +250,14 @@ impl Said {
 }
 
 /// The name and the text of the TOML file of the same name beside a file, when there is one, and of its overrides.
-pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, Failure> {
-    let beside = path.with_extension("toml");
+pub(super) fn sidecar(path: &Path, overrides: &Overrides) -> Result<Vec<(String, String)>, Failure> {
+    let sidecar = path.with_extension("toml");
     let mut list = Vec::new();
-    if beside.is_file() {
-        let text = utf8(&beside, read_bytes(&beside)?)?;
-        list.push((beside.display().to_string(), text));
+    if sidecar.is_file() {
+        let text = utf8(&sidecar, read_bytes(&sidecar)?)?;
+        list.push((sidecar.display().to_string(), text));
     }
-    list.extend(said.text());
+    list.extend(overrides.text());
     Ok(list)
 }
 
@@ -267,15 +267,15 @@ pub(super) fn beside(path: &Path, said: &Said) -> Result<Vec<(String, String)>, 
 /// # Errors
 /// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the table.
 pub fn read_table_file(path: &Path) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    read_table_file_with(path, &Said::default())
+    read_table_file_with(path, &Overrides::default())
 }
 
 /// The same, with conventions over those of its file.
 ///
 /// # Errors
 /// Those of [`read_table_file`].
-pub fn read_table_file_with(path: &Path, said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    table_of(path, &read_bytes(path)?, said)
+pub fn read_table_file_with(path: &Path, overrides: &Overrides) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    table_of(path, &read_bytes(path)?, overrides)
 }
 
 /// The same, with main dimensions over those that the table states, which the job or method file `by` says, or the
@@ -288,7 +288,7 @@ pub(super) fn read_table_stated(
     over: &StatedParticulars,
     by: &Path,
 ) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    let (mut table, notes) = read_table_file_with(path, &Said::dimensions(over, by))?;
+    let (mut table, notes) = read_table_file_with(path, &Overrides::dimensions(over, by))?;
     table.stated = over.over(&table.stated);
     Ok((table, notes))
 }
@@ -301,12 +301,12 @@ pub(super) fn remark(problem: &TableProblem) -> String {
     format!("{code} {row}{message}{gap}{remedy}")
 }
 
-fn table_of(path: &Path, bytes: &[u8], said: &Said) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
-    let beside = beside(path, said)?;
-    let beside = beside.iter().map(|(name, text)| (name.as_str(), text.as_str()));
-    let read = exchange::read_table_with(&path.display().to_string(), bytes, beside);
-    let placed = |notes: Vec<TableProblem>| notes.into_iter().map(|note| said.placed(note)).collect();
-    read.map(|ReadTable { table, notes }| (table, placed(notes))).map_err(|problems| said.refused(problems))
+fn table_of(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<(OffsetTable, Vec<TableProblem>), Failure> {
+    let sidecar = sidecar(path, overrides)?;
+    let sidecar = sidecar.iter().map(|(name, text)| (name.as_str(), text.as_str()));
+    let read = exchange::read_table_with(&path.display().to_string(), bytes, sidecar);
+    let placed = |notes: Vec<TableProblem>| notes.into_iter().map(|note| overrides.placed(note)).collect();
+    read.map(|ReadTable { table, notes }| (table, placed(notes))).map_err(|problems| overrides.refused(problems))
 }
 
 /// Whether a file is a job, a method or a design by its name.
@@ -332,8 +332,8 @@ fn of_table(problem: TableProblem) -> Diagnostic {
 }
 
 /// The hull of a table of offsets.
-fn fitted(path: &Path, bytes: &[u8], said: &Said) -> Result<Source, Failure> {
-    let (table, notes) = table_of(path, bytes, said)?;
+fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Failure> {
+    let (table, notes) = table_of(path, bytes, overrides)?;
     let fitted = Hull::fit(&table, &FitMethod::default())
         .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
     // What was detected, as units and orders, decides the hull as much as what was assumed.

@@ -265,12 +265,12 @@ pub(super) fn holding(
     (places, band): (&[f64], f64),
     [length, density, gravity]: [f64; 3],
 ) -> Holding {
-    let said = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
+    let named_already = |quantity: Quantity| hold.iter().any(|(q, _)| *q == quantity);
     // The area of the midship section says the midship coefficient.
     let midship = areas.iter().any(|([x, ..], _)| (x - 0.5 * length).abs() <= AMIDSHIPS * length);
     let silent = |quantity: &Quantity| {
         let by_area = midship && *quantity == Quantity::MidshipCoefficient;
-        !(by_area || said(*quantity) || quantity.twin().is_some_and(said))
+        !(by_area || named_already(*quantity) || quantity.twin().is_some_and(named_already))
     };
     let mut own: Vec<Constraint> = DEFAULT.into_iter().filter(silent).map(|q| q.constraint(0.0, gravity)).collect();
     let mut given = Vec::new();

@@ -50,7 +50,7 @@ enum RuleText {
 /// A rule with the place where it stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleEntry {
-    said: RuleText,
+    rule: RuleText,
     /// Where it stands.
     pub place: Location,
 }
@@ -138,8 +138,8 @@ pub(super) fn read(document: &mut Document<'_>, job: &mut JobFile) {
         ("tangent.waterlines", RuleText::AlongWaterline),
         ("tangent.stations", RuleText::AlongStation),
     ];
-    for (path, said) in angles {
-        tangents(document, job, path, said);
+    for (path, rule) in angles {
+        tangents(document, job, path, rule);
     }
 }
 
@@ -173,8 +173,8 @@ fn accepted(document: &mut Document<'_>, job: &mut JobFile) {
     job.accepted = Some(if all { Accepted::All } else { Accepted::These(numbers) });
 }
 
-fn mark(document: &Document<'_>, path: &str, said: RuleText, at: &Range<usize>) -> RuleEntry {
-    RuleEntry { said, place: Location::new(document, path, at.start) }
+fn mark(document: &Document<'_>, path: &str, rule: RuleText, at: &Range<usize>) -> RuleEntry {
+    RuleEntry { rule, place: Location::new(document, path, at.start) }
 }
 
 /// A list of texts, or one; `meaning` is none for what is no such text.
@@ -195,7 +195,7 @@ fn phrases(document: &mut Document<'_>, job: &mut JobFile, path: &str, meaning: 
             continue;
         };
         match meaning(text.trim()) {
-            Some(said) => job.rules.push(mark(document, path, said, at)),
+            Some(rule) => job.rules.push(mark(document, path, rule, at)),
             None => unclear(document, path, text, at, &expected(kind)),
         }
     }
@@ -238,7 +238,7 @@ fn counts(document: &mut Document<'_>, job: &mut JobFile) {
 }
 
 /// A table of places with angles.
-fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn(String, f64) -> RuleText) {
+fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, rule: fn(String, f64) -> RuleText) {
     let Some((raw, span, kind)) = document.raw(path) else { return };
     let Raw::Table(fields) = &raw else {
         document.unexpected(path, &raw, &span, kind);
@@ -260,7 +260,7 @@ fn tangents(document: &mut Document<'_>, job: &mut JobFile, path: &str, said: fn
             document.problem("E123", path, at, format!("{path}: \"{text}\" is no place"), help);
             continue;
         }
-        job.rules.push(mark(document, path, said(text.trim().to_owned(), angle), at));
+        job.rules.push(mark(document, path, rule(text.trim().to_owned(), angle), at));
     }
 }
 
@@ -310,7 +310,7 @@ impl RuleEntry {
     /// # Errors
     /// A message that says what the table has.
     pub fn find_line(&self, table: &OffsetTable) -> Result<Option<ProposedLine>, Box<Diagnostic>> {
-        let RuleText::Breaks(part, kind) = &self.said else { return Ok(None) };
+        let RuleText::Breaks(part, kind) = &self.rule else { return Ok(None) };
         let (course, at) = match self.line(table, part)? {
             Line::Station(x) => (LineCourse::Station, x),
             Line::Waterline(z) => (LineCourse::Waterline, z),
@@ -346,7 +346,7 @@ impl RuleEntry {
             let (station, height) = text.split_once('@').unwrap_or((text, ""));
             Ok([x(station.trim())?, z(height.trim())?])
         };
-        Ok(Some(match &self.said {
+        Ok(Some(match &self.rule {
             RuleText::Breaks(..) => return Ok(None),
             RuleText::Fixed(part) => Rule::Fixed(FixedLine::Line(line(part)?)),
             RuleText::Edge(edge) => Rule::Fixed(edge.clone()),

@@ -16,7 +16,7 @@ use super::outline::{Deck, point, take_off_deck};
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::{BodyFrame, Settings};
-use super::{ReadTable, TableProblem, beside};
+use super::{ReadTable, TableProblem, sidecar};
 use crate::hull::{MeshLine, StatedParticulars, TriangleMesh};
 use crate::spline::BsplineSurface;
 use crate::units::counted;
@@ -110,13 +110,13 @@ fn reader(name: &str, bytes: &[u8]) -> Option<(&'static str, BodyReader)> {
 pub fn read_body<'a>(
     name: &str,
     bytes: &[u8],
-    beside: impl IntoIterator<Item = (&'a str, &'a str)>,
+    sidecar: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Option<Result<ReadBody, Vec<TableProblem>>> {
     let (kind, read) = reader(name, bytes)?;
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
-    for (beside, text) in beside {
-        beside::read(beside, text, &mut settings, &mut problems);
+    for (sidecar, text) in sidecar {
+        sidecar::read(sidecar, text, &mut settings, &mut problems);
     }
     let shape = read(bytes).unwrap_or_else(|faults| {
         faulty(faults, &mut problems);

@@ -30,14 +30,14 @@ const FORMATS: [Format; 10] = [
 pub(super) fn read(
     name: &str,
     bytes: &[u8],
-    beside: Option<(&str, &str)>,
+    sidecar: Option<(&str, &str)>,
 ) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     // The reader of fields says what is wrong with longer files.
     if bytes.len() > LARGEST_TABLE || super::xlsx::is_xlsx(bytes) {
         return None;
     }
     let text = String::from_utf8_lossy(bytes);
-    let read = recognised(name, &text, beside)?;
+    let read = recognised(name, &text, sidecar)?;
     Some(read.map(|mut read| {
         let mut problems = Problems::new(name);
         super::checks::missing(&mut read.table, &mut problems);
@@ -49,9 +49,9 @@ pub(super) fn read(
 }
 
 /// The table in a text of one of the formats.
-fn recognised(name: &str, text: &str, beside: Option<(&str, &str)>) -> Option<Result<ReadTable, Vec<TableProblem>>> {
-    if let Some((beside, particulars)) = beside.filter(|_| ratio::recognise(name, text)) {
-        let stated = super::beside::read_particulars(beside, particulars);
+fn recognised(name: &str, text: &str, sidecar: Option<(&str, &str)>) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+    if let Some((sidecar, particulars)) = sidecar.filter(|_| ratio::recognise(name, text)) {
+        let stated = super::sidecar::read_particulars(sidecar, particulars);
         return Some(stated.and_then(|stated| ratio::read_with(name, text, &stated)));
     }
     let (_, read, program) = FORMATS.iter().find(|(recognise, _, _)| recognise(name, text))?;

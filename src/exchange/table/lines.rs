@@ -14,7 +14,7 @@ use super::outline::point;
 use super::problem::{FilePosition, Problems};
 use super::sections::{Body, Section, XOrigin, note_asymmetry, starboard_of, table};
 use super::settings::Settings;
-use super::{ReadTable, TableProblem, beside};
+use super::{ReadTable, TableProblem, sidecar};
 use crate::hull::OutlinePoint;
 use crate::units::counted;
 
@@ -47,7 +47,7 @@ impl SpaceCurve {
 }
 
 /// The table of a CAD file of curves, with the conventions beside it; none when it is no such file, or has surfaces.
-pub(super) fn read(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> Option<Result<ReadTable, Vec<TableProblem>>> {
+pub(super) fn read(name: &str, bytes: &[u8], sidecar: &[(&str, &str)]) -> Option<Result<ReadTable, Vec<TableProblem>>> {
     if !is_iges(bytes) {
         return None;
     }
@@ -57,8 +57,8 @@ pub(super) fn read(name: &str, bytes: &[u8], beside: &[(&str, &str)]) -> Option<
     }
     let mut problems = Problems::new(name);
     let mut settings = Settings::default();
-    for (name, text) in beside {
-        beside::read(name, text, &mut settings, &mut problems);
+    for (name, text) in sidecar {
+        sidecar::read(name, text, &mut settings, &mut problems);
     }
     notes.into_iter().for_each(|note| problems.warning("W352", FilePosition::FILE, note, ""));
     let unit = unit.unwrap_or(1.0);

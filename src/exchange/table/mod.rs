@@ -7,13 +7,11 @@
 //! at most [`MOST_LINES`].
 
 mod assemble;
-mod beside;
 mod body;
 mod britfair;
 mod checks;
 mod delftship;
 mod fields;
-mod foreign;
 mod formats;
 mod freeship;
 mod ghs;
@@ -33,7 +31,9 @@ mod scale;
 mod seaway;
 mod sections;
 mod settings;
+mod sidecar;
 mod tidy;
+mod unsupported;
 #[cfg(feature = "workbooks")]
 mod workbook;
 #[cfg(not(feature = "workbooks"))]
@@ -42,7 +42,6 @@ mod workbook;
 mod write;
 mod xlsx;
 
-pub use beside::read_particulars;
 pub(super) use body::body_faults;
 pub use body::{ReadBody, read_body};
 pub use britfair::write as write_britfair;
@@ -55,6 +54,7 @@ pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};
 pub use ratio::read_with as read_fractions;
+pub use sidecar::read_particulars;
 pub use workbook::workbook;
 pub use write::{Rounding, TableWriting, WrittenTable, only_sections, write_table};
 pub use xlsx::MOST_UNPACKED;
@@ -90,17 +90,17 @@ pub fn read_table(name: &str, bytes: &[u8]) -> Result<ReadTable, Vec<TableProble
 pub fn read_table_with<'a>(
     name: &str,
     bytes: &[u8],
-    beside: impl IntoIterator<Item = (&'a str, &'a str)>,
+    sidecar: impl IntoIterator<Item = (&'a str, &'a str)>,
 ) -> Result<ReadTable, Vec<TableProblem>> {
-    let beside: Vec<(&str, &str)> = beside.into_iter().collect();
-    if let Some(body) = read_body(name, bytes, beside.iter().copied()) {
+    let sidecar: Vec<(&str, &str)> = sidecar.into_iter().collect();
+    if let Some(body) = read_body(name, bytes, sidecar.iter().copied()) {
         return body.and_then(ReadBody::table);
     }
-    if let Some(read) = lines::read(name, bytes, &beside) {
+    if let Some(read) = lines::read(name, bytes, &sidecar) {
         return read;
     }
     let mut problems = Problems::new(name);
-    if let Some(format) = foreign::format(name, bytes) {
+    if let Some(format) = unsupported::format(name, bytes) {
         let message = format!("{format} is not read");
         problems.error(
             "E300",
@@ -110,12 +110,12 @@ pub fn read_table_with<'a>(
         );
         return Err(problems.finish().err().unwrap_or_default());
     }
-    if let Some(read) = formats::read(name, bytes, beside.first().copied()) {
+    if let Some(read) = formats::read(name, bytes, sidecar.first().copied()) {
         return read;
     }
     let mut settings = Settings::default();
-    for (name, text) in beside {
-        beside::read(name, text, &mut settings, &mut problems);
+    for (name, text) in sidecar {
+        sidecar::read(name, text, &mut settings, &mut problems);
     }
     let mut table = match problems.any_errors() {
         // Without its conventions the table would give misleading problems.

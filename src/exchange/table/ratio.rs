@@ -45,13 +45,13 @@ pub(super) fn recognise(_name: &str, text: &str) -> bool {
     let Some(head) = rows.next().and_then(|line| line.split(mark).next()) else { return false };
     let stations = matches!(head.trim().to_ascii_lowercase().as_str(), "" | "station" | "st" | "stn");
     let maxima = rows.next_back().is_some_and(|line| line.contains(mark) && is_maxima(line));
-    let said = || {
+    let stated = || {
         comments(text).any(|(_, line)| {
             let line = line.to_ascii_lowercase().replace(' ', "");
             line.contains("y/(b/2)") || line.contains("y/ymax")
         })
     };
-    stations && (maxima || said())
+    stations && (maxima || stated())
 }
 
 /// Reads a table of fractions whose comment lines give its dimensions.
@@ -62,13 +62,13 @@ pub(super) fn read(name: &str, text: &str) -> Result<ReadTable, Vec<TableProblem
     read_with(name, text, &StatedParticulars::default())
 }
 
-/// Reads a table of fractions; `beside` gives dimensions that its comment lines do not.
+/// Reads a table of fractions; `sidecar` gives dimensions that its comment lines do not.
 ///
 /// # Errors
 /// Every problem of the file.
-pub fn read_with(name: &str, text: &str, beside: &StatedParticulars) -> Result<ReadTable, Vec<TableProblem>> {
+pub fn read_with(name: &str, text: &str, sidecar: &StatedParticulars) -> Result<ReadTable, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let mut stated = *beside;
+    let mut stated = *sidecar;
     let mut layout = Layout::default();
     for (row, line) in comments(text) {
         comment(line, FilePosition::row(row), &mut stated, &mut layout, &mut problems);

@@ -19,8 +19,8 @@ fn brick(place: impl Fn([f64; 3]) -> [f64; 3]) -> String {
     text
 }
 
-fn body(text: &str, beside: &str) -> Result<ReadBody, Vec<TableProblem>> {
-    read_body("a.obj", text.as_bytes(), Some(("a.toml", beside))).unwrap()
+fn body(text: &str, sidecar: &str) -> Result<ReadBody, Vec<TableProblem>> {
+    read_body("a.obj", text.as_bytes(), Some(("a.toml", sidecar))).unwrap()
 }
 
 fn notes(list: &[TableProblem]) -> String {
@@ -44,8 +44,9 @@ fn a_box_becomes_a_table() {
 
 #[test]
 fn frames_are_stated_or_found() {
-    let volume =
-        |text: &str, beside: &str| body(text, beside).map(|read| (read.meshes[0].report().volume, notes(&read.notes)));
+    let volume = |text: &str, sidecar: &str| {
+        body(text, sidecar).map(|read| (read.meshes[0].report().volume, notes(&read.notes)))
+    };
     // y up, x aft, feet, half of it.
     let half = brick(|[x, y, z]| [-x / 0.3048, z / 0.3048, -0.5 * (y + 3.0) / 0.3048]);
     let (found, said) = volume(&half, "[table]\nunits = 'ft'\naxes = '-x -z y'\n").unwrap();

@@ -19,7 +19,7 @@ const TABLES: [&str; 4] = ["table", "endings", "transom", "line"];
 /// Where the main dimensions of a table of fractions may stand, besides the top of the file.
 const PARTICULARS: [&str; 3] = ["table", "particulars", "dimensions"];
 
-struct Beside<'a> {
+struct Sidecar<'a> {
     file: &'a str,
     text: &'a str,
     problems: &'a mut Problems,
@@ -28,12 +28,12 @@ struct Beside<'a> {
 /// Reads the conventions of the file `name` with the contents `text`. A file that has none of our tables, as a design
 /// file of the same name, is left alone with a note.
 pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &mut Problems) {
-    let mut beside = Beside { file: name, text, problems };
-    let Some(document) = beside.document() else { return };
+    let mut sidecar = Sidecar { file: name, text, problems };
+    let Some(document) = sidecar.document() else { return };
     let names: Vec<&str> = document.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
     let is_job = |value: &DeValue<'_>| matches!(value, DeValue::Table(table) if table.contains_key("file"));
     if document.get_ref().get("table").is_some_and(|table| is_job(table.get_ref())) {
-        return beside.problems.note(format!("{name} beside the table is a job and has none of its conventions"));
+        return sidecar.problems.note(format!("{name} beside the table is a job and has none of its conventions"));
     }
     let near = |name: &str| nearest(name, TABLES.into_iter());
     let is_key = |name: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(name));
@@ -43,28 +43,28 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     if !bare && !names.iter().any(|name| TABLES.iter().any(|t| t.eq_ignore_ascii_case(name)) || near(name).is_some()) {
         let message =
             format!("{name} beside the table has no [table], [endings], [transom] or [[line]] and is not read");
-        return beside.problems.note(message);
+        return sidecar.problems.note(message);
     }
     for (key, value) in document.get_ref() {
         let (own, span) = (key.get_ref().as_ref(), key.span());
         let key = TABLES.iter().find(|known| known.eq_ignore_ascii_case(own)).copied().unwrap_or(own);
         match (key, value.get_ref()) {
-            ("table", DeValue::Table(table)) => beside.table(table, settings),
-            ("endings", DeValue::Table(table)) => beside.endings(table, settings),
-            ("transom", DeValue::Table(table)) => beside.transom(table, settings),
+            ("table", DeValue::Table(table)) => sidecar.table(table, settings),
+            ("endings", DeValue::Table(table)) => sidecar.endings(table, settings),
+            ("transom", DeValue::Table(table)) => sidecar.transom(table, settings),
             ("line", DeValue::Array(lines)) => {
                 for line in lines {
                     match line.get_ref() {
-                        DeValue::Table(table) => beside.line(table, &line.span(), settings),
+                        DeValue::Table(table) => sidecar.line(table, &line.span(), settings),
                         other => {
-                            beside.problem(key, &line.span(), format!("{}, expected a table", other.type_str()), "")
+                            sidecar.problem(key, &line.span(), format!("{}, expected a table", other.type_str()), "")
                         }
                     }
                 }
             }
-            ("line", _) => beside.problem(key, &span, "one line".to_owned(), "Write [[line]] with two brackets"),
+            ("line", _) => sidecar.problem(key, &span, "one line".to_owned(), "Write [[line]] with two brackets"),
             (known, other) if TABLES.contains(&known) => {
-                beside.problem(
+                sidecar.problem(
                     key,
                     &span,
                     format!("{}, expected a table", other.type_str()),
@@ -73,14 +73,14 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
             }
             _ if is_key(key) => {
                 let message = "stands outside [table]".to_owned();
-                beside.problem(key, &span, message, "Put it below a line [table]");
+                sidecar.problem(key, &span, message, "Put it below a line [table]");
             }
             _ => {
                 let remedy = near(key).map_or_else(
                     || format!("Known are [{}]", TABLES.join("], [")),
                     |near| format!("Did you mean [{near}]?"),
                 );
-                beside.problem(key, &span, "not a table of conventions".to_owned(), &remedy);
+                sidecar.problem(key, &span, "not a table of conventions".to_owned(), &remedy);
             }
         }
     }
@@ -94,13 +94,13 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
 /// A text that is no TOML, and values that are no lengths, each with its place (E311).
 pub fn read_particulars(name: &str, text: &str) -> Result<StatedParticulars, Vec<TableProblem>> {
     let mut problems = Problems::new(name);
-    let mut beside = Beside { file: name, text, problems: &mut problems };
+    let mut sidecar = Sidecar { file: name, text, problems: &mut problems };
     let mut stated = StatedParticulars::default();
-    if let Some(document) = beside.document() {
-        beside.dimensions(document.get_ref(), &mut stated);
+    if let Some(document) = sidecar.document() {
+        sidecar.dimensions(document.get_ref(), &mut stated);
         for inner in PARTICULARS.iter().filter_map(|key| document.get_ref().get(*key)) {
             if let DeValue::Table(table) = inner.get_ref() {
-                beside.dimensions(table, &mut stated);
+                sidecar.dimensions(table, &mut stated);
             }
         }
     }
@@ -123,7 +123,7 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
     }
 }
 
-impl<'a> Beside<'a> {
+impl<'a> Sidecar<'a> {
     /// The document of the text; none, with a problem, when it is too long or not TOML.
     fn document(&mut self) -> Option<Spanned<DeTable<'a>>> {
         if self.text.len() > LARGEST {

@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use super::failure::Failure;
-use super::source::{Said, beside, read_bytes, read_source_with, source_of};
+use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
 use crate::hydrostatics::{Conventions, CurvesOfForm};
 
 /// A body with the conventions of its tables.
 #[derive(Debug, Clone)]
-pub struct Floating {
-    body: FloatingBody,
+pub struct HydrostaticBody {
+    body: BodyShape,
     /// Its main dimensions; of a body of triangles as far as they are stated, else its extents.
     pub particulars: PrincipalParticulars,
     /// Conventions of its tables.
@@ -21,19 +21,19 @@ pub struct Floating {
 }
 
 #[derive(Debug, Clone)]
-enum FloatingBody {
+enum BodyShape {
     Hull(Box<Hull>),
     /// Of surfaces twice, the second time finer.
     Triangles(Vec<TriangleMesh>),
 }
 
-impl Floating {
+impl HydrostaticBody {
     /// The hull; none of a body of triangles.
     #[must_use]
     pub fn hull(&self) -> Option<&Hull> {
         match &self.body {
-            FloatingBody::Hull(hull) => Some(hull),
-            FloatingBody::Triangles(_) => None,
+            BodyShape::Hull(hull) => Some(hull),
+            BodyShape::Triangles(_) => None,
         }
     }
 
@@ -41,8 +41,8 @@ impl Floating {
     #[must_use]
     pub fn curves_of_form(&self, draughts: &[f64], conventions: &Conventions) -> CurvesOfForm {
         match &self.body {
-            FloatingBody::Hull(hull) => CurvesOfForm::new(hull, draughts, conventions),
-            FloatingBody::Triangles(meshes) => of_meshes(meshes, &self.particulars, draughts, conventions),
+            BodyShape::Hull(hull) => CurvesOfForm::new(hull, draughts, conventions),
+            BodyShape::Triangles(meshes) => of_meshes(meshes, &self.particulars, draughts, conventions),
         }
     }
 }
@@ -62,33 +62,33 @@ fn of_meshes(
 ///
 /// # Errors
 /// [`Failure::FileSystem`], [`Failure::Input`], [`Failure::Infeasible`].
-pub fn read_floating(path: &Path) -> Result<Floating, Failure> {
-    read_floating_with(path, &Said::default())
+pub fn read_hydrostatic_body(path: &Path) -> Result<HydrostaticBody, Failure> {
+    read_hydrostatic_body_with(path, &Overrides::default())
 }
 
 /// The same, with conventions of a body or a table over those of its file.
 ///
 /// # Errors
-/// Those of [`read_floating`]; [`Failure::Usage`] when conventions are given for a hull.
-pub fn read_floating_with(path: &Path, said: &Said) -> Result<Floating, Failure> {
+/// Those of [`read_hydrostatic_body`]; [`Failure::Usage`] when conventions are given for a hull.
+pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<HydrostaticBody, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let design = matches!(extension.as_str(), "toml" | "hgf" | "huf");
     let source = if path.is_dir() || design {
-        read_source_with(path, said)?
+        read_source_with(path, overrides)?
     } else {
-        let (bytes, list) = (read_bytes(path)?, beside(path, said)?);
+        let (bytes, list) = (read_bytes(path)?, sidecar(path, overrides)?);
         let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
         if let Some(body) = read_body(&path.display().to_string(), &bytes, list) {
-            return body.map(of_body).map_err(|problems| said.refused(problems));
+            return body.map(of_body).map_err(|problems| overrides.refused(problems));
         }
-        source_of(path, bytes, said)?
+        source_of(path, bytes, overrides)?
     };
     let particulars = *source.hull.particulars();
-    let body = FloatingBody::Hull(Box::new(source.hull));
-    Ok(Floating { body, particulars, conventions: source.conventions, notes: source.notes })
+    let body = BodyShape::Hull(Box::new(source.hull));
+    Ok(HydrostaticBody { body, particulars, conventions: source.conventions, notes: source.notes })
 }
 
-fn of_body(read: ReadBody) -> Floating {
+fn of_body(read: ReadBody) -> HydrostaticBody {
     let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
     let extent = |k: usize| greatest[k] - least[k];
     let stated = read.stated;
@@ -112,5 +112,5 @@ fn of_body(read: ReadBody) -> Floating {
             particulars.length_between_perpendiculars
         ));
     }
-    Floating { body: FloatingBody::Triangles(read.meshes), particulars, conventions, notes }
+    HydrostaticBody { body: BodyShape::Triangles(read.meshes), particulars, conventions, notes }
 }
