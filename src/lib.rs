@@ -1,5 +1,5 @@
-//! loftsman generates ship hulls as B-spline surfaces that hold their displacement, block coefficient, midship
-//! coefficient and centre of buoyancy exactly, and computes their hydrostatics and drawings.
+//! loftsman generates, fits and fairs ship hulls as B-spline surfaces. Displacement, block coefficient, midship
+//! coefficient and centre of buoyancy are met exactly. It computes their hydrostatics and drawings.
 //!
 //! # A hull from particulars
 //!

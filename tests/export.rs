@@ -197,7 +197,7 @@ fn sections_and_tables_are_read_back_as_the_hull() {
         let draught = [hull.particulars().draught];
         let volume =
             |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
-        let formats: Vec<ExportFormat> = ["gf", "britfair", "pias", "freeship", "delftship", "csv", "xlsx"]
+        let formats: Vec<ExportFormat> = ["ghs", "britfair", "pias", "freeship", "delftship", "csv", "xlsx"]
             .iter()
             .map(|name| ExportFormat::ALL.into_iter().find(|format| format.name() == *name).unwrap())
             .collect();

@@ -108,12 +108,12 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "fairing-moves.png",
         "fairing-moves.svg",
         "fairing.json",
+        "fitted-hull.json",
         "hull.json",
         "lcurve.png",
         "lcurve.svg",
         "manifest.json",
         "offsets.csv",
-        "fitted-hull.json",
         "summary.json",
     ];
     assert_eq!(names, expected);
@@ -702,7 +702,7 @@ fn lines_far_above_their_least_are_named() {
     let (job, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);
     let page = fair_page(&job, &outputs, "out");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("Far above their proved least") && words.contains("52.500 m 4 (least 0)"), "{page}");
+    assert!(words.contains("more inflections than necessary") && words.contains("52.500 m 4 (least 0)"), "{page}");
 }
 
 #[test]
@@ -880,10 +880,10 @@ fn the_bending_energy_is_minimised_within_what_is_held() {
     }
 }
 
-/// Lines are chosen together and lobes taken out: of 74 inflections of stations and waterlines 46 are left. What a line
+/// Lines are chosen together, humps and hollows removed: of 74 inflections of stations and waterlines 46 are left. What a line
 /// is charged for it is no more than a quarter above the limit of 12.
 #[test]
-fn lobes_are_taken_out_for_no_more_than_their_price() {
+fn humps_and_hollows_are_removed_at_no_more_than_their_price() {
     let (_, outputs) = faired(&carried(TABLE), &[]);
     let result = json(file(&outputs, "fairing.json"));
     let curves = |kind: &str| result["inflections"][kind].as_array().unwrap().clone();

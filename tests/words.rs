@@ -10,7 +10,7 @@ use crate::support::{carried, program, read_text, sources, stdout};
 const BARRED: [&[&str]; 10] = [
     &["wish", "wishes", "wished", "wishing"],
     &["lobe", "lobes"],
-    &["can be had", "cannot be had", "could be had", "can all be had", "cannot all be had"],
+    &["can be had", "cannot be had", "could be had", "can all be had", "cannot all be had", "to be had"],
     &["is told", "are told"],
     &["stands over", "stand over"],
     &["net of its own", "nets of their own"],

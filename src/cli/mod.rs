@@ -30,7 +30,7 @@ use crate::units::Notation;
 
 /// The tables of offsets that are read, for the help of every command that takes one.
 const TABLES: &str = "\
-Tables of offsets, told by content: CSV and TSV (matrix of stations and waterlines, one offset a line, or sections as points), \
+Tables of offsets, recognised by content: CSV and TSV (matrix of stations and waterlines, one offset a line, or sections as points), \
 XLSX; metres, millimetres, feet-inches-eighths; GHS (.gf), BRITFAIR (.bri), PIAS, PDSTRIP, SEAWAY, text of FREE!ship, tables of \
 DELFTship, input of Michlet, and tables of fractions of the half-breadth, as those of Series 60. A TOML file of the same name beside a table may \
 say what it leaves open (units, axes, Lpp, B, T).
@@ -38,7 +38,7 @@ Bodies: meshes as STL (binary, ASCII), OBJ and GLB, panels as GDF, NEMOH (.mar) 
 files, without what trims them; control nets of FREE!ship (.fbm, .ftm), which are subdivided; whole or half. They become sections of points. Beside them the TOML may say, in [table], units, scale, axes (\"x -z y\": the file's axes that point forward, to port and up) or up alone, x_origin \
 and z_origin (where the file's origin is, forward of AP and above the base line), Lpp, T, and sections, how many spaces.";
 
-/// Ship hulls as B-spline surfaces that hold their displacement, block coefficient and centre of buoyancy exactly.
+/// Generates, fits and fairs ship hulls, and computes their hydrostatics and drawings.
 #[derive(Debug, Parser)]
 #[command(name = "loftsman", version, max_term_width = 100, after_help = EXIT_CODES)]
 struct Cli {
@@ -174,5 +174,21 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn old_names_of_flags_are_read_and_not_shown() {
+        for line in [
+            "loftsman fair t.csv --sign-price 2 --bending",
+            "loftsman fair t.csv --no-signs",
+            "loftsman export h.json -f gf,ghs --across 4",
+        ] {
+            assert!(Cli::try_parse_from(line.split(' ')).is_ok(), "{line}");
+        }
+        let mut command = Cli::command();
+        let mut help = |name: &str| command.find_subcommand_mut(name).unwrap().render_long_help().to_string();
+        let shown = help("fair") + &help("export");
+        assert!(["--sign-price", "--bending", "--no-signs", "--across", " gf"].iter().all(|old| !shown.contains(old)));
+        assert!(shown.contains("--inflection-cost") && shown.contains("--divisions-across"));
     }
 }

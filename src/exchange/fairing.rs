@@ -244,7 +244,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .map(|held| {
             let target = held.constraint.target();
             let had = !outcome.nearest || held.is_had();
-            let at = if had { "" } else { " at no more than what was had" };
+            let at = if had { "" } else { " at no more than what was reached" };
             let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
                 "target": number(target), "before": number(held.before), "after": number(held.after),

@@ -210,10 +210,13 @@ fn marked_name(name: &str, compromise: bool) -> String {
     format!("{plain}{}", if compromise { COMPROMISE } else { "" })
 }
 
+/// What the line of a compromise begins with, that of an older program too.
+const COMPROMISE_START: &str = "# compromise: not all ";
+
 /// Marks a table, and takes the mark of an earlier fairing away.
 fn mark(table: &mut OffsetTable, compromise: bool) {
     table.name = marked_name(&table.name, compromise);
-    table.form.preamble.retain(|line| line != COMPROMISE_LINE);
+    table.form.preamble.retain(|line| !line.starts_with(COMPROMISE_START));
     if compromise {
         table.form.preamble.insert(0, COMPROMISE_LINE.to_owned());
     }

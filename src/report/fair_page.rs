@@ -210,7 +210,7 @@ fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
     };
-    let price = priced(if missed { "what was had" } else { "it" }, held.price);
+    let price = priced(if missed { "what was reached" } else { "it" }, held.price);
     format!(
         "{words}: {} -> {}{unit}{percent}, {off}; {price}.",
         fixed(held.before, decimals),
@@ -278,10 +278,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     );
     page.push_str(&wrapped(&line, 2));
     if let Some(jump) = outputs.outcome.jump {
-        let line = format!(
-            "Where the surface through the table runs on across lines of its net, the curvature of the fair one jumps by \
-             {jump:.1e} 1/m at most."
-        );
+        let line = format!("Largest jump of curvature that fairing adds across lines of the net: {jump:.1e} 1/m.");
         page.push_str(&wrapped(&line, 2));
     }
     if outputs.outcome.held.is_empty() {
@@ -303,7 +300,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         let price = areas.iter().map(|held| held.price).fold(0.0, f64::max);
         let moved = areas.iter().map(|held| (held.after - held.before).abs()).fold(0.0, f64::max);
         let line = format!(
-            "Section areas at {} places: off target by {:.0e} B T at most, changed by {moved:.3} m2 at most; of the dearest, {} \
+            "Section areas at {} places: off target by {:.0e} B T at most, changed by {moved:.3} m2 at most. Of the most expensive one, {} \
              (fairing.json).",
             areas.len(),
             off.fold(0.0, f64::max),
@@ -312,8 +309,8 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         page.push_str(&wrapped(&line, 2));
     }
     if outputs.outcome.targets_off(ON_TARGET) > 1 {
-        let line = "What each costs is what the same program moves less without it, its lines with the signs that they have; a job \
-                    without it may choose others.";
+        let line = "The price of a target is the moves that the same program saves without it, the signs of its lines unchanged. A job \
+                    without it may choose other signs.";
         page.push_str(&wrapped(line, 2));
     }
     for held in &outputs.outcome.rules {
@@ -330,9 +327,9 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         let last = errors.last().copied().unwrap_or(0.0);
         let steps = counted(errors.len() - 1, "step", "steps");
         let line = if last <= ON_TARGET {
-            format!("What is not linear was linearised anew in {steps}: relative error {last:.0e}.")
+            format!("Successive linearisation took {steps}: relative error {last:.0e}.")
         } else {
-            format!("What is not linear STALLED after {steps}, {last:.0e} of its target away.")
+            format!("Successive linearisation STALLED after {steps}, {last:.0e} of its target away.")
         };
         page.push_str(&wrapped(&line, 2));
     }
@@ -452,8 +449,8 @@ fn far_above_the_least(outcome: &Outcome) -> String {
     let names: Vec<String> = lines.iter().take(NAMED).map(name).collect();
     let more = if count > NAMED { format!(", {} more", count - NAMED) } else { String::new() };
     let line = format!(
-        "Far above their proved least, since fewer cost more than their price: {}{more}. shape.inflections asks for fewer \
-         whatever they cost.",
+        "Lines that keep more inflections than necessary, since removing them would move offsets too far: {}{more}. \
+         shape.inflections requires fewer at any cost.",
         names.join(", ")
     );
     wrapped(&line, 2)

@@ -59,7 +59,7 @@ impl FitJob {
 pub struct FitOutputs {
     /// The hull, its cells and what was assumed.
     pub fitted: Fitted,
-    /// How well the table tells the volume at the design draught.
+    /// How well the table determines the volume at the design draught.
     pub estimate: VolumeEstimate,
     /// Where the surface leaves its data.
     pub warnings: Vec<String>,

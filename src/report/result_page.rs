@@ -291,7 +291,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
                 (Some(price), _) => fixed(price, 2),
                 (None, Some(Some(dear))) => format!("over {dear:.1}"),
-                (None, Some(None)) => "not to be had".to_owned(),
+                (None, Some(None)) => "infeasible".to_owned(),
                 (None, None) => String::new(),
             };
             let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
@@ -305,7 +305,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
-         was asked of the line; let go: dearer than {} (of several inflections by chi-square where the noise is errors), or not to be had with the others; not used: buttocks and diagonals are the \
+         was asked of the line; let go: costlier than {} (of several inflections by chi-square where the noise is errors), or infeasible with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
         record.lines.notation.small(record.tolerance()),
         dearest(fairing)

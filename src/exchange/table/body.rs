@@ -377,7 +377,7 @@ fn found_axes(
         [(a, true), (b, true)] if a == b => [(long, 1.0), (y, 1.0), (z, 1.0)],
         _ => {
             let message = format!(
-                "the axes cannot be told: x runs from {} to {}, y from {} to {}, z from {} to {}",
+                "the axes are ambiguous: x runs from {} to {}, y from {} to {}, z from {} to {}",
                 least[0], greatest[0], least[1], greatest[1], least[2], greatest[2]
             );
             let remedy = "Say axes = \"x y z\" (the file's axis for forward, port and up) in a TOML file of the same name beside it";

@@ -82,10 +82,10 @@ impl VolumeEstimate {
     #[must_use]
     pub fn words(&self) -> String {
         let percent = |value: f64| format!("{:.2} %", 100.0 * value);
-        let part = |value: Option<f64>| value.map_or("cannot be told".to_owned(), percent);
+        let part = |value: Option<f64>| value.map_or("is not known".to_owned(), percent);
         let whole = self.total().map_or_else(
             || "The error of the volume".to_owned(),
-            |e| format!("The table tells the volume to about {}", percent(e)),
+            |e| format!("The table determines the volume to about {}", percent(e)),
         );
         format!("{whole} (stations {}, waterlines {})", part(self.stations), part(self.waterlines))
     }
