@@ -267,6 +267,12 @@ impl BandedCholesky {
         }
     }
 
+    /// log det M.
+    #[must_use]
+    pub fn log_determinant(&self) -> f64 {
+        2.0 * self.panels.columns_down().map(|(_, column)| column[0].ln()).sum::<f64>()
+    }
+
     /// The entries of M^-1 inside the band (Takahashi, Fagan & Chin 1973; Erisman & Tinney 1975), a panel J at a time
     /// from the last one on: with S the rows below that J reaches and Y = L_SJ L_JJ^-1,
     ///
@@ -391,6 +397,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The tridiagonal matrix of 2 and -1 has the determinant n + 1.
+    #[test]
+    fn determinant_of_second_differences() {
+        let mut matrix = SymmetricBand::zeros(70, 1);
+        for i in 0..70 {
+            matrix.add(i, i, 2.0);
+            if i > 0 {
+                matrix.add(i, i - 1, -1.0);
+            }
+        }
+        assert!((matrix.factor().unwrap().log_determinant() - 71f64.ln()).abs() < 1e-13);
     }
 
     #[test]
