@@ -44,6 +44,7 @@ mod table_reading;
 mod table_sections;
 mod text_formats;
 mod truth;
+mod truth_draws;
 mod truth_hulls;
 mod truth_tables;
 mod validation;

@@ -12,6 +12,7 @@ use loftsman::hull::OffsetTable;
 
 use crate::partners::{self, Table, lines};
 use crate::support::{carried, read_text, table_of};
+use crate::truth_draws::{Draw, Measured, Summary, made_fair, text_of_made_fair};
 
 /// Unit of the files of the truth \[m\].
 const UNIT: f64 = 1e-7;
@@ -170,4 +171,49 @@ fn the_fair_hulls_of_the_tables_are_near_their_truths() {
     println!("{said}");
     assert!(ratios[middle] <= 2.0 && above <= 23 && worst <= 15.0, "{said}");
     assert!(variations[middle] <= 1.25 && waving <= 25, "{said}");
+}
+
+/// The carried tables made fair: `LOFTSMAN_GOLDEN=1` writes their nets.
+#[test]
+fn carried_nets_are_those_of_the_smoother() {
+    for (folder, path) in made_fair() {
+        let text = text_of_made_fair(folder);
+        if std::env::var_os("LOFTSMAN_GOLDEN").is_some() {
+            fs::write(&path, &text).unwrap();
+        }
+        let [found, kept] = [text, read_text(&path)].map(|text| -> Vec<f64> {
+            text.split(['\n', ',']).filter(|cell| !cell.is_empty()).map(|cell| cell.parse().unwrap()).collect()
+        });
+        assert_eq!(found.len(), kept.len(), "{folder}");
+        let most = found.iter().zip(&kept).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(most <= 1e-5, "{folder}: {most:e}");
+    }
+}
+
+/// Every draw has a table, the same each time, within the sizes that are wished.
+#[test]
+fn draws_are_tables_of_all_sizes() {
+    let (mut rows, mut columns) = (Vec::new(), Vec::new());
+    for number in 0..12 {
+        let draw = Draw::new(7, number);
+        assert!(draw.lines.len() >= 8, "{}", draw.title());
+        rows.push(draw.table.stations.len());
+        columns.push(draw.table.waterlines.len());
+    }
+    assert_eq!(Draw::new(7, 3).table, Draw::new(7, 3).table);
+    for (counts, least, most) in [(rows, 13, 60), (columns, 6, 40)] {
+        assert!(counts.iter().all(|count| (least..=most).contains(count)), "{counts:?}");
+        assert!(counts.iter().max().unwrap() >= &(2 * counts.iter().min().unwrap()), "{counts:?}");
+    }
+}
+
+/// One draw beside its partners, and its row.
+#[test]
+fn a_draw_is_measured_beside_its_partners() {
+    let measured = [Measured::new(&Draw::new(7, 5), true)];
+    let row = format!("{}\n{}", measured[0], Summary(&measured));
+    println!("{row}");
+    for part in ["ours", "partners", "ratio", "1 draws; ratio to the best partner median", "refused 0"] {
+        assert!(row.contains(part), "{row}");
+    }
 }

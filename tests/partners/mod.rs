@@ -4,6 +4,7 @@
 //!
 //! They know no displacement, ends, flats, features or mistakes. What is worse than they are has something to mend.
 
+mod fair_net;
 mod interpolation;
 mod likelihood;
 pub(crate) mod lines;
@@ -12,6 +13,7 @@ mod smoother;
 
 use loftsman::hull::OffsetTable;
 
+pub(crate) use fair_net::FairNet;
 use lines::{Direction, Line};
 
 /// Half-breadths \[m\] at every station and waterline; NaN where nothing is given.
@@ -75,7 +77,7 @@ pub(crate) fn likelihood(table: &Table, lines: &[Line]) -> Drawn {
 
 /// Which of two lists of places a line runs along, and which it is one of.
 impl Direction {
-    fn of<'a>(self, table: &'a Table) -> [&'a [f64]; 2] {
+    fn of(self, table: &Table) -> [&[f64]; 2] {
         match self {
             Self::Waterline => [&table.x, &table.z],
             Self::Station => [&table.z, &table.x],

@@ -71,6 +71,11 @@ impl Net {
         self.order.map(|k| self.knots[k].basis_count())
     }
 
+    /// Numbers of spans along and across.
+    pub(super) fn spans(&self) -> [usize; 2] {
+        [0, 1].map(|k| self.knots[k].basis_count() - DEGREE)
+    }
+
     pub(super) fn len(&self) -> usize {
         self.counts().iter().product()
     }
