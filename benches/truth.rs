@@ -18,6 +18,8 @@ mod truth_draws;
 #[path = "../tests/truth_hulls/mod.rs"]
 mod truth_hulls;
 
+use std::io::Write;
+
 use truth_draws::{Draw, Measured, Summary as DrawSummary};
 use truth_hulls::cases;
 use truth_hulls::measure::Summary;
@@ -51,7 +53,11 @@ fn main() {
 fn draws(seed: u64, numbers: std::ops::Range<u64>, with_partners: bool) {
     let mut measured = Vec::new();
     for number in numbers {
-        let row = Measured::new(&Draw::new(seed, number), with_partners);
+        // The title stands there while the draw is faired, so that a slow one has a name.
+        let draw = Draw::new(seed, number);
+        print!("{} ", draw.title());
+        let _ = std::io::stdout().flush();
+        let row = Measured::new(&draw, with_partners);
         println!("{row}");
         measured.push(row);
     }

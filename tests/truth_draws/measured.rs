@@ -14,7 +14,6 @@ type Partner = [f64; 2];
 
 /// One draw, faired as by a user who says nothing.
 pub(crate) struct Measured {
-    title: String,
     /// RMS off the truth over all lines \[mm\], and what became of their shape; why there is no hull.
     outcome: Result<(f64, lines::Shape), String>,
     /// Interpolation, smoother, likelihood.
@@ -50,7 +49,7 @@ impl Measured {
             })
         });
         let resolution = 1e3 * draw.errors.resolution();
-        Self { title: draw.title(), outcome, partners, smoothed: draw.truth.smoothed, resolution, seconds }
+        Self { outcome, partners, smoothed: draw.truth.smoothed, resolution, seconds }
     }
 
     /// The least of the partners that count: RMS \[mm\] or curvature.
@@ -69,9 +68,9 @@ impl Measured {
     }
 }
 
+/// The row of a draw, after its title.
 impl fmt::Display for Measured {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ", self.title)?;
         match &self.outcome {
             Err(error) => write!(f, "refused: {error}")?,
             Ok((rms, shape)) => {
