@@ -13,6 +13,7 @@ use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
+use super::fielded::Likely;
 use super::guard::{Guarded, Question};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
@@ -25,7 +26,7 @@ use super::refresh::{RefreshError, refresh};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
-use super::surface::FairSurface;
+use super::surface::{FairSurface, Place};
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, RepeatedSolver, Settings, Status};
@@ -104,6 +105,15 @@ impl FairSettings {
         errors(self.differences, self.noises(), sigma)
     }
 }
+
+/// Stations and waterlines to each side over which the noise is taken.
+const AROUND: usize = 2;
+
+/// Readings that the noise of the whole table counts as.
+const PRIOR: f64 = 4.0;
+
+/// Least 1 - h of a reading.
+const LEAST_FREEDOM: f64 = 0.05;
 
 /// Why nothing was faired.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -232,6 +242,20 @@ impl Prepared {
         Self::searched(surface, settings, smoother, search, sigma)
     }
 
+    /// Weight and noise of a field by its likelihood.
+    ///
+    /// # Errors
+    /// [`FairError`] when the readings leave a control value open.
+    pub(super) fn likely(
+        surface: &mut FairSurface,
+        settings: &FairSettings,
+        likely: Likely,
+    ) -> Result<Self, FairError> {
+        let smoother = Smoother::new(&surface.model);
+        let lambda = likely.weight / smoother.unit;
+        Self::searched(surface, settings, smoother, (lambda, Vec::new()), Some(likely.sigma))
+    }
+
     /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is
     /// known, the weight rises until what is smoothed out is no less than the rounding of the table.
     ///
@@ -253,18 +277,45 @@ impl Prepared {
             }
         }
         let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
+        let local = surface.is_field.then(|| local_noise(surface, &smoothed, sigma));
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
             let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };
             let levels = settings.tolerance_levels;
+            let sigma = local.as_ref().map_or(sigma, |local| local[k]);
             let free = levels.map(|levels| (levels * sigma / weight.sqrt()).max(settings.least_tolerance));
             let own = settings.tolerances.get(k).copied().flatten();
             reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
         }
-        let guarded = settings.signs && !surface.own;
+        let guarded = settings.signs && !surface.own && !surface.is_field;
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
         Ok(Self { smoother, lambda, smoothed, sigma, errors: settings.errors(sigma), trials, lines })
     }
+}
+
+/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) over the readings at most
+/// [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more.
+fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
+    let square = |k: usize| {
+        let weight = surface.model.readings[k].weight;
+        weight * smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM)
+    };
+    let told: Vec<(usize, usize, f64)> = surface
+        .places
+        .iter()
+        .enumerate()
+        .filter_map(|(k, place)| Some((place.origin.station(), place.origin.waterline()?, square(k))))
+        .collect();
+    let noise = |place: &Place| {
+        let (station, waterline) = (place.origin.station(), place.origin.waterline());
+        let near = |other: &&(usize, usize, f64)| {
+            other.0.abs_diff(station) <= AROUND && waterline.is_none_or(|w| other.1.abs_diff(w) <= AROUND)
+        };
+        let (count, sum) =
+            told.iter().filter(near).fold((PRIOR, PRIOR * sigma * sigma), |(n, s), t| (n + 1.0, s + t.2));
+        (sum / count).sqrt()
+    };
+    surface.places.iter().map(noise).collect()
 }
 
 /// Fairs.
@@ -291,7 +342,8 @@ pub fn fair_prepared(
     surface.model.carried = None;
     let hull = &surface.hull;
     let widest = surface.model.readings.iter().map(|reading| reading.value).fold(0.0, f64::max);
-    let greatest = widest.max(0.5 * hull.particulars().breadth);
+    // A field knows no greatest half-breadth: B is known or assumed, and its offsets may be off.
+    let greatest = widest.max(0.5 * hull.particulars().breadth) * if surface.is_field { 2.0 } else { 1.0 };
     let first = smoother.reduced.expand(&smoothed.free);
     let constraints: Vec<Limit> = settings.constraints.iter().map(|constraint| constraint.limit(hull)).collect();
     let mut wishes = Wishes {
@@ -369,7 +421,7 @@ pub fn fair_prepared(
     // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
     // nothing elsewhere.
     let mut guarded = None;
-    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
+    if settings.signs && diagnosis.is_none() && !surface.own && !surface.is_field && solved.is_optimal() {
         let question = Question {
             surface,
             model,

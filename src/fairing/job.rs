@@ -160,6 +160,16 @@ pub struct Job {
     pub solver: Settings,
 }
 
+impl Job {
+    /// Whether the job leaves weight, energy and lines to the program.
+    pub(super) fn is_plain(&self) -> bool {
+        self.weight.is_none()
+            && self.energy == EnergySettings::default()
+            && self.lines.is_empty()
+            && self.accepted == Accepted::None
+    }
+}
+
 impl Default for Job {
     fn default() -> Self {
         Self {

@@ -13,6 +13,8 @@ pub mod constraint;
 pub mod curve;
 mod determined;
 pub mod fair;
+pub mod field;
+mod fielded;
 mod flats;
 pub mod guard;
 pub mod held;

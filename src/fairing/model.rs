@@ -52,6 +52,17 @@ pub struct Model {
     /// What is added to every control value of the readings and the start before they are smoothed \[m\]; the
     /// tolerances go on being counted from the readings as they are.
     pub carried: Option<Vec<f64>>,
+    /// The answer where nothing is asked for, which a linear term makes it.
+    pub stationary: Option<Stationary>,
+}
+
+/// Control values that are the answer for a weight.
+#[derive(Debug, Clone)]
+pub struct Stationary {
+    /// The weight of the energy against the sum of squares.
+    pub weight: f64,
+    /// The control values \[m\].
+    pub net: Vec<f64>,
 }
 
 /// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
@@ -73,6 +84,8 @@ pub struct Reduced {
     pub straight: Option<SymmetricBand>,
     /// Free control values to stay near.
     pub start: Option<Vec<f64>>,
+    /// Weight and free control values of the answer where nothing is asked for.
+    pub stationary: Option<(f64, Vec<f64>)>,
     /// d_k less what the known values contribute.
     pub values: Vec<f64>,
     /// Known values, 0 for free ones.
@@ -156,6 +169,10 @@ impl Model {
             pull: free.iter().map(|&i| product[i]).collect(),
             constant: product.iter().zip(&base).map(|(e, c)| e * c).sum(),
             start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i] + carried(i)).collect()),
+            stationary: self
+                .stationary
+                .as_ref()
+                .map(|known| (known.weight, free.iter().map(|&i| known.net[i] + carried(i)).collect())),
             free,
             place,
             energy,

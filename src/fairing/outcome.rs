@@ -105,6 +105,8 @@ pub struct Outcome {
     pub beyond: [f64; 2],
     /// Whether the net is one of its own and not that of the surface through the table.
     pub own: bool,
+    /// Whether the net is that of a fair field.
+    pub is_field: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
     pub table_noise: f64,
     /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of

@@ -306,7 +306,7 @@ impl Program {
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let misfit = model.misfit(&net, smoother.weights());
-        let objective = misfit + lambda * smoother.unit * model.energy_of(&net);
+        let objective = misfit + lambda * smoother.unit * model.energy_of(&net) - smoother.tilted(&solution.x);
         Ok(Solved { solution, certificate, net, objective })
     }
 }

@@ -43,6 +43,12 @@ const BREADTH: f64 = 1e-6;
 const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
 
+/// What counts as a bump of a line of a hull of length `length` \[m\] whose offsets are written to `quantum` \[m\]: L_PP /
+/// 50,000 or twice the resolution, whichever is more.
+fn bump(length: f64, quantum: f64) -> f64 {
+    (length / 50_000.0).max(2.0 * quantum)
+}
+
 /// On which net a job is done, and how far off a target may be, over its scale, before it is one smooth move.
 #[derive(Clone, Copy)]
 pub(super) struct Way<'t> {
@@ -70,7 +76,7 @@ impl Job {
     fn rules(&self, table: &OffsetTable, surface: &FairSurface, left_out: &[(usize, usize)]) -> Vec<Rule> {
         let mut rules = self.rules.clone();
         let said = rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }));
-        if self.keep_flat && !surface.own && !said {
+        if self.keep_flat && !surface.own && !surface.is_field && !said {
             let held = |rule: &Rule| rule.limits(surface).is_ok_and(|limits| !limits.is_empty());
             rules.extend(shown_flat(table, left_out).filter(held));
         }
@@ -134,6 +140,7 @@ impl<'a> Run<'a> {
             proposals,
             mut surface,
             search,
+            likely,
             gap,
             excluded,
             watched,
@@ -158,21 +165,24 @@ impl<'a> Run<'a> {
         if !(over / MOST_LENGTH..=over * MOST_LENGTH).contains(&length) {
             return Err(JobError::Length { length, over });
         }
-        let asked = job.holding.constraints(&before)?;
+        let base = if surface.is_field { &surface.hull } else { &before };
+        let asked = job.holding.constraints(base)?;
         let wished = job.rules(table, &surface, &excluded);
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
         let apart = 6.0 * gap;
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         // A net of its own is searched without them.
-        let left = (!surface.own && way.followed.is_none()).then(|| left_by_differences(table, &excluded)).flatten();
+        let left = (!surface.own && likely.is_none() && way.followed.is_none())
+            .then(|| left_by_differences(table, &excluded))
+            .flatten();
         let differences = left.map(|left| Differences { left, noise: found.noise });
         let readings = surface.model.readings.iter().map(|reading| reading.value);
         let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
         let known = way.followed.unwrap_or(found.noise);
         let roughness = (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0;
         let mut settings = FairSettings {
-            others: asked.iter().map(|c| c.missed(c.value(&before), &before) > way.another).collect(),
+            others: asked.iter().map(|c| c.missed(c.value(base), base) > way.another).collect(),
             constraints: asked.clone(),
             rules: wished.clone(),
             weight: job.weight,
@@ -198,14 +208,19 @@ impl<'a> Run<'a> {
             admits: job.tolerance.table.is_some_and(|named| excess_of_breadth(before.surface(), greatest) > named),
             solver: job.solver.clone(),
         };
-        let prepared = match search {
-            Some(search) if job.weight.is_none() => {
+        let prepared = match (likely, search) {
+            (Some(likely), _) => Prepared::likely(&mut surface, &settings, likely)?,
+            (None, Some(search)) if job.weight.is_none() => {
                 let found = (search.smoothed.lambda, search.trials);
                 Prepared::searched(&mut surface, &settings, search.smoother, found, None)?
             }
             _ => Prepared::new(&mut surface, &settings)?,
         };
-        settings.seen = resolution(Some(quantum), prepared.sigma);
+        settings.seen = if surface.is_field {
+            bump(before.particulars().length_between_perpendiculars, quantum)
+        } else {
+            resolution(Some(quantum), prepared.sigma)
+        };
         let solver = RepeatedSolver::new(&job.solver);
         let run = Self {
             job,
@@ -315,6 +330,7 @@ impl<'a> Run<'a> {
             resolution: settings.seen,
             nearest: given.nearest,
             own: surface.own,
+            is_field: surface.is_field,
             table_noise: self.found.noise,
             notes: self.notes,
         })
@@ -403,7 +419,7 @@ impl<'a> Run<'a> {
             after => after?,
         };
         let Self { surface, settings, prepared, solver, before, wished, .. } = self;
-        if surface.own {
+        if surface.own || surface.is_field {
             // Nothing is repeated on a net of its own: the prices are final.
             let (lines, held) = join(
                 || watched.turns(&after),

@@ -48,6 +48,8 @@ pub struct Smoother {
     right: Vec<f64>,
     pull: Vec<f64>,
     weights: Vec<f64>,
+    /// What the right-hand side has besides the readings.
+    tilt: Option<Vec<f64>>,
     /// What lambda = 1 stands for: multiplies E.
     pub unit: f64,
     count: usize,
@@ -195,7 +197,24 @@ impl Smoother {
         }
         let pull = reduced.pull.iter().map(|e| unit * e).collect();
         let count = weights.iter().filter(|&&weight| weight > 0.0).count();
-        Self { reduced, normal, told, energy, right, pull, weights, unit, count }
+        let mut smoother = Self { reduced, normal, told, energy, right, pull, weights, tilt: None, unit, count };
+        smoother.stand();
+        smoother
+    }
+
+    /// Gives the problem the linear term by which the stationary control values are the answer for their weight.
+    fn stand(&mut self) {
+        let Some((weight, free)) = &self.reduced.stationary else { return };
+        let (matrix, right) = self.normal(weight / self.unit);
+        let tilt: Vec<f64> = matrix.apply(free).iter().zip(&right).map(|(a, b)| a - b).collect();
+        self.right.iter_mut().zip(&tilt).for_each(|(b, t)| *b += t);
+        self.tilt = Some(tilt);
+    }
+
+    /// Twice the linear term at free control values \[m^2\].
+    #[must_use]
+    pub fn tilted(&self, free: &[f64]) -> f64 {
+        self.tilt.as_ref().map_or(0.0, |tilt| 2.0 * tilt.iter().zip(free).map(|(t, c)| t * c).sum::<f64>())
     }
 
     /// The same problem with other weights of the readings.

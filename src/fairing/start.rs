@@ -2,6 +2,7 @@
 
 use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
+use super::fielded::Likely;
 use super::flats::shown_flat;
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
 use super::lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
@@ -42,6 +43,8 @@ pub(super) struct Started {
     pub(super) surface: FairSurface,
     /// The search for the weight, on a net of its own.
     pub(super) search: Option<Search>,
+    /// What the likelihood says, of a field.
+    pub(super) likely: Option<Likely>,
     /// Half the mean distance \[m\] of such a net from the surface through the table, of what their displaced volumes
     /// differ by.
     pub(super) gap: f64,
@@ -114,7 +117,17 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
+        let of_field = own && job.is_plain() && table.lines.is_empty();
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !of_field)?;
+        let mut likely = None;
+        if of_field
+            && modelled.before.is_level()
+            && !job.rules.iter().any(|rule| rule.keeps_the_fit(&modelled.before))
+            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before, &[])
+        {
+            modelled.surface = surface;
+            likely = Some(found);
+        }
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
             let wrong = modelled.gross_errors()?;
@@ -160,7 +173,21 @@ impl Started {
             ));
         }
         let excluded = cleaned.excluded;
-        Ok(Self { found, before, notes, assumed, noise, quantum, proposals, surface, search, gap, excluded, watched })
+        Ok(Self {
+            found,
+            before,
+            notes,
+            assumed,
+            noise,
+            quantum,
+            proposals,
+            surface,
+            search,
+            likely,
+            gap,
+            excluded,
+            watched,
+        })
     }
 }
 

@@ -156,6 +156,8 @@ pub struct FairSurface {
     pub courses: [Course; 2],
     /// Whether the chart is the rectangle itself: x linear in u and z linear in v.
     pub plain: bool,
+    /// Whether the net is that of a fair field.
+    pub is_field: bool,
 }
 
 /// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one
@@ -370,7 +372,15 @@ impl FairSurface {
             (level.then_some(weights), Some(unbroken), energy)
         };
         Ok(Self {
-            model: Model { energy, readings, known, straight, start: (!smooth).then(|| start.clone()), carried: None },
+            model: Model {
+                energy,
+                readings,
+                known,
+                straight,
+                start: (!smooth).then(|| start.clone()),
+                carried: None,
+                stationary: None,
+            },
             courses,
             places,
             start,
@@ -380,9 +390,29 @@ impl FairSurface {
             anisotropy: settings.anisotropy,
             plain,
             own: smooth,
+            is_field: false,
             simple: over.is_none_or(|(over, _)| over.simple),
             hull,
         })
+    }
+
+    /// A field over the chart of its hull.
+    pub(super) fn over(hull: Hull, model: Model, places: Vec<Place>, start: Vec<f64>, anisotropy: f64) -> Self {
+        Self {
+            plain: is_plain(&hull),
+            hull,
+            model,
+            places,
+            start,
+            spared: None,
+            unbroken: None,
+            order: super::field::net::ORDER,
+            anisotropy,
+            own: false,
+            simple: true,
+            courses: [Course::default(), Course::default()],
+            is_field: true,
+        }
     }
 
     /// Straight parts that were found and are kept straight, in words.
@@ -431,7 +461,7 @@ fn greville_values(fitted: &Hull, hull: &Hull) -> Vec<f64> {
 }
 
 /// Every given half-breadth, deck at side and point of a section that lies on the surface.
-fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
+pub(super) fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
     let (mut readings, mut places) = (Vec::new(), Vec::new());
     let mut put = |origin: Origin, at: [f64; 2], [x, value, z]: [f64; 3], doubtful: bool, locked: bool| {
         let weight = if doubtful { DOUBTFUL } else { 1.0 };

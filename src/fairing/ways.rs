@@ -87,7 +87,7 @@ impl Job {
     pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
         let way = Way { own: true, another: ANOTHER, followed: self.followed(table)?, progress };
         let mut outcome = self.run_within(table, way)?;
-        if !self.signs || !outcome.is_proved_on_the_fit() {
+        if outcome.is_field || !self.signs || !outcome.is_proved_on_the_fit() {
             return Ok(outcome);
         }
         // What is near enough to be an error of the table may be a wish all the same.
@@ -130,6 +130,9 @@ impl Job {
     /// Fairs a table.
     fn run_within(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
         let first = self.run_on(table, way)?;
+        if first.is_field {
+            return Ok(first);
+        }
         let on_the_fit = Way { own: false, ..way };
         let outcome = self.or_with_jumps(table, on_the_fit, first)?;
         let outcome = self.or_on_the_fit(table, on_the_fit, outcome)?;

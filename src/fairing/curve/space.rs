@@ -173,6 +173,7 @@ impl CurveSpace {
             straight: None,
             start: None,
             carried: None,
+            stationary: None,
         }
     }
 

@@ -1,0 +1,312 @@
+//! The net of a hull over the bent chart of its field: the same half-breadths, with stern and stem as edges, and the
+//! energy of the field within the hull.
+//!
+//! With u = u(w, v) the fourth derivatives of F(u, v) = f(w(u, v), v) are linear in the net of f. At every node of a Gauss
+//! rule the inverse w(u, v) is taken as its Taylor polynomial of degree 4, and the functions of the net are composed with
+//! it: what is left is the rule's own error, zero where the chart is not bent.
+
+use super::chart::Chart;
+use super::net::{DEGREE, Net, ORDER};
+use super::region::{Bend, Field};
+use crate::numeric::{SymmetricBand, gauss_legendre};
+use crate::spline::{Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
+
+/// Nodes of the rule in each direction of a cell.
+const NODES: usize = 4;
+
+/// What a jump of a derivative of the field is charged, over its size in intervals of the table.
+const JUMP: f64 = 10.0;
+
+/// Coefficients of a polynomial of total degree 4 in two variables: t\[p\]\[q\] of du^p dv^q.
+type Taylor = [[f64; ORDER + 1]; ORDER + 1];
+
+fn product(a: &Taylor, b: &Taylor) -> Taylor {
+    let mut out = [[0.0; ORDER + 1]; ORDER + 1];
+    for p in 0..=ORDER {
+        for q in 0..=ORDER - p {
+            let value = a[p][q];
+            if value.abs() > 0.0 {
+                for r in 0..=ORDER - p - q {
+                    for s in 0..=ORDER - p - q - r {
+                        out[p + r][q + s] += value * b[r][s];
+                    }
+                }
+            }
+        }
+    }
+    out
+}
+
+/// A net over the bent chart.
+#[derive(Debug, Clone)]
+pub struct Bent {
+    /// The chart of the field.
+    pub chart: Chart,
+    /// Its bend.
+    pub bend: Bend,
+    /// Knots along w and v.
+    pub knots: [KnotVector; 2],
+    /// Lines v = constant across which the chart has a corner.
+    pub corners: Vec<f64>,
+}
+
+impl Bent {
+    /// Numbers of control values along w and v.
+    #[must_use]
+    pub fn shape(&self) -> [usize; 2] {
+        [self.knots[0].basis_count(), self.knots[1].basis_count()]
+    }
+
+    /// Control values of what `value` gives at (w, v), by interpolation at the Greville places.
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine it.
+    pub fn interpolated(&self, value: impl Fn(f64, f64) -> f64) -> Result<Vec<f64>, SplineError> {
+        let sites = [self.knots[0].greville(), self.knots[1].greville()];
+        let [rows, columns] = self.shape();
+        let mut values: Vec<f64> =
+            sites[0].iter().flat_map(|&w| sites[1].iter().map(move |&v| (w, v))).map(|(w, v)| value(w, v)).collect();
+        let along = Collocation::new(&self.knots[0], &sites[0])?;
+        let up = Collocation::new(&self.knots[1], &sites[1])?;
+        for j in 0..columns {
+            along.solve_strided(&mut values, j, columns);
+        }
+        for i in 0..rows {
+            up.solve_strided(&mut values, i * columns, 1);
+        }
+        Ok(values)
+    }
+
+    /// x and z of the control points \[m\].
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine them.
+    pub fn places(&self) -> Result<Vec<[f64; 2]>, SplineError> {
+        let x = self.interpolated(|w, v| self.chart.x(self.bend.u(w, v)))?;
+        let sites = self.knots[1].greville();
+        let mut z: Vec<f64> = sites.iter().map(|&v| self.chart.z(v)).collect();
+        Collocation::new(&self.knots[1], &sites)?.solve(&mut z);
+        Ok(x.into_iter().enumerate().map(|(k, x)| [x, z[k % z.len()]]).collect())
+    }
+
+    /// Half-breadths of the control points of a field \[m\].
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine them.
+    pub fn half_breadths(&self, field: &Field<'_>) -> Result<Vec<f64>, SplineError> {
+        self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))
+    }
+
+    /// The place of a point of the profile.
+    #[must_use]
+    pub fn place(&self, x: f64, z: f64) -> [f64; 2] {
+        let v = self.chart.v(z);
+        [self.bend.w(self.chart.u(x), v), v]
+    }
+
+    /// The Taylor polynomial of w(u, v) - w0 at (w0, v0), with the polynomials of a span of v.
+    fn inverse(&self, w: f64, v: f64, span: usize) -> Taylor {
+        let Bend { knots, ends, reach, power } = &self.bend;
+        let derivatives = knots.basis_derivatives::<{ ORDER + 1 }>(span, v);
+        let degree = knots.degree();
+        let mut factorial = 1.0;
+        let mut shifts = [[0.0; ORDER + 1]; 2];
+        for order in 0..=ORDER {
+            factorial *= order.max(1) as f64;
+            for side in 0..2 {
+                let control = &ends[side][span - degree..];
+                let sum: f64 = derivatives[order][..=degree].iter().zip(control).map(|(b, c)| b * c).sum();
+                shifts[side][order] = sum / factorial;
+            }
+        }
+        shifts[1][0] -= 1.0;
+        // u(w + dw, v + dv) - u(w, v), of dw^p dv^q.
+        let mut forward: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
+        forward[1][0] = 1.0;
+        for side in 0..2 {
+            let (at, sign) = if side == 0 { (w, -1.0) } else { (1.0 - w, 1.0) };
+            let left = 1.0 - at / reach[side];
+            if left <= 0.0 {
+                continue;
+            }
+            for p in 0..=ORDER.min(power[side] as usize) {
+                let fade = binomial(power[side] as usize, p)
+                    * left.powi(power[side] - p as i32)
+                    * (sign / reach[side]).powi(p as i32);
+                for q in 0..=ORDER - p {
+                    forward[p][q] += shifts[side][q] * fade;
+                }
+            }
+        }
+        forward[0][0] = 0.0;
+        let slope = forward[1][0];
+        // Fixed point of dw = (du - rest(dw, dv)) / slope, exact to degree n after n rounds.
+        let mut inverse: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
+        inverse[1][0] = 1.0 / slope;
+        for _ in 0..ORDER {
+            let mut next: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
+            next[1][0] = 1.0;
+            let mut power: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
+            power[0][0] = 1.0;
+            for p in 0..=ORDER {
+                for q in 0..=ORDER - p {
+                    if (p, q) == (1, 0) || (p, q) == (0, 0) {
+                        continue;
+                    }
+                    let factor = forward[p][q];
+                    if factor.abs() > 0.0 {
+                        for r in 0..=ORDER - q {
+                            for s in 0..=ORDER - q - r {
+                                next[r][s + q] -= factor * power[r][s];
+                            }
+                        }
+                    }
+                }
+                power = product(&power, &inverse);
+            }
+            inverse = next.map(|row| row.map(|value| value / slope));
+        }
+        inverse
+    }
+
+    /// The energy of the field within the hull, in the net of the hull; `net` is that of the field, for its counts.
+    #[must_use]
+    pub fn energy(&self, net: &Net, anisotropy: f64) -> SymmetricBand {
+        let [rows, columns] = self.shape();
+        // Across a corner two spans of v meet that share one function.
+        let reach = if self.corners.is_empty() { DEGREE } else { 2 * DEGREE };
+        let width = DEGREE.min(rows - 1) * columns + reach.min(columns - 1);
+        let mut matrix = SymmetricBand::zeros(rows * columns, width);
+        let rule = gauss_legendre(NODES);
+        let [n, m] = net.intervals;
+        // sum_k C(4, k) (n m) (a)^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
+        let factors: [f64; ORDER + 1] = std::array::from_fn(|k| {
+            binomial(ORDER, k)
+                * anisotropy.powi(1 - 2 * k as i32)
+                * n.powi(1 - 2 * (ORDER - k) as i32)
+                * m.powi(1 - 2 * k as i32)
+        });
+        let breaks = [self.knots[0].breakpoints(), self.knots[1].breakpoints()];
+        for across in breaks[1].windows(2) {
+            for along in breaks[0].windows(2) {
+                let size = (DEGREE + 1) * (DEGREE + 1);
+                let mut block = vec![0.0; size * size];
+                let mut first = [0, 0];
+                for (v, share) in rule.on(across[0], across[1]) {
+                    let span = self.knots[1].find_span(v);
+                    let (j, up) = (span - DEGREE, taylor(&self.knots[1], span, v));
+                    for (w, weight) in rule.on(along[0], along[1]) {
+                        let ahead = self.knots[0].find_span(w);
+                        let (i, ahead) = (ahead - DEGREE, taylor(&self.knots[0], ahead, w));
+                        first = [i, j];
+                        let inverse = self.inverse(w, v, span);
+                        // du dv = u_w dw dv.
+                        let measure = share * weight / inverse[1][0];
+                        let mut forms = vec![[0.0; ORDER + 1]; size];
+                        for (r, composed) in composed(&inverse, &ahead).iter().enumerate() {
+                            for s in 0..=DEGREE {
+                                let form = &mut forms[r * (DEGREE + 1) + s];
+                                for (k, target) in form.iter_mut().enumerate() {
+                                    *target = derivative(composed, &up, s, [ORDER - k, k]);
+                                }
+                            }
+                        }
+                        for a in 0..size {
+                            let scaled: [f64; ORDER + 1] = std::array::from_fn(|k| measure * factors[k] * forms[a][k]);
+                            for b in 0..=a {
+                                let sum: f64 = (0..=ORDER).map(|k| scaled[k] * forms[b][k]).sum();
+                                block[a * size + b] += sum;
+                            }
+                        }
+                    }
+                }
+                let place = |a: usize| (first[0] + a / (DEGREE + 1)) * columns + first[1] + a % (DEGREE + 1);
+                for a in 0..size {
+                    for b in 0..=a {
+                        matrix.add(place(a), place(b), block[a * size + b]);
+                    }
+                }
+            }
+        }
+        self.charge_jumps(&mut matrix, [n, m]);
+        matrix
+    }
+
+    /// Charges what derivatives of the field jump across the corners of the chart, where those of the net do.
+    fn charge_jumps(&self, matrix: &mut SymmetricBand, [n, m]: [f64; 2]) {
+        let columns = self.shape()[1];
+        let rule = gauss_legendre(NODES);
+        let breaks = self.knots[0].breakpoints();
+        for &v in &self.corners {
+            let above = self.knots[1].find_span(v);
+            let below = above - DEGREE;
+            let sides = [below, above].map(|span| (span, taylor(&self.knots[1], span, v)));
+            for along in breaks.windows(2) {
+                for (w, weight) in rule.on(along[0], along[1]) {
+                    let ahead = self.knots[0].find_span(w);
+                    let (i, ahead) = (ahead - DEGREE, taylor(&self.knots[0], ahead, w));
+                    for k in 1..ORDER {
+                        let mut row: Vec<(usize, f64)> = Vec::new();
+                        let mut measure = 0.0;
+                        for (side, (span, up)) in sides.iter().enumerate() {
+                            let inverse = self.inverse(w, v, *span);
+                            measure = weight / inverse[1][0];
+                            let sign = if side == 0 { -1.0 } else { 1.0 };
+                            for (r, composed) in composed(&inverse, &ahead).iter().enumerate() {
+                                for s in 0..=DEGREE {
+                                    let at = (i + r) * columns + span - DEGREE + s;
+                                    row.push((at, sign * derivative(composed, up, s, [0, k]) / m.powi(k as i32)));
+                                }
+                            }
+                        }
+                        let factor = JUMP * measure * n;
+                        for (a, &(i, x)) in row.iter().enumerate() {
+                            for (b, &(j, y)) in row.iter().enumerate() {
+                                if j < i || i == j && (a == b) {
+                                    matrix.add(i, j, factor * x * y);
+                                } else if i == j && b < a {
+                                    matrix.add(i, j, 2.0 * factor * x * y);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Taylor coefficients of the functions of a span at t.
+fn taylor(knots: &KnotVector, span: usize, t: f64) -> [[f64; MAX_DEGREE + 1]; ORDER + 1] {
+    let mut orders = knots.basis_derivatives::<{ ORDER + 1 }>(span, t);
+    for (order, row) in orders.iter_mut().enumerate() {
+        row.iter_mut().for_each(|value| *value /= factorial(order));
+    }
+    orders
+}
+
+fn factorial(k: usize) -> f64 {
+    (1..=k).product::<usize>() as f64
+}
+
+/// The functions along w, with the Taylor coefficients `ahead`, as polynomials of (u, v).
+fn composed(inverse: &Taylor, ahead: &[[f64; MAX_DEGREE + 1]; ORDER + 1]) -> [Taylor; DEGREE + 1] {
+    let mut functions = [[[0.0; ORDER + 1]; ORDER + 1]; DEGREE + 1];
+    let mut power: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
+    power[0][0] = 1.0;
+    for row in ahead {
+        for (function, b) in functions.iter_mut().zip(row) {
+            for (target, source) in function.iter_mut().zip(&power) {
+                target.iter_mut().zip(source).for_each(|(t, s)| *t += b * s);
+            }
+        }
+        power = product(&power, inverse);
+    }
+    functions
+}
+
+/// The derivative of order (p, q) of a composed function times function s along v, with the Taylor coefficients `up`.
+fn derivative(composed: &Taylor, up: &[[f64; MAX_DEGREE + 1]; ORDER + 1], s: usize, [p, q]: [usize; 2]) -> f64 {
+    let sum: f64 = (0..=q).map(|t| composed[p][t] * up[q - t][s]).sum();
+    sum * factorial(p) * factorial(q)
+}

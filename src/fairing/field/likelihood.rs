@@ -1,0 +1,147 @@
+//! The fair field for a chart and a weight, and how likely the table makes them.
+//!
+//! Half-breadths y_i at cells with factors s_i (their errors have the standard deviation s_i sigma) are those of a net c,
+//! M c, with the energy c'Pc. The field minimises |S^-1 (y - M c)|^2 + w c'Pc. With A = I - M (M'M + wP)^-1 M' (rows over
+//! S) and k functions X in the kernel of the energy, the restricted likelihood (Patterson and Thompson 1971; Wahba 1985)
+//! has
+//!
+//! ```text
+//! -2 log l = (n - k) log sigma^2 + y'Ay / sigma^2 - log det+ A,   sigma^2 = max(y'Ay / (n - k), least)
+//! log det+ A = r log w + log det+ P - log det(M'M + wP) + log det X'X,   r = rank P
+//! ```
+
+use super::chart::Chart;
+use super::net::{KERNEL, Net, ORDER};
+use crate::numeric::{SingularMatrix, SymmetricBand};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+/// An offset on the hull.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// Position \[m\].
+    pub x: f64,
+    /// Height \[m\].
+    pub z: f64,
+    /// Half-breadth \[m\].
+    pub y: f64,
+    /// Standard deviation of its error over that of an error normal to the hull.
+    pub scale: f64,
+}
+
+/// The cells of a table as rows over a net on one chart.
+#[derive(Debug, Clone)]
+pub struct Observed {
+    normal: SymmetricBand,
+    right: Vec<f64>,
+    /// Rows over the scales.
+    rows: Vec<Vec<(usize, f64)>>,
+    values: Vec<f64>,
+    /// log det X'X.
+    kernel: f64,
+}
+
+impl Observed {
+    /// Rows of the cells.
+    #[must_use]
+    pub fn new(net: &Net, chart: &Chart, cells: &[Cell]) -> Self {
+        let places: Vec<[f64; 2]> = cells.iter().map(|cell| [chart.u(cell.x), chart.v(cell.z)]).collect();
+        let [_, count] = net.shape();
+        let mut normal = SymmetricBand::zeros(net.size(), net.energy_width());
+        let mut right = vec![0.0; net.size()];
+        let (mut rows, mut values) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
+        let _ = count;
+        for (cell, &at) in cells.iter().zip(&places) {
+            let row: Vec<(usize, f64)> = net.row(at).into_iter().map(|(j, b)| (j, b / cell.scale)).collect();
+            let value = cell.y / cell.scale;
+            for (k, &(i, b)) in row.iter().enumerate() {
+                right[i] += b * value;
+                row[..=k].iter().for_each(|&(j, c)| normal.add(i, j, b * c));
+            }
+            rows.push(row);
+            values.push(value);
+        }
+        let powers = |[u, v]: [f64; 2]| -> Vec<f64> {
+            let of = |t: f64, k: usize| (2.0 * t - 1.0).powi(k as i32);
+            (0..ORDER).flat_map(|i| (0..ORDER - i).map(move |j| of(u, i) * of(v, j))).collect()
+        };
+        let mut gram = DMatrix::<f64>::zeros(KERNEL, KERNEL);
+        for (cell, &at) in cells.iter().zip(&places) {
+            let x = powers(at);
+            for i in 0..KERNEL {
+                for j in 0..KERNEL {
+                    gram[(i, j)] += x[i] * x[j] / (cell.scale * cell.scale);
+                }
+            }
+        }
+        let kernel = SymmetricEigen::new(gram).eigenvalues.iter().map(|e| e.max(1e-300).ln()).sum();
+        Self { normal, right, rows, values, kernel }
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.values.len()
+    }
+}
+
+/// A fair field.
+#[derive(Debug, Clone)]
+pub struct Smoothed {
+    /// Control values \[m\].
+    pub values: Vec<f64>,
+    /// Standard deviation of the errors of the offsets, normal to the hull \[m\].
+    pub sigma: f64,
+    /// -2 log l, but for a constant.
+    pub cost: f64,
+}
+
+/// The energy of one anisotropy.
+#[derive(Debug, Clone)]
+pub struct Roughness {
+    /// P.
+    pub matrix: SymmetricBand,
+    /// log det+ P, but for a constant of the net.
+    pub log_determinant: f64,
+}
+
+impl Roughness {
+    /// Of a net and an anisotropy.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when rounding makes it indefinite.
+    pub fn new(net: &Net, anisotropy: f64) -> Result<Self, SingularMatrix> {
+        let matrix = net.energy(anisotropy);
+        Ok(Self { log_determinant: net.log_determinant(&matrix)?, matrix })
+    }
+}
+
+/// The field of least |S^-1 (y - M c)|^2 + w c'Pc and its likelihood; sigma is at least `least`.
+///
+/// # Errors
+/// [`SingularMatrix`] when the cells do not determine the field.
+pub fn smoothed(
+    observed: &Observed,
+    roughness: &Roughness,
+    weight: f64,
+    least: f64,
+) -> Result<Smoothed, SingularMatrix> {
+    let matrix = observed.normal.plus(weight, &roughness.matrix);
+    let factor = matrix.factor()?;
+    let mut values = observed.right.clone();
+    factor.solve(&mut values);
+    let misfit: f64 = observed
+        .rows
+        .iter()
+        .zip(&observed.values)
+        .map(|(row, y)| (row.iter().map(|(j, b)| b * values[*j]).sum::<f64>() - y).powi(2))
+        .sum();
+    let applied = roughness.matrix.apply(&values);
+    let energy: f64 = applied.iter().zip(&values).map(|(p, c)| p * c).sum();
+    let left = misfit + weight * energy.max(0.0);
+    let freedom = observed.count().saturating_sub(KERNEL).max(1) as f64;
+    let variance = (left / freedom).max(least * least);
+    let rank = (values.len() - KERNEL) as f64;
+    let determinant = rank * weight.ln() + roughness.log_determinant - factor.log_determinant() + observed.kernel;
+    let cost = freedom * variance.ln() + left / variance - determinant;
+    Ok(Smoothed { values, sigma: variance.sqrt(), cost })
+}

@@ -1,0 +1,315 @@
+//! What a table says of a level hull: offsets as readings of its field, the ends of its waterlines as far as they are
+//! known, and where there is no hull.
+//!
+//! An end of a waterline is, in this order: the one the table gives; on the plane of the transom; the edge of the table
+//! where the last station still has breadth; a zero that neighbouring waterlines have at the same station (a
+//! perpendicular). Otherwise it lies between the last station with breadth and the next one: the field says where.
+
+use super::likelihood::Cell;
+use crate::hull::{Entry, OffsetTable, StationOffsets, TransomPlane};
+
+/// Scale of the errors of an offset that is exact, over that of others.
+pub const EXACT: f64 = 1e-3;
+
+/// Scale of the errors of a doubtful offset.
+const DOUBTFUL: f64 = 10.0;
+
+/// A keel this part of the height above the lowest is off the base.
+const LEVEL: f64 = 2e-3;
+
+/// Least distance of the lowest waterline from the keel, over the height, from which the keel is a waterline of its own.
+const ABOVE_KEEL: f64 = 1e-3;
+
+/// Where a reading comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// The offset of a station on a waterline.
+    Offset {
+        /// Index of the station.
+        station: usize,
+        /// Index of the waterline.
+        waterline: usize,
+    },
+    /// The half-breadth at the deck at side of a station.
+    Deck {
+        /// Index of the station.
+        station: usize,
+    },
+    /// The lowest point of a station, or the edge of its flat of bottom.
+    Keel {
+        /// Index of the station.
+        station: usize,
+    },
+    /// A given end of a waterline.
+    End {
+        /// Index of the waterline.
+        waterline: usize,
+    },
+    /// A station without hull, at which the half-breadth is at most 0.
+    Outside {
+        /// Index of the station.
+        station: usize,
+        /// Index of the waterline.
+        waterline: usize,
+    },
+    /// A station whose deck is below the waterline, at which the half-breadth is more than 0.
+    AboveDeck {
+        /// Index of the station.
+        station: usize,
+        /// Index of the waterline.
+        waterline: usize,
+    },
+}
+
+/// A reading of the field and where it comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// The reading.
+    pub cell: Cell,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// An end of a waterline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// It closes at x \[m\].
+    Closed(f64),
+    /// It is cut off at x \[m\], with breadth.
+    Cut(f64),
+    /// It closes between the last station with breadth and the next one \[m\].
+    Between(f64, f64),
+}
+
+impl End {
+    /// The outermost x that it may be at.
+    #[must_use]
+    pub fn outermost(self) -> f64 {
+        match self {
+            Self::Closed(x) | Self::Cut(x) | Self::Between(_, x) => x,
+        }
+    }
+}
+
+/// A waterline of the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Waterline {
+    /// Height \[m\].
+    pub z: f64,
+    /// Its ends.
+    pub ends: [End; 2],
+    /// The outermost x at which the hull surely has breadth.
+    pub inner: [f64; 2],
+}
+
+/// All of it.
+#[derive(Debug, Clone, Default)]
+pub struct Observations {
+    /// Offsets and other values of the field.
+    pub readings: Vec<Reading>,
+    /// Upper bounds 0 outside the hull, and lower bounds above the deck.
+    pub bounds: Vec<Reading>,
+    /// Waterlines with breadth, from below.
+    pub waterlines: Vec<Waterline>,
+    /// From aft to forward and from below upwards: the rectangle \[m\].
+    pub extent: [[f64; 2]; 2],
+}
+
+struct Line<'a> {
+    table: &'a OffsetTable,
+    j: usize,
+}
+
+impl Line<'_> {
+    fn station(&self, k: usize) -> &StationOffsets {
+        &self.table.stations[k]
+    }
+
+    fn entry(&self, k: usize) -> Entry {
+        self.station(k).half_breadths.get(self.j).map_or(Entry::Absent, |cell| cell.entry)
+    }
+
+    fn value(&self, k: usize) -> Option<f64> {
+        match self.entry(k) {
+            Entry::Given(y) if y.is_finite() => Some(y),
+            _ => None,
+        }
+    }
+
+    fn is_above_deck(&self, k: usize) -> bool {
+        let (station, z) = (self.station(k), self.table.waterlines[self.j]);
+        let blank = |j: usize| station.half_breadths.get(j).is_none_or(|cell| cell.entry == Entry::Absent);
+        self.value(k).is_none()
+            && match station.deck_height {
+                Some(deck) => deck < z,
+                None => {
+                    (0..self.j).any(|j| station.half_breadths.get(j).and_then(|c| c.value()).is_some_and(|y| y > 0.0))
+                        && (self.j..self.table.waterlines.len()).all(blank)
+                }
+            }
+    }
+}
+
+impl Observations {
+    /// Reads a table whose stations and waterlines rise; cells of `left_out` (station, waterline) say nothing.
+    #[must_use]
+    pub fn new(table: &OffsetTable, left_out: &[(usize, usize)]) -> Self {
+        let stations = &table.stations;
+        let highest = table.waterlines.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lowest = table.waterlines.iter().copied().fold(f64::INFINITY, f64::min);
+        let keels =
+            || stations.iter().enumerate().filter_map(|(k, s)| s.keel_height.filter(|z| z.is_finite()).map(|z| (k, z)));
+        let keel = keels().map(|(_, z)| z).fold(f64::INFINITY, f64::min);
+        let height = highest - keel.min(lowest);
+        let bottom = if lowest - keel > ABOVE_KEEL * height { keel } else { lowest };
+        let mut found = Self::default();
+        let plumb = plumb_zeros(table);
+        for j in 0..table.waterlines.len() {
+            found.waterline(&Line { table, j }, plumb, left_out);
+        }
+        for (k, z) in keels() {
+            let x = stations[k].station.x;
+            let level = z - bottom <= LEVEL * height;
+            let flat = stations[k].flat_of_bottom.unwrap_or(0.0);
+            // On the lowest waterline an offset says it already.
+            let said = level && bottom >= lowest;
+            if !said {
+                let (y, scale) = if level { (flat, 1.0) } else { (0.0, EXACT) };
+                found.push(Cell { x, z: if level { bottom } else { z }, y, scale }, Source::Keel { station: k });
+            }
+        }
+        let mut top = highest;
+        for (k, station) in stations.iter().enumerate() {
+            let (Some(z), Some(y)) = (station.deck_height, station.deck_half_breadth) else { continue };
+            if !(z.is_finite() && y.is_finite()) {
+                continue;
+            }
+            let x = station.station.x;
+            let said = table.waterlines.iter().position(|&w| (w - z).abs() <= 1e-9 * height);
+            if said.is_none_or(|j| station.half_breadths.get(j).and_then(|c| c.value()).is_none()) && z <= top {
+                found.push(Cell { x, z, y, scale: 1.0 }, Source::Deck { station: k });
+            }
+        }
+        top = top.max(highest);
+        let ends = found.waterlines.iter().flat_map(|w| w.ends).map(End::outermost);
+        let places = found.readings.iter().map(|r| r.cell.x);
+        let along = ends.chain(places).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        found.extent = [along, [bottom, top]];
+        found
+    }
+
+    fn push(&mut self, cell: Cell, source: Source) {
+        self.readings.push(Reading { cell, source });
+    }
+
+    fn waterline(&mut self, line: &Line<'_>, plumb: [bool; 2], left_out: &[(usize, usize)]) {
+        let count = line.table.stations.len();
+        let (j, z) = (line.j, line.table.waterlines[line.j]);
+        let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
+        let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
+        for &k in &given {
+            let Some(y) = line.value(k) else { continue };
+            if left_out.contains(&(k, j)) || (y <= 0.0 && !positive.is_empty()) {
+                continue;
+            }
+            let marks = line.station(k).half_breadths[j].marks;
+            let scale = if marks.locked {
+                EXACT
+            } else if marks.doubtful {
+                DOUBTFUL
+            } else {
+                1.0
+            };
+            self.push(Cell { x: line.station(k).station.x, z, y, scale }, Source::Offset { station: k, waterline: j });
+        }
+        let (Some(&first), Some(&last)) = (positive.first(), positive.last()) else { return };
+        // Blanks within are unknown, or a gap of the body; above the deck the side goes on.
+        for k in first..=last {
+            if line.is_above_deck(k) {
+                self.above_deck(line, k);
+            } else if line.value(k).is_some_and(|y| y <= 0.0) || line.entry(k) == Entry::Absent {
+                self.outside(line, k);
+            }
+        }
+        let mut ends = [End::Cut(0.0); 2];
+        let mut inner = [0.0; 2];
+        for side in 0..2 {
+            let mut k = if side == 0 { first } else { last };
+            let outward = |k: usize| if side == 0 { k.checked_sub(1) } else { Some(k + 1).filter(|&n| n < count) };
+            while let Some(n) = outward(k).filter(|&n| line.is_above_deck(n)) {
+                self.above_deck(line, n);
+                k = n;
+            }
+            inner[side] = line.station(if side == 0 { first } else { last }).station.x;
+            ends[side] = self.end(line, side, k, outward(k), plumb[side]);
+        }
+        self.waterlines.push(Waterline { z, ends, inner });
+    }
+
+    fn end(&mut self, line: &Line<'_>, side: usize, k: usize, next: Option<usize>, plumb: bool) -> End {
+        let (x, z) = (line.station(k).station.x, line.table.waterlines[line.j]);
+        let outward = |a: f64, b: f64| if side == 0 { a <= b } else { a >= b };
+        if let Some(at) =
+            line.table.endings.get(line.j).and_then(|ends| ends[side]).filter(|at| at.is_finite() && outward(*at, x))
+        {
+            if (at - x).abs() <= 1e-9 * (1.0 + x.abs()) {
+                return End::Cut(x);
+            }
+            self.push(Cell { x: at, z, y: 0.0, scale: EXACT }, Source::End { waterline: line.j });
+            return End::Closed(at);
+        }
+        if side == 0
+            && let Some(at) = line.table.transom.and_then(|plane| on_transom(plane, z, x))
+        {
+            if let Some(n) = next.filter(|&n| line.station(n).station.x >= at) {
+                self.outside(line, n);
+                return End::Between(x, line.station(n).station.x);
+            }
+            return End::Cut(at);
+        }
+        let Some(next) = next else { return End::Cut(x) };
+        let beyond = line.station(next).station.x;
+        if plumb && line.value(next).is_some_and(|y| y <= 0.0) {
+            self.push(Cell { x: beyond, z, y: 0.0, scale: EXACT }, Source::End { waterline: line.j });
+            return End::Closed(beyond);
+        }
+        self.outside(line, next);
+        End::Between(x, beyond)
+    }
+
+    fn outside(&mut self, line: &Line<'_>, k: usize) {
+        let cell = Cell { x: line.station(k).station.x, z: line.table.waterlines[line.j], y: 0.0, scale: 1.0 };
+        self.bounds.push(Reading { cell, source: Source::Outside { station: k, waterline: line.j } });
+    }
+
+    fn above_deck(&mut self, line: &Line<'_>, k: usize) {
+        let station = line.station(k);
+        let below = || station.half_breadths[..line.j].iter().rev().find_map(crate::hull::Cell::value);
+        let Some(y) = station.deck_half_breadth.or_else(below) else { return };
+        let cell = Cell { x: station.station.x, z: line.table.waterlines[line.j], y, scale: 1.0 };
+        self.bounds.push(Reading { cell, source: Source::AboveDeck { station: k, waterline: line.j } });
+    }
+}
+
+/// x of the plane at a height, where the last station with breadth is not aft of it.
+fn on_transom(plane: TransomPlane, z: f64, last: f64) -> Option<f64> {
+    let at = plane.x_base + plane.slope * z;
+    (last >= at - 1e-9 * (1.0 + at.abs())).then_some(at)
+}
+
+/// Whether the zeros at which waterlines end stand at one station, aft and forward.
+fn plumb_zeros(table: &OffsetTable) -> [bool; 2] {
+    [false, true].map(|fore| {
+        let count = table.stations.len();
+        let outwards = |n: usize| if fore { count - 1 - n } else { n };
+        let zero = |j: usize| {
+            let line = Line { table, j };
+            let last = (0..count).find(|&n| line.value(outwards(n)).is_some_and(|y| y > 0.0))?;
+            let beyond = last.checked_sub(1)?;
+            let given = table.endings.get(j).and_then(|ends| ends[usize::from(fore)]).is_some();
+            line.value(outwards(beyond)).filter(|y| *y <= 0.0 && !given).map(|_| beyond)
+        };
+        let zeros: Vec<Option<usize>> = (0..table.waterlines.len()).map(zero).collect();
+        !zeros.windows(2).any(|pair| matches!(pair, [Some(a), Some(b)] if a != b))
+    })
+}

@@ -1,0 +1,216 @@
+//! From the offsets of a table to the chart of its hull.
+
+use super::bent::Bent;
+use super::chart::{Chart, Shape};
+use super::choice::{Chosen, choose};
+use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::net::{DEGREE, Net};
+use super::observed::{End, Observations, Source, Waterline};
+use super::region::{Bend, Field};
+use crate::spline::{KnotVector, SplineError};
+
+/// Greatest factor of the errors in y of a cell over those normal to the hull.
+pub const STEEPEST: f64 = 10.0;
+
+/// Heights a span at which the kind of an end is looked at.
+const SAMPLES: usize = 8;
+
+/// Lines of the net nearer to each other than this part of a span are one.
+const CLOSE: f64 = 0.4;
+
+/// Powers of the steepness that are tried.
+const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
+
+/// Rounds in which stations without hull are made to hold.
+const ROUNDS: usize = 4;
+
+/// Least noise over the length of the half-breadths where no digit says it.
+const LEAST_NOISE: f64 = 1e-7;
+
+/// A field with the chart of its hull.
+#[derive(Debug, Clone)]
+pub struct LevelField {
+    /// Its net.
+    pub net: Net,
+    /// Chart, weight and field.
+    pub chosen: Chosen,
+    /// The cells with their factors, as they were used.
+    pub cells: Vec<Cell>,
+    /// The chart of the hull.
+    pub bent: Bent,
+    /// The power of the steepness of the hull that the errors go with.
+    pub power: f64,
+}
+
+/// Why there is no field.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FieldError {
+    /// Too few offsets.
+    #[error("the offsets do not determine a surface")]
+    Undetermined,
+    /// Knots.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
+}
+
+impl LevelField {
+    /// The field of greatest likelihood through the readings of a table of so many stations and waterlines, whose offsets
+    /// are written to `resolution` \[m\].
+    ///
+    /// # Errors
+    /// [`FieldError`] where they determine none.
+    pub fn new(seen: &Observations, [stations, waterlines]: [usize; 2], resolution: f64) -> Result<Self, FieldError> {
+        let [length, height] = seen.extent;
+        let net = Net::uniform([stations.max(4), waterlines.max(4)], [stations as f64 - 1.0, waterlines as f64 - 1.0])?;
+        let rectangle = Chart { length, height, shape: Shape { keel: 0.1, ends: [0.0; 2] } };
+        let mut cells: Vec<Cell> = seen.readings.iter().map(|reading| reading.cell).collect();
+        let greatest = cells.iter().fold(0.0f64, |m, cell| m.max(cell.y));
+        let least = (resolution / 12f64.sqrt()).max(LEAST_NOISE * 2.0 * greatest);
+        let first = smooth_first(&net, &cells, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let field = Field { chart: &rectangle, net: &net, values: &first.values };
+        let steepness: Vec<f64> = cells.iter().map(|c| field.steepness(c.x, c.z).min(STEEPEST)).collect();
+        let power = errors(&net, &cells, &steepness, rectangle, least).ok_or(FieldError::Undetermined)?;
+        for (cell, s) in cells.iter_mut().zip(&steepness) {
+            cell.scale *= s.powf(power);
+        }
+        let mut chosen = choose(&net, &cells, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let rough = Roughness::new(&net, chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
+        for _ in 0..ROUNDS {
+            let field = Field { chart: &chosen.chart, net: &net, values: &chosen.field.values };
+            let count = cells.len();
+            for bound in &seen.bounds {
+                let Cell { x, z, y, .. } = bound.cell;
+                let found = field.at([chosen.chart.u(x), chosen.chart.v(z)]);
+                let broken = match bound.source {
+                    Source::AboveDeck { .. } => found < 0.5 * y,
+                    _ => found > 0.0,
+                };
+                let known = cells.iter().any(|cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9);
+                if broken && !known {
+                    cells.push(bound.cell);
+                }
+            }
+            if cells.len() == count {
+                break;
+            }
+            let observed = Observed::new(&net, &chosen.chart, &cells);
+            chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
+                .map_err(|_| FieldError::Undetermined)?;
+        }
+        let bent = bent(&net, &chosen, seen)?;
+        Ok(Self { net, chosen, cells, bent, power })
+    }
+
+    /// The field.
+    #[must_use]
+    pub fn field(&self) -> Field<'_> {
+        Field { chart: &self.chosen.chart, net: &self.net, values: &self.chosen.field.values }
+    }
+}
+
+/// The power of the steepness that the errors of the half-breadths go with, by likelihood: 0 where they are alike in y, as
+/// written digits are, 1 where they are alike normal to the hull, as readings of a drawing are.
+fn errors(net: &Net, cells: &[Cell], steepness: &[f64], chart: Chart, least: f64) -> Option<f64> {
+    let rough = Roughness::new(net, 1.0).ok()?;
+    let cost = |power: f64| {
+        let scaled: Vec<Cell> =
+            cells.iter().zip(steepness).map(|(c, s)| Cell { scale: c.scale * s.powf(power), ..*c }).collect();
+        let observed = Observed::new(net, &chart, &scaled);
+        let jacobian: f64 = scaled.iter().map(|c| 2.0 * c.scale.ln()).sum();
+        let tried = (-8..=1).filter_map(|e| smoothed(&observed, &rough, 10f64.powi(e), least).ok());
+        tried.map(|found| found.cost + jacobian).min_by(f64::total_cmp)
+    };
+    let costs: Vec<(f64, f64)> = POWERS.iter().filter_map(|&power| Some((cost(power)?, power))).collect();
+    costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, power)| power)
+}
+
+/// A first smooth field, for the slopes of the hull.
+fn smooth_first(net: &Net, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
+    let observed = Observed::new(net, &chart, cells);
+    let rough = Roughness::new(net, 1.0).ok()?;
+    let tried = (-6..=0).filter_map(|e| smoothed(&observed, &rough, 10f64.powi(e), least).ok());
+    tried.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// The ends of a hull at any height.
+struct Ends<'a> {
+    field: Field<'a>,
+    lines: &'a [Waterline],
+}
+
+impl Ends<'_> {
+    /// u of the end at v, and whether the hull is cut off there with breadth.
+    fn at(&self, v: f64, side: usize) -> (f64, bool) {
+        let chart = self.field.chart;
+        let z = chart.z(v);
+        let above = self.lines.partition_point(|line| line.z < z);
+        let last = self.lines.len() - 1;
+        let [below, above] = [&self.lines[above.saturating_sub(1).min(last)], &self.lines[above.min(last)]];
+        let pick = |a: f64, b: f64, outer: bool| if (side == 0) == outer { a.min(b) } else { a.max(b) };
+        let from = pick(below.inner[side], above.inner[side], false);
+        let to = match [below.ends[side], above.ends[side]] {
+            [End::Cut(a), End::Cut(b)] if above.z > below.z => {
+                a + (b - a) * ((z - below.z) / (above.z - below.z)).clamp(0.0, 1.0)
+            }
+            [a, b] => pick(a.outermost(), b.outermost(), true),
+        };
+        let to = chart.u(to);
+        self.field.zero(v, chart.u(from), to).map_or((to, true), |u| (u, false))
+    }
+
+    /// Heights v at which a contour meets an edge, from below.
+    fn corners(&self, side: usize, steps: usize) -> Vec<f64> {
+        let at = |k: usize| k as f64 / steps as f64;
+        let cut = |v: f64| self.at(v, side).1;
+        let mut corners = Vec::new();
+        for k in 0..steps {
+            let (mut low, mut high) = (at(k), at(k + 1));
+            let below = cut(low);
+            if cut(high) == below {
+                continue;
+            }
+            for _ in 0..50 {
+                let middle = 0.5 * (low + high);
+                if cut(middle) == below { low = middle } else { high = middle }
+            }
+            corners.push(0.5 * (low + high));
+        }
+        corners
+    }
+}
+
+/// The chart of the hull: its ends are those of the field, within what the table leaves open.
+fn bent(net: &Net, chosen: &Chosen, seen: &Observations) -> Result<Bent, FieldError> {
+    let chart = chosen.chart;
+    let ends = Ends { field: Field { chart: &chart, net, values: &chosen.field.values }, lines: &seen.waterlines };
+    let mut breaks = net.knots[1].breakpoints();
+    let spacing = 1.0 / (breaks.len() - 1) as f64;
+    let mut corners: Vec<f64> = (0..2).flat_map(|side| ends.corners(side, SAMPLES * (breaks.len() - 1))).collect();
+    corners.retain(|v| (CLOSE * spacing..=1.0 - CLOSE * spacing).contains(v));
+    corners.sort_by(f64::total_cmp);
+    corners.dedup_by(|a, b| *a - *b < CLOSE * spacing);
+    breaks.retain(|b| *b <= 0.0 || *b >= 1.0 || corners.iter().all(|c| (b - c).abs() >= CLOSE * spacing));
+    breaks.extend(&corners);
+    breaks.sort_by(f64::total_cmp);
+    let count = breaks.len();
+    let multiplicities: Vec<usize> =
+        breaks[1..count - 1].iter().map(|b| if corners.contains(b) { DEGREE } else { 1 }).collect();
+    let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
+    let bend = Bend::new(knots.clone(), |v| [0, 1].map(|side| ends.at(v, side).0));
+    Ok(Bent { chart, knots: [with_breaks(&net.knots[0], &bend)?, knots], bend, corners })
+}
+
+/// The knots along the field with those at which the bends begin.
+fn with_breaks(knots: &KnotVector, bend: &Bend) -> Result<KnotVector, SplineError> {
+    let mut breaks = knots.breakpoints();
+    let spacing = 1.0 / (breaks.len() - 1) as f64;
+    for side in 0..2 {
+        let at = if side == 0 { bend.reach[0] } else { 1.0 - bend.reach[1] };
+        let bends = bend.ends[side].iter().any(|e| (e - side as f64).abs() > 1e-9);
+        if bends && at > 0.0 && at < 1.0 && breaks.iter().all(|b| (b - at).abs() > 0.2 * spacing) {
+            breaks.push(at);
+        }
+    }
+    breaks.sort_by(f64::total_cmp);
+    KnotVector::from_breakpoints(DEGREE, &breaks, &vec![1; breaks.len() - 2])
+}

@@ -1,0 +1,118 @@
+//! A level table as a fair field of few numbers, ready to be constrained.
+//!
+//! The field ([`super::field`]) of greatest likelihood is interpolated on the net of its hull, whose edges are stern and
+//! stem. What is wished then moves it by a change of least energy: with F the field and J the sum of squares and energy,
+//! J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd, since F makes J stationary. So without wishes the answer is the field itself.
+
+use super::field::observed::Observations;
+use super::field::surface::LevelField;
+use super::model::{Model, Reading, Stationary};
+use super::surface::{FairSurface, readings};
+use crate::hull::{Hull, HullError, OffsetTable};
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+
+/// Control values of stem, stern and keel below this part of B are on the centreplane.
+const ENDS: f64 = 1e-5;
+
+/// What the likelihood says of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Likely {
+    /// Standard deviation of the errors of an offset of weight 1 \[m\].
+    pub(super) sigma: f64,
+    /// Weight of the energy against sums of squares.
+    pub(super) weight: f64,
+}
+
+impl FairSurface {
+    /// The field of a level table over the chart of its hull; none where the offsets determine none. Deck and particulars
+    /// are those of `fitted`; cells of `left_out` say nothing.
+    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull, left_out: &[(usize, usize)]) -> Option<(Self, Likely)> {
+        let seen = Observations::new(table, left_out);
+        let shape = [table.stations.len(), table.waterlines.len()];
+        if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 3 || seen.readings.len() < 16 {
+            return None;
+        }
+        let field = LevelField::new(&seen, shape, table.form.quantum().unwrap_or(0.0)).ok()?;
+        let hull = hull_of(&field, fitted).ok()?;
+        let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
+        let known = known(&hull);
+        let (mut readings, places) = readings(table, &hull);
+        weigh(&mut readings, &places, &field, &known);
+        let energy = field.bent.energy(&field.net, field.chosen.anisotropy);
+        let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
+        let model = Model {
+            energy,
+            readings,
+            known,
+            straight: None,
+            start: None,
+            carried: None,
+            stationary: Some(Stationary { weight: likely.weight, net: start.clone() }),
+        };
+        Some((Self::over(hull, model, places, start, field.chosen.anisotropy), likely))
+    }
+}
+
+/// The hull of a field.
+fn hull_of(field: &LevelField, fitted: &Hull) -> Result<Hull, HullError> {
+    let bent = &field.bent;
+    let places = bent.places()?;
+    let values = bent.half_breadths(&field.field())?;
+    let columns = bent.shape()[1];
+    let breadth = fitted.particulars().breadth;
+    let rows = bent.shape()[0];
+    let points = places.iter().zip(values).enumerate().map(|(k, ([x, _], y))| {
+        let (i, j) = (k / columns, k % columns);
+        let edge = i == 0 || i + 1 == rows || j == 0;
+        // Along an end the field is 0 to rounding.
+        let y = if edge && y.abs() <= ENDS * breadth { 0.0 } else { y };
+        [*x, y, places[j][1]]
+    });
+    let points: Vec<[f64; 3]> = points.collect();
+    let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
+    let extent = |axis: usize| {
+        let values = surface.points().iter().map(|p| p[axis]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
+    };
+    let deck = deck(fitted.deck(), extent(0), extent(2))?;
+    Hull::new(fitted.name(), *fitted.particulars(), surface, deck)
+}
+
+/// The deck at side over another length, within other heights.
+fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) -> Result<BsplineCurve<2>, HullError> {
+    let slack = 1e-6 * (fore - aft);
+    let inside = deck.points().iter().filter(|p| p[0] > aft + slack && p[0] < fore - slack).copied();
+    let (first, last) = (deck.points()[0][1], deck.points()[deck.points().len() - 1][1]);
+    let points: Vec<[f64; 2]> = std::iter::once([aft, first])
+        .chain(inside)
+        .chain([[fore, last]])
+        .map(|[x, z]| [x, z.clamp(low + 1e-6 * (high - low), high)])
+        .collect();
+    let breaks: Vec<f64> = points.iter().map(|p| p[0]).collect();
+    let knots = KnotVector::from_breakpoints(1, &breaks, &vec![1; breaks.len() - 2])?;
+    Ok(BsplineCurve::new(knots, points)?)
+}
+
+/// Control values of stem, stern and keel that lie on the centreplane.
+fn known(hull: &Hull) -> Vec<Option<f64>> {
+    let [rows, columns] = hull.surface().shape();
+    let value = |k: usize| {
+        let (i, j) = (k / columns, k % columns);
+        let y = hull.surface().point(i, j)[1];
+        ((i == 0 || i + 1 == rows || j == 0) && y.abs() <= ENDS * hull.particulars().breadth).then_some(y)
+    };
+    (0..rows * columns).map(value).collect()
+}
+
+/// Weights of the readings: one over the square of the factor of their errors.
+fn weigh(readings: &mut [Reading], places: &[super::surface::Place], field: &LevelField, known: &[Option<f64>]) {
+    let f = field.field();
+    for (reading, place) in readings.iter_mut().zip(places) {
+        let scale = f.steepness(place.x, place.z).min(super::field::surface::STEEPEST).powf(field.power);
+        reading.weight /= scale * scale;
+        let free = reading.row.iter().filter(|(i, _)| known[*i].is_none()).map(|(_, value)| value.abs()).sum::<f64>();
+        if free < 1e-9 {
+            reading.weight = 0.0;
+        }
+    }
+}
