@@ -71,7 +71,7 @@ pub(super) struct Arguments {
     /// Weight of bending along the ship; that across is its inverse [default: 0.6]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     anisotropy: Option<String>,
-    /// Smoothing weight, or "auto": by the errors of the table (Mallows), by cross-validation on an independent net [default: auto]
+    /// Smoothing weight, or "auto": by the errors of the table (Mallows) on the net of a fit, by cross-validation on an independent net [default: auto]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     weight: Option<String>,
     /// Take suspected typing errors as they are

@@ -109,6 +109,9 @@ impl FairSettings {
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
 
+/// Powers of ten to each side of the weight of a field that are drawn.
+const TRIALS: i32 = 3;
+
 /// Readings that the noise of the whole table counts as.
 const PRIOR: f64 = 4.0;
 
@@ -253,7 +256,8 @@ impl Prepared {
     ) -> Result<Self, FairError> {
         let smoother = Smoother::new(&surface.model);
         let lambda = likely.weight / smoother.unit;
-        Self::searched(surface, settings, smoother, (lambda, Vec::new()), Some(likely.sigma))
+        let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
+        Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
     }
 
     /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is
@@ -287,7 +291,7 @@ impl Prepared {
             let own = settings.tolerances.get(k).copied().flatten();
             reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
         }
-        let guarded = settings.signs && !surface.own && !surface.is_field;
+        let guarded = settings.signs && !surface.own;
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
         Ok(Self { smoother, lambda, smoothed, sigma, errors: settings.errors(sigma), trials, lines })
     }
@@ -354,7 +358,7 @@ pub fn fair_prepared(
         ..Wishes::default()
     };
     // The surface through the table swings past B/2 between offsets that stay: so does any other through them.
-    if !surface.own && (settings.admits || surface.places.iter().any(|place| place.locked)) {
+    if surface.is_field || !surface.own && (settings.admits || surface.places.iter().any(|place| place.locked)) {
         admit(&mut wishes.breadths, &surface.start);
     }
     let forms = sign_forms(surface);
@@ -421,7 +425,7 @@ pub fn fair_prepared(
     // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
     // nothing elsewhere.
     let mut guarded = None;
-    if settings.signs && diagnosis.is_none() && !surface.own && !surface.is_field && solved.is_optimal() {
+    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
         let question = Question {
             surface,
             model,

@@ -6,13 +6,16 @@
 
 use super::field::observed::Observations;
 use super::field::surface::LevelField;
-use super::model::{Model, Reading, Stationary};
-use super::surface::{FairSurface, readings};
-use crate::hull::{Hull, HullError, OffsetTable};
+use super::model::{Model, Reading, Stationary, value};
+use super::surface::{FairSurface, Origin, Place, readings};
+use crate::hull::{Cell, Hull, HullError, OffsetTable};
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
-/// Control values of stem, stern and keel below this part of B are on the centreplane.
-const ENDS: f64 = 1e-5;
+/// A half-breadth of the bottom above this part of B is none of a keel.
+const KEEL: f64 = 1e-2;
+
+/// Most noise of a field that follows its table, over the breadth.
+const MOST_NOISE: f64 = 1.25e-3;
 
 /// What the likelihood says of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,10 +36,28 @@ impl FairSurface {
             return None;
         }
         let field = LevelField::new(&seen, shape, table.form.quantum().unwrap_or(0.0)).ok()?;
+        let breadth = fitted.particulars().breadth;
+        let most = (MOST_NOISE * breadth).max(2.0 * table.form.quantum().unwrap_or(0.0));
+        if field.chosen.field.sigma > most {
+            return None;
+        }
         let hull = hull_of(&field, fitted).ok()?;
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
-        let known = known(&hull);
-        let (mut readings, places) = readings(table, &hull);
+        let known: Vec<Option<f64>> = (0..start.len()).map(|k| field.bent.is_closed(k).then_some(0.0)).collect();
+        let (readings, places) = readings(table, &hull);
+        // Zeros on the lowest waterline of a flat bottom are its keel, not its edge.
+        let base = hull.bottom() + 1e-9 * (hull.top() - hull.bottom());
+        let between = |place: &Place| {
+            let Origin::HalfBreadth { station, waterline } = place.origin else { return false };
+            let given = |k: usize| table.stations[k].half_breadths.get(waterline).and_then(Cell::value);
+            let wide = |k: usize| given(k).is_some_and(|y| y > 0.0);
+            (0..station).any(wide) && (station + 1..table.stations.len()).any(wide)
+        };
+        let said = |(reading, place): &(Reading, Place)| {
+            let far = value(&reading.row, &start) > KEEL * breadth;
+            !far || reading.value > 0.0 || place.z > base || place.locked || !between(place)
+        };
+        let (mut readings, places): (Vec<Reading>, Vec<Place>) = readings.into_iter().zip(places).filter(said).unzip();
         weigh(&mut readings, &places, &field, &known);
         let energy = field.bent.energy(&field.net, field.chosen.anisotropy);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
@@ -59,15 +80,7 @@ fn hull_of(field: &LevelField, fitted: &Hull) -> Result<Hull, HullError> {
     let places = bent.places()?;
     let values = bent.half_breadths(&field.field())?;
     let columns = bent.shape()[1];
-    let breadth = fitted.particulars().breadth;
-    let rows = bent.shape()[0];
-    let points = places.iter().zip(values).enumerate().map(|(k, ([x, _], y))| {
-        let (i, j) = (k / columns, k % columns);
-        let edge = i == 0 || i + 1 == rows || j == 0;
-        // Along an end the field is 0 to rounding.
-        let y = if edge && y.abs() <= ENDS * breadth { 0.0 } else { y };
-        [*x, y, places[j][1]]
-    });
+    let points = places.iter().zip(values).enumerate().map(|(k, ([x, _], y))| [*x, y, places[k % columns][1]]);
     let points: Vec<[f64; 3]> = points.collect();
     let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
     let extent = |axis: usize| {
@@ -93,19 +106,8 @@ fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) ->
     Ok(BsplineCurve::new(knots, points)?)
 }
 
-/// Control values of stem, stern and keel that lie on the centreplane.
-fn known(hull: &Hull) -> Vec<Option<f64>> {
-    let [rows, columns] = hull.surface().shape();
-    let value = |k: usize| {
-        let (i, j) = (k / columns, k % columns);
-        let y = hull.surface().point(i, j)[1];
-        ((i == 0 || i + 1 == rows || j == 0) && y.abs() <= ENDS * hull.particulars().breadth).then_some(y)
-    };
-    (0..rows * columns).map(value).collect()
-}
-
 /// Weights of the readings: one over the square of the factor of their errors.
-fn weigh(readings: &mut [Reading], places: &[super::surface::Place], field: &LevelField, known: &[Option<f64>]) {
+fn weigh(readings: &mut [Reading], places: &[Place], field: &LevelField, known: &[Option<f64>]) {
     let f = field.field();
     for (reading, place) in readings.iter_mut().zip(places) {
         let scale = f.steepness(place.x, place.z).min(super::field::surface::STEEPEST).powf(field.power);

@@ -146,6 +146,9 @@ pub struct Job {
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
     pub locked: Vec<(usize, usize)>,
+    /// Whether a level table without targets, locks, rules and tolerances of its own is smoothed as a fair field
+    /// ([`super::field`]), where that follows it.
+    pub field: bool,
     /// Whether suspects are left out.
     pub exclude_suspects: bool,
     /// Whether the energy is that of true curvature: the metric is refreshed until it stands still.
@@ -161,12 +164,20 @@ pub struct Job {
 }
 
 impl Job {
-    /// Whether the job leaves weight, energy and lines to the program.
+    /// Whether a field is asked for and the job leaves everything else to the program.
     pub(super) fn is_plain(&self) -> bool {
-        self.weight.is_none()
-            && self.energy == EnergySettings::default()
+        let kept = Self { accepted: self.accepted.clone(), ..Self::default() };
+        self.field
+            && self.weight.is_none()
+            && self.energy == kept.energy
+            && self.holding == kept.holding
+            && self.tolerance == kept.tolerance
+            && self.locked.is_empty()
+            && self.rules.is_empty()
             && self.lines.is_empty()
             && self.accepted == Accepted::None
+            && !self.bending
+            && !self.true_curvature
     }
 }
 
@@ -184,6 +195,7 @@ impl Default for Job {
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
             locked: Vec::new(),
+            field: false,
             exclude_suspects: true,
             signs: true,
             price: PRICE,

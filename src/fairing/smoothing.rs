@@ -292,7 +292,7 @@ impl Smoother {
 
     /// What the search wants to know of a weight; edf is the trace of A'WA N^-1, without the leverages of single
     /// readings.
-    fn trial(&self, lambda: f64) -> Option<Trial> {
+    pub(super) fn trial(&self, lambda: f64) -> Option<Trial> {
         let (free, factor) = self.solved(lambda).ok()?;
         let edf = self.told.trace_of_product(&factor.inverse_band());
         let data = &self.reduced.data;

@@ -117,17 +117,7 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let of_field = own && job.is_plain() && table.lines.is_empty();
-        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !of_field)?;
-        let mut likely = None;
-        if of_field
-            && modelled.before.is_level()
-            && !job.rules.iter().any(|rule| rule.keeps_the_fit(&modelled.before))
-            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before, &[])
-        {
-            modelled.surface = surface;
-            likely = Some(found);
-        }
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
             let wrong = modelled.gross_errors()?;
@@ -155,6 +145,18 @@ impl Started {
                     FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None, &modelled.breaks)?;
                 (modelled.search, gap) = (None, 0.0);
             }
+        }
+        let mut likely = None;
+        if own
+            && !modelled.surface.own
+            && job.is_plain()
+            && table.lines.is_empty()
+            && modelled.before.is_level()
+            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before, &[])
+        {
+            modelled.surface = surface;
+            (modelled.search, gap) = (None, 0.0);
+            likely = Some(found);
         }
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));

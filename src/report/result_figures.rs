@@ -230,9 +230,9 @@ fn fairing_jobs<'a>(
             [
                 "lcurve",
                 "Search for the smoothing weight",
-                "A point for each smoothing weight that was tried. The one taken has the least expected error to the hull (cross-validation, or \
-                 Mallows' criterion at the errors of the table), which need not be a bend of the line: further right the offsets move more, for \
-                 less energy.",
+                "A point for each smoothing weight that was tried. The one taken has the greatest likelihood, or the least expected error to the hull \
+                 (cross-validation, or Mallows' criterion at the errors of the table). It need not be a bend of the line: further right the \
+                 offsets move more, for less energy.",
             ],
             one(|_| smoothing_figure(record)),
         ),

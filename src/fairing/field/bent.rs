@@ -48,6 +48,10 @@ pub struct Bent {
     pub knots: [KnotVector; 2],
     /// Lines v = constant across which the chart has a corner.
     pub corners: Vec<f64>,
+    /// Whether the hull closes at the ends, for every control value along v.
+    pub closed: [Vec<bool>; 2],
+    /// Whether it closes along the keel.
+    pub keel_closed: bool,
 }
 
 impl Bent {
@@ -94,7 +98,17 @@ impl Bent {
     /// # Errors
     /// [`SplineError`] when the knots do not determine them.
     pub fn half_breadths(&self, field: &Field<'_>) -> Result<Vec<f64>, SplineError> {
-        self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))
+        let mut values = self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))?;
+        (0..values.len()).filter(|&k| self.is_closed(k)).for_each(|k| values[k] = 0.0);
+        Ok(values)
+    }
+
+    /// Whether a control value is on the centreplane.
+    #[must_use]
+    pub fn is_closed(&self, k: usize) -> bool {
+        let [rows, columns] = self.shape();
+        let (i, j) = (k / columns, k % columns);
+        i == 0 && self.closed[0][j] || i + 1 == rows && self.closed[1][j] || j == 0 && self.keel_closed
     }
 
     /// The place of a point of the profile.

@@ -73,7 +73,7 @@ impl Search<'_> {
         let mut seen = BTreeMap::new();
         let mut look = |exponent: f64, best: &mut Option<(f64, Smoothed)>| {
             let key = (exponent * 16.0).round() as i64;
-            if exponent < WEIGHTS[0] || exponent > WEIGHTS[1] || seen.insert(key, ()).is_some() {
+            if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || seen.insert(key, ()).is_some() {
                 return;
             }
             trials += 1;
@@ -87,8 +87,7 @@ impl Search<'_> {
         let mut step = WEIGHTS[2];
         look(self.exponent, &mut best);
         while step > 0.2 {
-            loop {
-                let Some(centre) = best.as_ref().map(|b| b.0) else { break };
+            while let Some(centre) = best.as_ref().map(|b| b.0) {
                 look(centre - step, &mut best);
                 look(centre + step, &mut best);
                 if best.as_ref().is_none_or(|b| (b.0 - centre).abs() < 1e-9) {

@@ -1,5 +1,17 @@
-//! A fair half-breadth field over a chart of few numbers.
+//! A fair field of half-breadths through a level table, on a chart of few numbers.
+//!
+//! Of all quintic spline fields y(u, v) over the rectangle of the table the one is taken that minimises
+//!
+//! ```text
+//! sum_i ((y(u_i, v_i) - y_i) / s_i)^2 + w int int sum_k C(4, k) (d^4 y / ds^(4-k) dt^k)^2 ds dt
+//! ```
+//!
+//! with s and t the parameters counted in intervals of the table, t over the anisotropy a ([`net`]). The chart
+//! x(u), z(v) has three numbers ([`chart`]). These, a, w and the noise maximise the restricted likelihood of the table
+//! ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba 1985). What the table says of ends is in [`observed`],
+//! where the hull is within its rectangle in [`region`], and the net of the hull with the same energy in [`bent`].
 
+#[allow(clippy::needless_range_loop, reason = "orders of derivatives are what the loops run over")]
 pub mod bent;
 pub mod chart;
 pub mod choice;
@@ -8,3 +20,6 @@ pub mod net;
 pub mod observed;
 pub mod region;
 pub mod surface;
+#[cfg(test)]
+#[allow(clippy::needless_range_loop, reason = "orders of derivatives are what the loops run over")]
+mod tests;

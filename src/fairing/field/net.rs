@@ -3,7 +3,7 @@
 //! The energy of order n = 4 over parameters counted in intervals of the table, s = N u and t = M v, is
 //!
 //! ```text
-//! E = int int sum_k C(n, k) a^(2k) y_(s^(n-k) t^k)^2 ds dt / a  =  y'P(a)y,   P(a) = sum_k C(n, k) a^(1-2k) ... G_u^(n-k) x G_v^(k)
+//! E = int int sum_k C(n, k) a^(1-2k) (d^n y / ds^(n-k) dt^k)^2 ds dt = c'P(a) c
 //! ```
 //!
 //! with the anisotropy a. Its kernel are the polynomials in u and v of total degree n - 1.

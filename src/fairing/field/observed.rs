@@ -45,13 +45,6 @@ pub enum Source {
         /// Index of the waterline.
         waterline: usize,
     },
-    /// A station without hull, at which the half-breadth is at most 0.
-    Outside {
-        /// Index of the station.
-        station: usize,
-        /// Index of the waterline.
-        waterline: usize,
-    },
     /// A station whose deck is below the waterline, at which the half-breadth is more than 0.
     AboveDeck {
         /// Index of the station.
@@ -107,12 +100,14 @@ pub struct Waterline {
 pub struct Observations {
     /// Offsets and other values of the field.
     pub readings: Vec<Reading>,
-    /// Upper bounds 0 outside the hull, and lower bounds above the deck.
+    /// Half-breadths above the deck, where the side goes on.
     pub bounds: Vec<Reading>,
     /// Waterlines with breadth, from below.
     pub waterlines: Vec<Waterline>,
     /// From aft to forward and from below upwards: the rectangle \[m\].
     pub extent: [[f64; 2]; 2],
+    /// Whether the lowest line is on the centreplane all along.
+    pub keel_closed: bool,
 }
 
 struct Line<'a> {
@@ -163,9 +158,8 @@ impl Observations {
         let height = highest - keel.min(lowest);
         let bottom = if lowest - keel > ABOVE_KEEL * height { keel } else { lowest };
         let mut found = Self::default();
-        let plumb = plumb_zeros(table);
         for j in 0..table.waterlines.len() {
-            found.waterline(&Line { table, j }, plumb, left_out);
+            found.waterline(&Line { table, j }, left_out);
         }
         for (k, z) in keels() {
             let x = stations[k].station.x;
@@ -195,6 +189,8 @@ impl Observations {
         let places = found.readings.iter().map(|r| r.cell.x);
         let along = ends.chain(places).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
         found.extent = [along, [bottom, top]];
+        let mut lowest = found.readings.iter().filter(|r| r.cell.z <= bottom + 1e-9 * height).peekable();
+        found.keel_closed = lowest.peek().is_some() && lowest.all(|r| r.cell.y <= 0.0);
         found
     }
 
@@ -202,7 +198,7 @@ impl Observations {
         self.readings.push(Reading { cell, source });
     }
 
-    fn waterline(&mut self, line: &Line<'_>, plumb: [bool; 2], left_out: &[(usize, usize)]) {
+    fn waterline(&mut self, line: &Line<'_>, left_out: &[(usize, usize)]) {
         let count = line.table.stations.len();
         let (j, z) = (line.j, line.table.waterlines[line.j]);
         let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
@@ -213,7 +209,8 @@ impl Observations {
                 continue;
             }
             let marks = line.station(k).half_breadths[j].marks;
-            let scale = if marks.locked {
+            // A line of zeros is the keel.
+            let scale = if marks.locked || positive.is_empty() {
                 EXACT
             } else if marks.doubtful {
                 DOUBTFUL
@@ -223,12 +220,10 @@ impl Observations {
             self.push(Cell { x: line.station(k).station.x, z, y, scale }, Source::Offset { station: k, waterline: j });
         }
         let (Some(&first), Some(&last)) = (positive.first(), positive.last()) else { return };
-        // Blanks within are unknown, or a gap of the body; above the deck the side goes on.
+        // Above the deck the side goes on. Blanks and zeros between offsets say nothing: keels are written so.
         for k in first..=last {
             if line.is_above_deck(k) {
                 self.above_deck(line, k);
-            } else if line.value(k).is_some_and(|y| y <= 0.0) || line.entry(k) == Entry::Absent {
-                self.outside(line, k);
             }
         }
         let mut ends = [End::Cut(0.0); 2];
@@ -241,12 +236,12 @@ impl Observations {
                 k = n;
             }
             inner[side] = line.station(if side == 0 { first } else { last }).station.x;
-            ends[side] = self.end(line, side, k, outward(k), plumb[side]);
+            ends[side] = self.end(line, side, k, outward(k));
         }
         self.waterlines.push(Waterline { z, ends, inner });
     }
 
-    fn end(&mut self, line: &Line<'_>, side: usize, k: usize, next: Option<usize>, plumb: bool) -> End {
+    fn end(&mut self, line: &Line<'_>, side: usize, k: usize, next: Option<usize>) -> End {
         let (x, z) = (line.station(k).station.x, line.table.waterlines[line.j]);
         let outward = |a: f64, b: f64| if side == 0 { a <= b } else { a >= b };
         if let Some(at) =
@@ -262,24 +257,17 @@ impl Observations {
             && let Some(at) = line.table.transom.and_then(|plane| on_transom(plane, z, x))
         {
             if let Some(n) = next.filter(|&n| line.station(n).station.x >= at) {
-                self.outside(line, n);
                 return End::Between(x, line.station(n).station.x);
             }
             return End::Cut(at);
         }
         let Some(next) = next else { return End::Cut(x) };
         let beyond = line.station(next).station.x;
-        if plumb && line.value(next).is_some_and(|y| y <= 0.0) {
+        if is_plumb(line, side) {
             self.push(Cell { x: beyond, z, y: 0.0, scale: EXACT }, Source::End { waterline: line.j });
             return End::Closed(beyond);
         }
-        self.outside(line, next);
         End::Between(x, beyond)
-    }
-
-    fn outside(&mut self, line: &Line<'_>, k: usize) {
-        let cell = Cell { x: line.station(k).station.x, z: line.table.waterlines[line.j], y: 0.0, scale: 1.0 };
-        self.bounds.push(Reading { cell, source: Source::Outside { station: k, waterline: line.j } });
     }
 
     fn above_deck(&mut self, line: &Line<'_>, k: usize) {
@@ -297,19 +285,17 @@ fn on_transom(plane: TransomPlane, z: f64, last: f64) -> Option<f64> {
     (last >= at - 1e-9 * (1.0 + at.abs())).then_some(at)
 }
 
-/// Whether the zeros at which waterlines end stand at one station, aft and forward.
-fn plumb_zeros(table: &OffsetTable) -> [bool; 2] {
-    [false, true].map(|fore| {
-        let count = table.stations.len();
-        let outwards = |n: usize| if fore { count - 1 - n } else { n };
-        let zero = |j: usize| {
-            let line = Line { table, j };
-            let last = (0..count).find(|&n| line.value(outwards(n)).is_some_and(|y| y > 0.0))?;
-            let beyond = last.checked_sub(1)?;
-            let given = table.endings.get(j).and_then(|ends| ends[usize::from(fore)]).is_some();
-            line.value(outwards(beyond)).filter(|y| *y <= 0.0 && !given).map(|_| beyond)
-        };
-        let zeros: Vec<Option<usize>> = (0..table.waterlines.len()).map(zero).collect();
-        !zeros.windows(2).any(|pair| matches!(pair, [Some(a), Some(b)] if a != b))
-    })
+/// Whether a waterline ends at a zero at the station of that of the next waterline above or below: a perpendicular.
+fn is_plumb(line: &Line<'_>, side: usize) -> bool {
+    let count = line.table.stations.len();
+    let outwards = |n: usize| if side == 1 { count - 1 - n } else { n };
+    let zero = |j: usize| {
+        let line = Line { table: line.table, j };
+        let last = (0..count).find(|&n| line.value(outwards(n)).is_some_and(|y| y > 0.0))?;
+        let beyond = last.checked_sub(1)?;
+        line.value(outwards(beyond)).filter(|y| *y <= 0.0).map(|_| beyond)
+    };
+    let own = zero(line.j);
+    let beside = [line.j.checked_sub(1), Some(line.j + 1).filter(|&j| j < line.table.waterlines.len())];
+    own.is_some() && beside.into_iter().flatten().any(|j| zero(j) == own)
 }

@@ -16,10 +16,13 @@ use super::net::{DEGREE, Net};
 use crate::spline::KnotVector;
 
 /// Steps a span in which a zero of the field is looked for.
-const STEPS: usize = 4;
+const STEPS: usize = 8;
 
 /// Least du/dw of the chart of the hull.
 const LEAST_SLOPE: f64 = 0.25;
+
+/// How often the spline of the ends is corrected.
+const CORRECTIONS: usize = 6;
 
 /// How far from an end a bend reaches at least.
 const REACH: f64 = 0.3;
@@ -61,12 +64,25 @@ impl Field<'_> {
         (1.0 + along * along + up * up).sqrt()
     }
 
+    /// Where the field is least at height v between u = `from` and u = `to`, at one of the places at which zeros are looked
+    /// for.
+    #[must_use]
+    pub fn least(&self, v: f64, from: f64, to: f64) -> f64 {
+        let steps = self.steps(from, to);
+        let places = (0..=steps).map(|k| from + (to - from) * k as f64 / steps as f64);
+        places.map(|u| (self.at([u, v]), u)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(to, |(_, u)| u)
+    }
+
+    fn steps(&self, from: f64, to: f64) -> usize {
+        let spans = self.net.knots[0].breakpoints().len() as f64;
+        (((to - from).abs() * spans).ceil() as usize * STEPS).max(STEPS)
+    }
+
     /// The first zero at height v on the way from u = `from`, where the field is positive, to u = `to`; none where it is
     /// positive all the way.
     #[must_use]
     pub fn zero(&self, v: f64, from: f64, to: f64) -> Option<f64> {
-        let spans = self.net.knots[0].breakpoints().len() as f64;
-        let steps = (((to - from).abs() * spans).ceil() as usize * STEPS).max(STEPS);
+        let steps = self.steps(from, to);
         let (mut inside, mut outside) = (from, None);
         for k in 1..=steps {
             let u = from + (to - from) * k as f64 / steps as f64;
@@ -99,18 +115,22 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// The bend whose ends are given at any v: their control values are the ends at the Greville places, corrected once
-    /// (variation diminishing splines, Schoenberg 1967; errors fall with the fourth power of the spacing).
+    /// The bend whose ends are given at any v: their control values are the ends at the Greville places (variation
+    /// diminishing splines, Schoenberg 1967), corrected by what the spline misses there a few times, so that it comes near
+    /// the interpolating spline where that does not swing.
     #[must_use]
     pub fn new(knots: KnotVector, end: impl Fn(f64) -> [f64; 2]) -> Self {
         let sites = knots.greville();
         let wanted: Vec<[f64; 2]> = sites.iter().map(|&v| end(v)).collect();
         let ends = [0, 1].map(|side| {
             let exact: Vec<f64> = wanted.iter().map(|ends| ends[side]).collect();
-            let once: Vec<f64> = sites.iter().map(|&v| spline(&knots, &exact, v)).collect();
-            let twice: Vec<f64> = exact.iter().zip(&once).map(|(e, o)| 2.0 * e - o).collect();
+            let mut control = exact.clone();
+            for _ in 0..CORRECTIONS {
+                let found: Vec<f64> = sites.iter().map(|&v| spline(&knots, &control, v)).collect();
+                control.iter_mut().zip(exact.iter().zip(&found)).for_each(|(c, (e, f))| *c += e - f);
+            }
             let bounds = exact.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &e| [a.min(e), b.max(e)]);
-            twice.into_iter().map(|c| c.clamp(bounds[0], bounds[1])).collect::<Vec<f64>>()
+            control.into_iter().map(|c| c.clamp(bounds[0], bounds[1])).collect::<Vec<f64>>()
         });
         let most = [ends[0].iter().fold(0.0f64, |m, &e| m.max(e)), ends[1].iter().fold(0.0f64, |m, &e| m.max(1.0 - e))];
         let mut reach = [REACH; 2];

@@ -5,7 +5,7 @@ use super::chart::{Chart, Shape};
 use super::choice::{Chosen, choose};
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
 use super::net::{DEGREE, Net};
-use super::observed::{End, Observations, Source, Waterline};
+use super::observed::{End, Observations};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
 
@@ -21,7 +21,10 @@ const CLOSE: f64 = 0.4;
 /// Powers of the steepness that are tried.
 const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// Rounds in which stations without hull are made to hold.
+/// Distance in v at which the sides of a corner are looked at.
+const BESIDE: f64 = 1e-6;
+
+/// Rounds in which the side above the deck is kept from closing.
 const ROUNDS: usize = 4;
 
 /// Least noise over the length of the half-breadths where no digit says it.
@@ -63,17 +66,27 @@ impl LevelField {
         let [length, height] = seen.extent;
         let net = Net::uniform([stations.max(4), waterlines.max(4)], [stations as f64 - 1.0, waterlines as f64 - 1.0])?;
         let rectangle = Chart { length, height, shape: Shape { keel: 0.1, ends: [0.0; 2] } };
-        let mut cells: Vec<Cell> = seen.readings.iter().map(|reading| reading.cell).collect();
+        let cells: Vec<Cell> = seen.readings.iter().map(|reading| reading.cell).collect();
         let greatest = cells.iter().fold(0.0f64, |m, cell| m.max(cell.y));
         let least = (resolution / 12f64.sqrt()).max(LEAST_NOISE * 2.0 * greatest);
         let first = smooth_first(&net, &cells, rectangle, least).ok_or(FieldError::Undetermined)?;
         let field = Field { chart: &rectangle, net: &net, values: &first.values };
         let steepness: Vec<f64> = cells.iter().map(|c| field.steepness(c.x, c.z).min(STEEPEST)).collect();
-        let power = errors(&net, &cells, &steepness, rectangle, least).ok_or(FieldError::Undetermined)?;
-        for (cell, s) in cells.iter_mut().zip(&steepness) {
-            cell.scale *= s.powf(power);
+        // The power of the steepness that the errors go with: 0 where they are alike in y, as written digits are, 1 where they
+        // are alike normal to the hull, as readings of a drawing are.
+        let mut best: Option<(f64, f64, Chosen, Vec<Cell>)> = None;
+        for power in POWERS {
+            let scaled: Vec<Cell> =
+                cells.iter().zip(&steepness).map(|(c, s)| Cell { scale: c.scale * s.powf(power), ..*c }).collect();
+            let jacobian: f64 = scaled.iter().map(|c| 2.0 * c.scale.ln()).sum();
+            if let Some(found) = choose(&net, &scaled, rectangle, least) {
+                let cost = found.field.cost + jacobian;
+                if best.as_ref().is_none_or(|b| cost < b.0) {
+                    best = Some((cost, power, found, scaled));
+                }
+            }
         }
-        let mut chosen = choose(&net, &cells, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let (_, power, mut chosen, mut cells) = best.ok_or(FieldError::Undetermined)?;
         let rough = Roughness::new(&net, chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
         for _ in 0..ROUNDS {
             let field = Field { chart: &chosen.chart, net: &net, values: &chosen.field.values };
@@ -81,10 +94,7 @@ impl LevelField {
             for bound in &seen.bounds {
                 let Cell { x, z, y, .. } = bound.cell;
                 let found = field.at([chosen.chart.u(x), chosen.chart.v(z)]);
-                let broken = match bound.source {
-                    Source::AboveDeck { .. } => found < 0.5 * y,
-                    _ => found > 0.0,
-                };
+                let broken = found < 0.5 * y;
                 let known = cells.iter().any(|cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9);
                 if broken && !known {
                     cells.push(bound.cell);
@@ -108,22 +118,6 @@ impl LevelField {
     }
 }
 
-/// The power of the steepness that the errors of the half-breadths go with, by likelihood: 0 where they are alike in y, as
-/// written digits are, 1 where they are alike normal to the hull, as readings of a drawing are.
-fn errors(net: &Net, cells: &[Cell], steepness: &[f64], chart: Chart, least: f64) -> Option<f64> {
-    let rough = Roughness::new(net, 1.0).ok()?;
-    let cost = |power: f64| {
-        let scaled: Vec<Cell> =
-            cells.iter().zip(steepness).map(|(c, s)| Cell { scale: c.scale * s.powf(power), ..*c }).collect();
-        let observed = Observed::new(net, &chart, &scaled);
-        let jacobian: f64 = scaled.iter().map(|c| 2.0 * c.scale.ln()).sum();
-        let tried = (-8..=1).filter_map(|e| smoothed(&observed, &rough, 10f64.powi(e), least).ok());
-        tried.map(|found| found.cost + jacobian).min_by(f64::total_cmp)
-    };
-    let costs: Vec<(f64, f64)> = POWERS.iter().filter_map(|&power| Some((cost(power)?, power))).collect();
-    costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, power)| power)
-}
-
 /// A first smooth field, for the slopes of the hull.
 fn smooth_first(net: &Net, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
     let observed = Observed::new(net, &chart, cells);
@@ -135,27 +129,38 @@ fn smooth_first(net: &Net, cells: &[Cell], chart: Chart, least: f64) -> Option<S
 /// The ends of a hull at any height.
 struct Ends<'a> {
     field: Field<'a>,
-    lines: &'a [Waterline],
+    seen: &'a Observations,
+    /// The least v at which a contour is looked for: on a keel the field vanishes all along.
+    least: f64,
 }
 
 impl Ends<'_> {
     /// u of the end at v, and whether the hull is cut off there with breadth.
     fn at(&self, v: f64, side: usize) -> (f64, bool) {
-        let chart = self.field.chart;
+        let v = v.max(self.least);
+        let (chart, lines) = (self.field.chart, &self.seen.waterlines);
         let z = chart.z(v);
-        let above = self.lines.partition_point(|line| line.z < z);
-        let last = self.lines.len() - 1;
-        let [below, above] = [&self.lines[above.saturating_sub(1).min(last)], &self.lines[above.min(last)]];
+        let above = lines.partition_point(|line| line.z < z);
+        let last = lines.len() - 1;
+        let [below, above] = [&lines[above.saturating_sub(1).min(last)], &lines[above.min(last)]];
         let pick = |a: f64, b: f64, outer: bool| if (side == 0) == outer { a.min(b) } else { a.max(b) };
         let from = pick(below.inner[side], above.inner[side], false);
         let to = match [below.ends[side], above.ends[side]] {
             [End::Cut(a), End::Cut(b)] if above.z > below.z => {
                 a + (b - a) * ((z - below.z) / (above.z - below.z)).clamp(0.0, 1.0)
             }
+            // Plumb.
+            [End::Closed(a), End::Closed(b)] if (a - b).abs() <= 1e-9 * (1.0 + a.abs()) => return (chart.u(a), false),
             [a, b] => pick(a.outermost(), b.outermost(), true),
         };
-        let to = chart.u(to);
-        self.field.zero(v, chart.u(from), to).map_or((to, true), |u| (u, false))
+        let cut = [below, above].iter().any(|line| matches!(line.ends[side], End::Cut(_)));
+        let (from, to) = (chart.u(from), chart.u(to));
+        match self.field.zero(v, from, to) {
+            Some(u) => (u, false),
+            None if cut => (to, true),
+            // It has to close between two stations: where it comes nearest to it.
+            None => (self.field.least(v, from, to), false),
+        }
     }
 
     /// Heights v at which a contour meets an edge, from below.
@@ -182,9 +187,10 @@ impl Ends<'_> {
 /// The chart of the hull: its ends are those of the field, within what the table leaves open.
 fn bent(net: &Net, chosen: &Chosen, seen: &Observations) -> Result<Bent, FieldError> {
     let chart = chosen.chart;
-    let ends = Ends { field: Field { chart: &chart, net, values: &chosen.field.values }, lines: &seen.waterlines };
     let mut breaks = net.knots[1].breakpoints();
     let spacing = 1.0 / (breaks.len() - 1) as f64;
+    let least = if seen.keel_closed { 0.5 * spacing } else { 0.0 };
+    let ends = Ends { field: Field { chart: &chart, net, values: &chosen.field.values }, seen, least };
     let mut corners: Vec<f64> = (0..2).flat_map(|side| ends.corners(side, SAMPLES * (breaks.len() - 1))).collect();
     corners.retain(|v| (CLOSE * spacing..=1.0 - CLOSE * spacing).contains(v));
     corners.sort_by(f64::total_cmp);
@@ -197,7 +203,11 @@ fn bent(net: &Net, chosen: &Chosen, seen: &Observations) -> Result<Bent, FieldEr
         breaks[1..count - 1].iter().map(|b| if corners.contains(b) { DEGREE } else { 1 }).collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
     let bend = Bend::new(knots.clone(), |v| [0, 1].map(|side| ends.at(v, side).0));
-    Ok(Bent { chart, knots: [with_breaks(&net.knots[0], &bend)?, knots], bend, corners })
+    // At a corner the end is closed where it is so on one side of it.
+    let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
+    let closed = [0, 1].map(|side| knots.greville().iter().map(|&v| is_closed(v, side)).collect());
+    let keel_closed = seen.keel_closed;
+    Ok(Bent { chart, knots: [with_breaks(&net.knots[0], &bend)?, knots], bend, corners, closed, keel_closed })
 }
 
 /// The knots along the field with those at which the bends begin.

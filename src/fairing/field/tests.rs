@@ -1,0 +1,207 @@
+//! The field against closed forms, dense matrices and quadrature.
+
+use super::bent::Bent;
+use super::chart::{Chart, Shape};
+use super::likelihood::{Cell, Observed, Roughness, smoothed};
+use super::net::{KERNEL, Net};
+use super::observed::{End, Observations};
+use super::region::{Bend, Field};
+use super::surface::LevelField;
+use crate::hull::{self, OffsetTable, StationOffsets};
+use crate::numeric::SymmetricBand;
+use crate::spline::{KnotVector, binomial};
+use nalgebra::{DMatrix, SymmetricEigen};
+
+fn chart() -> Chart {
+    Chart { length: [0.0, 100.0], height: [0.0, 10.0], shape: Shape { keel: 0.1, ends: [0.25, 0.5] } }
+}
+
+fn quadratic(matrix: &SymmetricBand, c: &[f64]) -> f64 {
+    matrix.apply(c).iter().zip(c).map(|(a, b)| a * b).sum()
+}
+
+/// A smooth field on a net of 12 x 8 spans.
+fn wavy() -> (Net, Vec<f64>) {
+    let net = Net::uniform([12, 8], [11.0, 7.0]).unwrap();
+    let value = |u: f64, v: f64| 8.0 * ((3.3 * u - 0.3).sin() + 0.4 * v * (2.0 * v + 5.0 * u).cos());
+    let values = straight(&net).interpolated(value).unwrap();
+    (net, values)
+}
+
+/// The chart of a net that is not bent.
+fn straight(net: &Net) -> Bent {
+    let bend = Bend::new(net.knots[1].clone(), |_| [0.0, 1.0]);
+    let closed = [vec![false; net.shape()[1]], vec![false; net.shape()[1]]];
+    Bent { chart: chart(), bend, knots: net.knots.clone(), corners: Vec::new(), closed, keel_closed: false }
+}
+
+#[test]
+fn the_chart_inverts_itself() {
+    let chart = chart();
+    for k in 0..=50 {
+        let t = f64::from(k) / 50.0;
+        assert!((chart.u(chart.x(t)) - t).abs() < 1e-13, "{t}");
+        assert!((chart.v(chart.z(t)) - t).abs() < 1e-13, "{t}");
+    }
+    // h'(0) = 1 - c0, h'(1) = 1 - c1, dz/dv at the keel b H.
+    assert!((chart.x_slope(0.0) - 75.0).abs() < 1e-12 && (chart.x_slope(1.0) - 50.0).abs() < 1e-12);
+    assert!((chart.z_slope(0.0) - 1.0).abs() < 1e-12);
+}
+
+/// The grounded determinant differs from the product of the eigenvalues that are not zero by a constant of the net.
+#[test]
+fn the_grounded_determinant_is_the_pseudo_determinant() {
+    let net = Net::uniform([6, 5], [5.0, 4.0]).unwrap();
+    let difference = |anisotropy: f64| {
+        let energy = net.energy(anisotropy);
+        let n = energy.size();
+        let dense = DMatrix::from_fn(n, n, |i, j| energy.get(i, j));
+        let mut eigenvalues: Vec<f64> = SymmetricEigen::new(dense).eigenvalues.iter().copied().collect();
+        eigenvalues.sort_by(f64::total_cmp);
+        assert!(eigenvalues[KERNEL - 1].abs() < 1e-6 && eigenvalues[KERNEL] > 1e-3, "{:?}", &eigenvalues[..=KERNEL]);
+        let product: f64 = eigenvalues[KERNEL..].iter().map(|e| e.ln()).sum();
+        product - net.log_determinant(&energy).unwrap()
+    };
+    let first = difference(1.0);
+    for anisotropy in [0.35, 2.8] {
+        assert!((difference(anisotropy) - first).abs() < 1e-6, "{anisotropy}");
+    }
+}
+
+/// The same restricted likelihood from the dense A, for two weights.
+#[test]
+fn the_likelihood_is_that_of_the_dense_matrices() {
+    let net = Net::uniform([5, 4], [4.0, 3.0]).unwrap();
+    let chart = chart();
+    let cells: Vec<Cell> = (0..40)
+        .map(|k| {
+            let (x, z) = (97.0 * f64::from(k % 8) / 7.0 + 1.0, 9.0 * f64::from(k / 8) / 4.0 + 0.4);
+            Cell {
+                x,
+                z,
+                y: 5.0 + (0.07 * x).sin() + 0.3 * z + 0.01 * f64::from(k * k % 7),
+                scale: 1.0 + 0.1 * f64::from(k % 3),
+            }
+        })
+        .collect();
+    let rough = Roughness::new(&net, 1.4).unwrap();
+    let observed = Observed::new(&net, &chart, &cells);
+    let n = cells.len();
+    let rows = DMatrix::from_fn(n, net.size(), |i, j| {
+        let row = net.row([chart.u(cells[i].x), chart.v(cells[i].z)]);
+        row.iter().find(|(column, _)| *column == j).map_or(0.0, |(_, b)| b / cells[i].scale)
+    });
+    let y = DMatrix::from_fn(n, 1, |i, _| cells[i].y / cells[i].scale);
+    let energy = DMatrix::from_fn(net.size(), net.size(), |i, j| rough.matrix.get(i, j));
+    let dense = |weight: f64| {
+        let inverse = (rows.transpose() * &rows + &energy * weight).try_inverse().unwrap();
+        let a = DMatrix::identity(n, n) - &rows * inverse * rows.transpose();
+        let left = (y.transpose() * &a * &y)[(0, 0)];
+        let mut eigenvalues: Vec<f64> = SymmetricEigen::new(a).eigenvalues.iter().copied().collect();
+        eigenvalues.sort_by(f64::total_cmp);
+        let determinant: f64 = eigenvalues[KERNEL..].iter().map(|e| e.ln()).sum();
+        let freedom = (n - KERNEL) as f64;
+        freedom * (left / freedom).ln() + freedom - determinant
+    };
+    let ours = |weight: f64| smoothed(&observed, &rough, weight, 1e-12).unwrap().cost;
+    let (a, b) = (1e-3, 1e-1);
+    assert!(
+        ((dense(a) - dense(b)) - (ours(a) - ours(b))).abs() < 1e-5,
+        "{} {}",
+        dense(a) - dense(b),
+        ours(a) - ours(b)
+    );
+}
+
+#[test]
+fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
+    let (net, values) = wavy();
+    let bent = straight(&net);
+    assert!(bent.bend.is_straight());
+    let (own, of_net) = (quadratic(&bent.energy(&net, 1.4), &values), quadratic(&net.energy(1.4), &values));
+    assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
+}
+
+/// A bent chart holds the field to its resolution, and its energy is that of the field within the hull, by a midpoint rule.
+#[test]
+fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
+    let (net, values) = wavy();
+    let chart = chart();
+    let field = Field { chart: &chart, net: &net, values: &values };
+    let ends = |v: f64| [0.04 + 0.03 * (1.0 - v * v), 1.0 - 0.05 * (1.0 - v)];
+    let knots = [KnotVector::uniform(5, 36).unwrap(), KnotVector::uniform(5, 16).unwrap()];
+    let bend = Bend::new(knots[1].clone(), ends);
+    let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
+    let bent = Bent { chart, bend, knots, corners: Vec::new(), closed, keel_closed: false };
+    let y = bent.half_breadths(&field).unwrap();
+    let energy = quadratic(&bent.energy(&net, 1.4), &y);
+    let (mut sum, [rows, columns]) = (0.0, [600, 300]);
+    for j in 0..columns {
+        let v = (f64::from(j) + 0.5) / f64::from(columns);
+        let [from, to] = [bent.bend.u(0.0, v), bent.bend.u(1.0, v)];
+        for i in 0..rows {
+            let u = (f64::from(i) + 0.5) / f64::from(rows);
+            if u < from || u > to {
+                continue;
+            }
+            let spans = [net.knots[0].find_span(u), net.knots[1].find_span(v)];
+            let along = net.knots[0].basis_derivatives::<5>(spans[0], u);
+            let up = net.knots[1].basis_derivatives::<5>(spans[1], v);
+            for k in 0..=4usize {
+                let mut value = 0.0;
+                for r in 0..6 {
+                    for s in 0..6 {
+                        let at = (spans[0] - 5 + r) * net.shape()[1] + spans[1] - 5 + s;
+                        value += along[4 - k][r] * up[k][s] * values[at];
+                    }
+                }
+                let factor = binomial(4, k) * 1.4f64.powi(1 - 2 * k as i32);
+                let counts = 11f64.powi(1 - 2 * (4 - k as i32)) * 7f64.powi(1 - 2 * k as i32);
+                sum += factor * counts * value * value / f64::from(rows * columns);
+            }
+        }
+    }
+    assert!((energy - sum).abs() < 0.15 * sum, "{energy} {sum}");
+}
+
+/// A table of y = (1 - t^2)(1 - s^2) B/2 with zeros at the perpendiculars and on the keel.
+fn wigley() -> OffsetTable {
+    let (length, depth) = (100.0, 6.25);
+    let mut table = OffsetTable {
+        waterlines: (0..11).map(|j| depth * f64::from(j) / 10.0).collect(),
+        endings: vec![[None; 2]; 11],
+        ..OffsetTable::default()
+    };
+    for i in 0..21 {
+        let t = f64::from(i) / 10.0 - 1.0;
+        let mut station = StationOffsets::new(i.to_string(), 0.5 * length * (t + 1.0));
+        let value = |z: &f64| 5.0 * (1.0 - t * t) * (1.0 - (1.0 - z / depth).powi(2));
+        station.half_breadths = table.waterlines.iter().map(|z| hull::Cell::from(Some(value(z)))).collect();
+        table.stations.push(station);
+    }
+    table
+}
+
+#[test]
+fn ends_at_perpendiculars_are_exact() {
+    let seen = Observations::new(&wigley(), &[]);
+    assert!(seen.keel_closed);
+    assert_eq!(seen.extent, [[0.0, 100.0], [0.0, 6.25]]);
+    assert_eq!(seen.waterlines.len(), 10);
+    assert!(seen.waterlines.iter().all(|line| line.ends == [End::Closed(0.0), End::Closed(100.0)]));
+}
+
+/// The parabolic hull comes back to a tenth of a millimetre between its offsets, with its ends.
+#[test]
+fn a_parabolic_hull_comes_back() {
+    let seen = Observations::new(&wigley(), &[]);
+    let found = LevelField::new(&seen, [21, 11], 0.0).unwrap();
+    let (field, chart) = (found.field(), found.chosen.chart);
+    for (x, z) in [(37.0, 1.7), (50.0, 6.0), (8.0, 3.3), (91.0, 2.4)] {
+        let (t, s): (f64, f64) = (x / 50.0 - 1.0, 1.0 - z / 6.25);
+        let exact = 5.0 * (1.0 - t * t) * (1.0 - s * s);
+        let y = field.at([chart.u(x), chart.v(z)]);
+        assert!((y - exact).abs() < 1e-4, "{x} {z}: {y} {exact}");
+    }
+    assert!(found.bent.bend.is_straight() && found.bent.corners.is_empty());
+}
