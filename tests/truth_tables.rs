@@ -190,7 +190,7 @@ fn carried_nets_are_those_of_the_smoother() {
     }
 }
 
-/// Every draw has a table, the same each time, within the sizes that are wished.
+/// Every draw has a table, the same each time, within the sizes asked for.
 #[test]
 fn draws_are_tables_of_all_sizes() {
     let (mut rows, mut columns) = (Vec::new(), Vec::new());

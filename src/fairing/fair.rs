@@ -13,7 +13,7 @@ use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
-use super::fielded::Likely;
+use super::fielded::local_noise;
 use super::guard::{Guarded, Question};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
@@ -26,7 +26,7 @@ use super::refresh::{RefreshError, refresh};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
-use super::surface::{FairSurface, Place};
+use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
 use crate::qp::{ProblemError, RepeatedSolver, Settings, Status};
@@ -105,18 +105,6 @@ impl FairSettings {
         errors(self.differences, self.noises(), sigma)
     }
 }
-
-/// Stations and waterlines to each side over which the noise is taken.
-const AROUND: usize = 2;
-
-/// Powers of ten to each side of the weight of a field that are drawn.
-const TRIALS: i32 = 3;
-
-/// Readings that the noise of the whole table counts as.
-const PRIOR: f64 = 4.0;
-
-/// Least 1 - h of a reading.
-const LEAST_FREEDOM: f64 = 0.05;
 
 /// Why nothing was faired.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -245,21 +233,6 @@ impl Prepared {
         Self::searched(surface, settings, smoother, search, sigma)
     }
 
-    /// Weight and noise of a field by its likelihood.
-    ///
-    /// # Errors
-    /// [`FairError`] when the readings leave a control value open.
-    pub(super) fn likely(
-        surface: &mut FairSurface,
-        settings: &FairSettings,
-        likely: Likely,
-    ) -> Result<Self, FairError> {
-        let smoother = Smoother::new(&surface.model);
-        let lambda = likely.weight / smoother.unit;
-        let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
-        Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
-    }
-
     /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is
     /// known, the weight rises until what is smoothed out is no less than the rounding of the table.
     ///
@@ -295,31 +268,6 @@ impl Prepared {
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
         Ok(Self { smoother, lambda, smoothed, sigma, errors: settings.errors(sigma), trials, lines })
     }
-}
-
-/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) over the readings at most
-/// [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more.
-fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
-    let square = |k: usize| {
-        let weight = surface.model.readings[k].weight;
-        weight * smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM)
-    };
-    let told: Vec<(usize, usize, f64)> = surface
-        .places
-        .iter()
-        .enumerate()
-        .filter_map(|(k, place)| Some((place.origin.station(), place.origin.waterline()?, square(k))))
-        .collect();
-    let noise = |place: &Place| {
-        let (station, waterline) = (place.origin.station(), place.origin.waterline());
-        let near = |other: &&(usize, usize, f64)| {
-            other.0.abs_diff(station) <= AROUND && waterline.is_none_or(|w| other.1.abs_diff(w) <= AROUND)
-        };
-        let (count, sum) =
-            told.iter().filter(near).fold((PRIOR, PRIOR * sigma * sigma), |(n, s), t| (n + 1.0, s + t.2));
-        (sum / count).sqrt()
-    };
-    surface.places.iter().map(noise).collect()
 }
 
 /// Fairs.

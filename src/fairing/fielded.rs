@@ -1,14 +1,16 @@
 //! A level table as a fair field of few numbers, ready to be constrained.
 //!
 //! The field ([`super::field`]) of greatest likelihood is interpolated on the net of its hull, whose edges are stern and
-//! stem. What is wished then moves it by a change of least energy: with F the field and J the sum of squares and energy,
-//! J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd, since F makes J stationary. So without wishes the answer is the field itself.
+//! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
+//! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
+use super::fair::{FairError, FairSettings, Prepared};
 use super::field::observed::Observations;
 use super::field::surface::LevelField;
 use super::model::{Model, Reading, Stationary, value};
+use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, readings};
-use crate::hull::{Cell, Hull, HullError, OffsetTable};
+use crate::hull::{Hull, HullError, OffsetTable};
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// A half-breadth of the bottom above this part of B is none of a keel.
@@ -16,6 +18,18 @@ const KEEL: f64 = 1e-2;
 
 /// Most noise of a field that follows its table, over the breadth.
 const MOST_NOISE: f64 = 1.25e-3;
+
+/// Stations and waterlines to each side over which the noise is taken.
+const AROUND: usize = 2;
+
+/// Readings that the noise of the whole table counts as.
+const PRIOR: f64 = 4.0;
+
+/// Least 1 - h of a reading.
+const LEAST_FREEDOM: f64 = 0.05;
+
+/// Powers of ten to each side of the weight of a field that are drawn.
+const TRIALS: i32 = 3;
 
 /// What the likelihood says of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,17 +42,17 @@ pub(super) struct Likely {
 
 impl FairSurface {
     /// The field of a level table over the chart of its hull; none where the offsets determine none. Deck and particulars
-    /// are those of `fitted`; cells of `left_out` say nothing.
-    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull, left_out: &[(usize, usize)]) -> Option<(Self, Likely)> {
-        let seen = Observations::new(table, left_out);
+    /// are those of `fitted`.
+    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull) -> Option<(Self, Likely)> {
+        let seen = Observations::new(table);
         let shape = [table.stations.len(), table.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 3 || seen.readings.len() < 16 {
             return None;
         }
-        let field = LevelField::new(&seen, shape, table.form.quantum().unwrap_or(0.0)).ok()?;
+        let quantum = table.form.quantum().unwrap_or(0.0);
+        let field = LevelField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
-        let most = (MOST_NOISE * breadth).max(2.0 * table.form.quantum().unwrap_or(0.0));
-        if field.chosen.field.sigma > most {
+        if field.chosen.field.sigma > (MOST_NOISE * breadth).max(2.0 * quantum) {
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -49,15 +63,15 @@ impl FairSurface {
         let base = hull.bottom() + 1e-9 * (hull.top() - hull.bottom());
         let between = |place: &Place| {
             let Origin::HalfBreadth { station, waterline } = place.origin else { return false };
-            let given = |k: usize| table.stations[k].half_breadths.get(waterline).and_then(Cell::value);
-            let wide = |k: usize| given(k).is_some_and(|y| y > 0.0);
+            let wide = |k: usize| table.stations[k].half_breadth(waterline).is_some_and(|y| y > 0.0);
             (0..station).any(wide) && (station + 1..table.stations.len()).any(wide)
         };
-        let said = |(reading, place): &(Reading, Place)| {
+        let is_offset = |(reading, place): &(Reading, Place)| {
             let far = value(&reading.row, &start) > KEEL * breadth;
             !far || reading.value > 0.0 || place.z > base || place.locked || !between(place)
         };
-        let (mut readings, places): (Vec<Reading>, Vec<Place>) = readings.into_iter().zip(places).filter(said).unzip();
+        let (mut readings, places): (Vec<Reading>, Vec<Place>) =
+            readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, &field, &known);
         let energy = field.bent.energy(&field.net, field.chosen.anisotropy);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
@@ -78,7 +92,7 @@ impl FairSurface {
 fn hull_of(field: &LevelField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
     let places = bent.places()?;
-    let values = bent.half_breadths(&field.field())?;
+    let values = bent.half_breadths(&field.field)?;
     let columns = bent.shape()[1];
     let points = places.iter().zip(values).enumerate().map(|(k, ([x, _], y))| [*x, y, places[k % columns][1]]);
     let points: Vec<[f64; 3]> = points.collect();
@@ -108,13 +122,54 @@ fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) ->
 
 /// Weights of the readings: one over the square of the factor of their errors.
 fn weigh(readings: &mut [Reading], places: &[Place], field: &LevelField, known: &[Option<f64>]) {
-    let f = field.field();
     for (reading, place) in readings.iter_mut().zip(places) {
-        let scale = f.steepness(place.x, place.z).min(super::field::surface::STEEPEST).powf(field.power);
+        let scale = field.field.steepness(place.x, place.z).powf(field.power);
         reading.weight /= scale * scale;
         let free = reading.row.iter().filter(|(i, _)| known[*i].is_none()).map(|(_, value)| value.abs()).sum::<f64>();
         if free < 1e-9 {
             reading.weight = 0.0;
         }
     }
+}
+
+impl Prepared {
+    /// Weight and noise of a field by its likelihood.
+    ///
+    /// # Errors
+    /// [`FairError`] when the readings leave a control value open.
+    pub(super) fn likely(
+        surface: &mut FairSurface,
+        settings: &FairSettings,
+        likely: Likely,
+    ) -> Result<Self, FairError> {
+        let smoother = Smoother::new(&surface.model);
+        let lambda = likely.weight / smoother.unit;
+        let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
+        Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
+    }
+}
+
+/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) over the readings at most
+/// [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more.
+pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
+    let square = |k: usize| {
+        let weight = surface.model.readings[k].weight;
+        weight * smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM)
+    };
+    let squares: Vec<(usize, usize, f64)> = surface
+        .places
+        .iter()
+        .enumerate()
+        .filter_map(|(k, place)| Some((place.origin.station(), place.origin.waterline()?, square(k))))
+        .collect();
+    let noise = |place: &Place| {
+        let (station, waterline) = (place.origin.station(), place.origin.waterline());
+        let near = |other: &&(usize, usize, f64)| {
+            other.0.abs_diff(station) <= AROUND && waterline.is_none_or(|w| other.1.abs_diff(w) <= AROUND)
+        };
+        let (count, sum) =
+            squares.iter().filter(near).fold((PRIOR, PRIOR * sigma * sigma), |(n, s), t| (n + 1.0, s + t.2));
+        (sum / count).sqrt()
+    };
+    surface.places.iter().map(noise).collect()
 }

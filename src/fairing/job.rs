@@ -166,7 +166,7 @@ pub struct Job {
 impl Job {
     /// Whether a field is asked for and the job leaves everything else to the program.
     pub(super) fn is_plain(&self) -> bool {
-        let kept = Self { accepted: self.accepted.clone(), ..Self::default() };
+        let kept = Self::default();
         self.field
             && self.weight.is_none()
             && self.energy == kept.energy
@@ -175,7 +175,7 @@ impl Job {
             && self.locked.is_empty()
             && self.rules.is_empty()
             && self.lines.is_empty()
-            && self.accepted == Accepted::None
+            && self.accepted == kept.accepted
             && !self.bending
             && !self.true_curvature
     }

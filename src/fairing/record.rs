@@ -280,6 +280,12 @@ pub fn resolution(quantum: Option<f64>, sigma: f64) -> f64 {
     quantum.unwrap_or(0.0).max(0.1 * sigma)
 }
 
+/// What counts as a bump of a line of a hull of length `length` \[m\] whose offsets are written to `quantum` \[m\]: L_PP /
+/// 50,000 or twice the resolution, whichever is more.
+pub(super) fn bump(length: f64, quantum: f64) -> f64 {
+    (length / 50_000.0).max(2.0 * quantum)
+}
+
 /// What counts as the accuracy of a table \[m\]: two steps of its writing, or twice its noise where that is more.
 #[must_use]
 pub fn accuracy(quantum: Option<f64>, sigma: f64) -> f64 {

@@ -16,7 +16,7 @@ use super::lobes::Lobes;
 use super::noise::{Differences, left_by_differences};
 use super::outcome::{Outcome, Turns, more_often, total};
 use super::proposals::{Accepted, Proposal};
-use super::record::resolution;
+use super::record::{bump, resolution};
 use super::relinearise::ON_TARGET;
 use super::repeated::{Attempt, Repeated, excess};
 use super::rules::guarded_lines;
@@ -42,12 +42,6 @@ const BREADTH: f64 = 1e-6;
 /// has an answer.
 const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
-
-/// What counts as a bump of a line of a hull of length `length` \[m\] whose offsets are written to `quantum` \[m\]: L_PP /
-/// 50,000 or twice the resolution, whichever is more.
-fn bump(length: f64, quantum: f64) -> f64 {
-    (length / 50_000.0).max(2.0 * quantum)
-}
 
 /// On which net a job is done, and how far off a target may be, over its scale, before it is one smooth move.
 #[derive(Clone, Copy)]

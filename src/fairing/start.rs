@@ -152,7 +152,7 @@ impl Started {
             && job.is_plain()
             && table.lines.is_empty()
             && modelled.before.is_level()
-            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before, &[])
+            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before)
         {
             modelled.surface = surface;
             (modelled.search, gap) = (None, 0.0);

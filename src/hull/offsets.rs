@@ -3,7 +3,7 @@
 //! Half-breadths are values of the surface, exact to 1e-12 m. Heights are found on the station's section, which keeps
 //! 1e-11 m from the surface, and are exact to that over the slope of the section.
 
-use super::cell::{Cell, FeatureLine, OutlinePoint, StatedParticulars, TransomPlane};
+use super::cell::{Cell, Entry, FeatureLine, OutlinePoint, StatedParticulars, TransomPlane};
 use super::chart::{coordinate, turns};
 use super::form::Hull;
 use super::section::{Cut, Face, Section, curve_sign_changes};
@@ -66,6 +66,44 @@ pub struct StationOffsets {
 }
 
 impl StationOffsets {
+    /// What the table says of it on a waterline, by index.
+    #[must_use]
+    pub fn entry(&self, waterline: usize) -> Entry {
+        self.half_breadths.get(waterline).map_or(Entry::Absent, |cell| cell.entry)
+    }
+
+    /// Its offset on a waterline \[m\]; none where there is none, or none that is finite.
+    #[must_use]
+    pub fn half_breadth(&self, waterline: usize) -> Option<f64> {
+        match self.entry(waterline) {
+            Entry::Given(y) if y.is_finite() => Some(y),
+            _ => None,
+        }
+    }
+
+    /// Whether a waterline, at height `z` \[m\], lies above its deck at side; where the table has none, whether all is
+    /// blank from there on above an offset with breadth.
+    #[must_use]
+    pub fn ends_below(&self, waterline: usize, z: f64) -> bool {
+        let below = self.half_breadths.iter().take(waterline);
+        self.half_breadth(waterline).is_none()
+            && match self.deck_height {
+                Some(deck) => deck < z,
+                None => {
+                    below.filter_map(Cell::value).any(|y| y > 0.0)
+                        && self.half_breadths.iter().skip(waterline).all(|cell| matches!(cell.entry, Entry::Absent))
+                }
+            }
+    }
+
+    /// The half-breadth that continues its side above the deck \[m\]: of the deck, or of the highest offset below a
+    /// waterline.
+    #[must_use]
+    pub fn edge_half_breadth(&self, waterline: usize) -> Option<f64> {
+        let below = self.half_breadths.iter().take(waterline);
+        self.deck_half_breadth.or_else(|| below.rev().find_map(Cell::value))
+    }
+
     /// A station without any offsets.
     #[must_use]
     pub fn new(name: impl Into<String>, x: f64) -> Self {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use loftsman::exchange::read_table;
 use loftsman::hull::Hull;
-use loftsman::parametric::cosh::{MidshipWish, Wishes};
+use loftsman::parametric::cosh::{DesignTargets, MidshipTarget};
 use loftsman::parametric::{Family, ShipType, analytic, ucl_cosh};
 
 use crate::partners::{FairNet, Table};
@@ -88,14 +88,14 @@ fn preset(random: &mut Random) -> Truth {
         let draught = breadth / ratios[1];
         let mut about = |value: f64, by: f64| value + part * by * (2.0 * random.uniform() - 1.0);
         let rake = about(p.stem_rake_deg, 8.0).max(0.0).to_radians();
-        let wishes = Wishes {
+        let targets = DesignTargets {
             ship_type: Some(ship_type),
             length,
             breadth: Some(breadth),
             draught: Some(draught),
             depth: Some(draught * about(p.depth_draught, 0.15).max(1.1)),
             block_coefficient: Some(ratios[2]),
-            midship_coefficient: Some(MidshipWish::Value(about(p.midship, 0.3 * (1.0 - p.midship)).min(0.997))),
+            midship_coefficient: Some(MidshipTarget::Value(about(p.midship, 0.3 * (1.0 - p.midship)).min(0.997))),
             lcb: Some(length * (0.5 + 0.01 * about(p.lcb_percent, 0.8))),
             stem_rake: Some(rake),
             section_character: Some(about(p.section_character, 0.8)),
@@ -106,9 +106,9 @@ fn preset(random: &mut Random) -> Truth {
             flare: Some(between(random, 5.0, 30.0).to_radians()).filter(|_| random.below(2) == 0),
             sheer_fore: Some(length * between(random, 0.0, 0.04)).filter(|_| random.below(4) == 0),
             transom_breadth: Some(between(random, 0.4, 0.9)).filter(|_| random.below(4) == 0),
-            ..Wishes::default()
+            ..DesignTargets::default()
         };
-        let Ok(generated) = Family::Cosh(Box::new(wishes)).generate("truth") else { continue };
+        let Ok(generated) = Family::Cosh(Box::new(targets)).generate("truth") else { continue };
         let hull = generated.hull;
         let depth = hull.particulars().depth;
         let top = match random.below(3) {

@@ -28,7 +28,7 @@ use loftsman::hull::{
     Cell, Entry, FitMethod, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
 };
 use loftsman::parametric::ShipType;
-use loftsman::parametric::cosh::{self, MidshipWish, Wishes};
+use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
 use loftsman::units::Notation;
 
 use crate::random::Random;
@@ -266,16 +266,16 @@ fn of_table(folder: &str, hull_of: impl Fn(&OffsetTable) -> Hull) -> Truth {
 
 /// A hull of the generator: L, B, T \[m\], C_B, C_M.
 fn generated(ship_type: ShipType, [length, breadth, draught, block, midship]: [f64; 5]) -> Truth {
-    let wishes = Wishes {
+    let targets = DesignTargets {
         ship_type: Some(ship_type),
         length,
         breadth: Some(breadth),
         draught: Some(draught),
         block_coefficient: Some(block),
-        midship_coefficient: Some(MidshipWish::Value(midship)),
-        ..Wishes::default()
+        midship_coefficient: Some(MidshipTarget::Value(midship)),
+        ..DesignTargets::default()
     };
-    let hull = cosh::generate("truth", &wishes).unwrap().hull;
+    let hull = cosh::generate("truth", &targets).unwrap().hull;
     let stations: Vec<OffsetStation> =
         (0..21).map(|i| OffsetStation { name: format!("{i}"), x: 0.05 * length * f64::from(i) }).collect();
     let clean = OffsetTable::from_hull(&hull, &stations, &steps(draught, 13), &[]);

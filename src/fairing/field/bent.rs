@@ -2,8 +2,8 @@
 //! energy of the field within the hull.
 //!
 //! With u = u(w, v) the fourth derivatives of F(u, v) = f(w(u, v), v) are linear in the net of f. At every node of a Gauss
-//! rule the inverse w(u, v) is taken as its Taylor polynomial of degree 4, and the functions of the net are composed with
-//! it: what is left is the rule's own error, zero where the chart is not bent.
+//! rule the inverse w(u, v) is taken as its Taylor polynomial of degree 4. The functions of the net are composed with it.
+//! What is left is the rule's own error, which is zero where the chart is not bent.
 
 use super::chart::Chart;
 use super::net::{DEGREE, Net, ORDER};
@@ -97,7 +97,7 @@ impl Bent {
     ///
     /// # Errors
     /// [`SplineError`] when the knots do not determine them.
-    pub fn half_breadths(&self, field: &Field<'_>) -> Result<Vec<f64>, SplineError> {
+    pub fn half_breadths(&self, field: &Field) -> Result<Vec<f64>, SplineError> {
         let mut values = self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))?;
         (0..values.len()).filter(|&k| self.is_closed(k)).for_each(|k| values[k] = 0.0);
         Ok(values)
@@ -111,26 +111,17 @@ impl Bent {
         i == 0 && self.closed[0][j] || i + 1 == rows && self.closed[1][j] || j == 0 && self.keel_closed
     }
 
-    /// The place of a point of the profile.
-    #[must_use]
-    pub fn place(&self, x: f64, z: f64) -> [f64; 2] {
-        let v = self.chart.v(z);
-        [self.bend.w(self.chart.u(x), v), v]
-    }
-
     /// The Taylor polynomial of w(u, v) - w0 at (w0, v0), with the polynomials of a span of v.
     fn inverse(&self, w: f64, v: f64, span: usize) -> Taylor {
-        let Bend { knots, ends, reach, power } = &self.bend;
-        let derivatives = knots.basis_derivatives::<{ ORDER + 1 }>(span, v);
-        let degree = knots.degree();
-        let mut factorial = 1.0;
+        let Bend { ends, reach, power } = &self.bend;
+        let knots = ends[0].knots();
+        let (derivatives, degree) = (taylor(knots, span, v), knots.degree());
         let mut shifts = [[0.0; ORDER + 1]; 2];
         for order in 0..=ORDER {
-            factorial *= order.max(1) as f64;
             for side in 0..2 {
-                let control = &ends[side][span - degree..];
-                let sum: f64 = derivatives[order][..=degree].iter().zip(control).map(|(b, c)| b * c).sum();
-                shifts[side][order] = sum / factorial;
+                let control = &ends[side].points()[span - degree..];
+                let sum: f64 = derivatives[order][..=degree].iter().zip(control).map(|(b, [c])| b * c).sum();
+                shifts[side][order] = sum;
             }
         }
         shifts[1][0] -= 1.0;

@@ -5,7 +5,9 @@
 use super::chart::{Chart, Shape};
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
 use super::net::Net;
-use std::collections::BTreeMap;
+use crate::numeric::SingularMatrix;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Values of b.
 const KEELS: [f64; 6] = [0.0, 0.1, 0.2, 0.3, 0.5, 1.0];
@@ -19,8 +21,39 @@ const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
-/// Decimal logarithms of the least and of the greatest weight, and the first step.
-const WEIGHTS: [f64; 3] = [-10.0, 3.0, 1.0];
+/// Decimal logarithms of the least and of the greatest weight.
+const WEIGHTS: [f64; 2] = [-10.0, 3.0];
+
+/// Decimal logarithms of the weight that is tried first and of the first and the least step from it.
+const FIRST: f64 = -4.0;
+const STEPS: [f64; 2] = [1.0, 0.2];
+
+/// The energies of a net, each made once.
+#[derive(Debug)]
+pub struct Energies<'a> {
+    /// The net.
+    pub net: &'a Net,
+    known: BTreeMap<u64, Roughness>,
+}
+
+impl<'a> Energies<'a> {
+    /// None yet.
+    #[must_use]
+    pub fn new(net: &'a Net) -> Self {
+        Self { net, known: BTreeMap::new() }
+    }
+
+    /// The one of an anisotropy.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when rounding makes it indefinite.
+    pub fn of(&mut self, anisotropy: f64) -> Result<&Roughness, SingularMatrix> {
+        match self.known.entry(anisotropy.to_bits()) {
+            Entry::Occupied(known) => Ok(known.into_mut()),
+            Entry::Vacant(place) => Ok(place.insert(Roughness::new(self.net, anisotropy)?)),
+        }
+    }
+}
 
 /// What was chosen.
 #[derive(Debug, Clone)]
@@ -37,18 +70,17 @@ pub struct Chosen {
     pub trials: usize,
 }
 
-struct Search<'a> {
-    net: &'a Net,
+struct Search<'a, 'n> {
+    energies: &'a mut Energies<'n>,
     cells: &'a [Cell],
     rectangle: Chart,
     least: f64,
-    rough: BTreeMap<usize, Roughness>,
     known: BTreeMap<[usize; 4], (f64, Smoothed)>,
     exponent: f64,
     trials: usize,
 }
 
-impl Search<'_> {
+impl Search<'_, '_> {
     fn shape(at: [usize; 4]) -> Shape {
         Shape { keel: KEELS[at[0]], ends: [ENDS[at[2]], ENDS[at[3]]] }
     }
@@ -62,18 +94,14 @@ impl Search<'_> {
         if let Some((_, known)) = self.known.get(&at) {
             return known.cost;
         }
-        let observed = Observed::new(self.net, &self.chart(at), self.cells);
-        if !self.rough.contains_key(&at[1]) {
-            let Ok(rough) = Roughness::new(self.net, ANISOTROPIES[at[1]]) else { return f64::INFINITY };
-            self.rough.insert(at[1], rough);
-        }
-        let rough = &self.rough[&at[1]];
+        let observed = Observed::new(self.energies.net, &self.chart(at), self.cells);
+        let Ok(rough) = self.energies.of(ANISOTROPIES[at[1]]) else { return f64::INFINITY };
         let mut trials = 0;
         let mut best: Option<(f64, Smoothed)> = None;
-        let mut seen = BTreeMap::new();
+        let mut seen = BTreeSet::new();
         let mut look = |exponent: f64, best: &mut Option<(f64, Smoothed)>| {
             let key = (exponent * 16.0).round() as i64;
-            if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || seen.insert(key, ()).is_some() {
+            if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || !seen.insert(key) {
                 return;
             }
             trials += 1;
@@ -84,9 +112,9 @@ impl Search<'_> {
             }
         };
         // Outwards from the last best weight in steps of a decade, then finer.
-        let mut step = WEIGHTS[2];
+        let mut step = STEPS[0];
         look(self.exponent, &mut best);
-        while step > 0.2 {
+        while step > STEPS[1] {
             while let Some(centre) = best.as_ref().map(|b| b.0) {
                 look(centre - step, &mut best);
                 look(centre + step, &mut best);
@@ -108,9 +136,9 @@ impl Search<'_> {
 /// The chart of greatest likelihood over a rectangle; the noise is at least `least` \[m\]. None where the cells determine
 /// no field.
 #[must_use]
-pub fn choose(net: &Net, cells: &[Cell], rectangle: Chart, least: f64) -> Option<Chosen> {
-    let (rough, known) = (BTreeMap::new(), BTreeMap::new());
-    let mut search = Search { net, cells, rectangle, least, rough, known, exponent: -4.0, trials: 0 };
+pub fn choose(energies: &mut Energies<'_>, cells: &[Cell], rectangle: Chart, least: f64) -> Option<Chosen> {
+    let known = BTreeMap::new();
+    let mut search = Search { energies, cells, rectangle, least, known, exponent: FIRST, trials: 0 };
     let mut at = [1, 3, 0, 0];
     for _ in 0..ROUNDS {
         let before = at;

@@ -1,9 +1,9 @@
 //! The fair field for a chart and a weight, and how likely the table makes them.
 //!
-//! Half-breadths y_i at cells with factors s_i (their errors have the standard deviation s_i sigma) are those of a net c,
-//! M c, with the energy c'Pc. The field minimises |S^-1 (y - M c)|^2 + w c'Pc. With A = I - M (M'M + wP)^-1 M' (rows over
-//! S) and k functions X in the kernel of the energy, the restricted likelihood (Patterson and Thompson 1971; Wahba 1985)
-//! has
+//! Half-breadths y_i at cells are those of a net c, M c, with errors of standard deviation s_i sigma. The field minimises
+//! |S^-1 (y - M c)|^2 + w c'Pc, with the energy c'Pc. Let A = I - M (M'M + wP)^-1 M' with rows over S, and let X be the k
+//! functions in the kernel of the energy. Then this is the restricted likelihood l (Patterson and Thompson 1971; Wahba
+//! 1985).
 //!
 //! ```text
 //! -2 log l = (n - k) log sigma^2 + y'Ay / sigma^2 - log det+ A,   sigma^2 = max(y'Ay / (n - k), least)
@@ -45,11 +45,9 @@ impl Observed {
     #[must_use]
     pub fn new(net: &Net, chart: &Chart, cells: &[Cell]) -> Self {
         let places: Vec<[f64; 2]> = cells.iter().map(|cell| [chart.u(cell.x), chart.v(cell.z)]).collect();
-        let [_, count] = net.shape();
         let mut normal = SymmetricBand::zeros(net.size(), net.energy_width());
         let mut right = vec![0.0; net.size()];
         let (mut rows, mut values) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
-        let _ = count;
         for (cell, &at) in cells.iter().zip(&places) {
             let row: Vec<(usize, f64)> = net.row(at).into_iter().map(|(j, b)| (j, b / cell.scale)).collect();
             let value = cell.y / cell.scale;

@@ -1,15 +1,17 @@
 //! A fair field of half-breadths through a level table, on a chart of few numbers.
 //!
-//! Of all quintic spline fields y(u, v) over the rectangle of the table the one is taken that minimises
+//! The field y(u, v) is the quintic spline over the rectangle of the table with the least sum of squares and energy.
 //!
 //! ```text
 //! sum_i ((y(u_i, v_i) - y_i) / s_i)^2 + w int int sum_k C(4, k) (d^4 y / ds^(4-k) dt^k)^2 ds dt
 //! ```
 //!
-//! with s and t the parameters counted in intervals of the table, t over the anisotropy a ([`net`]). The chart
+//! Here s and t are the parameters counted in intervals of the table, t over the anisotropy a ([`net`]). The chart
 //! x(u), z(v) has three numbers ([`chart`]). These, a, w and the noise maximise the restricted likelihood of the table
-//! ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba 1985). What the table says of ends is in [`observed`],
-//! where the hull is within its rectangle in [`region`], and the net of the hull with the same energy in [`bent`].
+//! ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba 1985).
+//!
+//! [`observed`] has what the table says of ends, [`region`] where the hull is within its rectangle. [`bent`] is the net
+//! of the hull with the same energy.
 
 #[allow(clippy::needless_range_loop, reason = "orders of derivatives are what the loops run over")]
 pub mod bent;

@@ -1,12 +1,12 @@
 //! The net of a half-breadth field over the unit square and its energy.
 //!
-//! The energy of order n = 4 over parameters counted in intervals of the table, s = N u and t = M v, is
+//! The energy is of order n = 4, over parameters counted in intervals of the table, s = N u and t = M v.
 //!
 //! ```text
 //! E = int int sum_k C(n, k) a^(1-2k) (d^n y / ds^(n-k) dt^k)^2 ds dt = c'P(a) c
 //! ```
 //!
-//! with the anisotropy a. Its kernel are the polynomials in u and v of total degree n - 1.
+//! Here a is the anisotropy. The kernel of E are the polynomials in u and v of total degree n - 1.
 
 use crate::numeric::{SingularMatrix, SymmetricBand};
 use crate::spline::{Gram, KnotVector, SplineError, add_product, binomial};

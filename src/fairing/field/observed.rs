@@ -6,7 +6,7 @@
 //! perpendicular). Otherwise it lies between the last station with breadth and the next one: the field says where.
 
 use super::likelihood::Cell;
-use crate::hull::{Entry, OffsetTable, StationOffsets, TransomPlane};
+use crate::hull::{OffsetTable, StationOffsets, TransomPlane};
 
 /// Scale of the errors of an offset that is exact, over that of others.
 pub const EXACT: f64 = 1e-3;
@@ -19,49 +19,6 @@ const LEVEL: f64 = 2e-3;
 
 /// Least distance of the lowest waterline from the keel, over the height, from which the keel is a waterline of its own.
 const ABOVE_KEEL: f64 = 1e-3;
-
-/// Where a reading comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
-    /// The offset of a station on a waterline.
-    Offset {
-        /// Index of the station.
-        station: usize,
-        /// Index of the waterline.
-        waterline: usize,
-    },
-    /// The half-breadth at the deck at side of a station.
-    Deck {
-        /// Index of the station.
-        station: usize,
-    },
-    /// The lowest point of a station, or the edge of its flat of bottom.
-    Keel {
-        /// Index of the station.
-        station: usize,
-    },
-    /// A given end of a waterline.
-    End {
-        /// Index of the waterline.
-        waterline: usize,
-    },
-    /// A station whose deck is below the waterline, at which the half-breadth is more than 0.
-    AboveDeck {
-        /// Index of the station.
-        station: usize,
-        /// Index of the waterline.
-        waterline: usize,
-    },
-}
-
-/// A reading of the field and where it comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading {
-    /// The reading.
-    pub cell: Cell,
-    /// Where it comes from.
-    pub source: Source,
-}
 
 /// An end of a waterline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,9 +56,9 @@ pub struct Waterline {
 #[derive(Debug, Clone, Default)]
 pub struct Observations {
     /// Offsets and other values of the field.
-    pub readings: Vec<Reading>,
+    pub readings: Vec<Cell>,
     /// Half-breadths above the deck, where the side goes on.
-    pub bounds: Vec<Reading>,
+    pub bounds: Vec<Cell>,
     /// Waterlines with breadth, from below.
     pub waterlines: Vec<Waterline>,
     /// From aft to forward and from below upwards: the rectangle \[m\].
@@ -120,92 +77,69 @@ impl Line<'_> {
         &self.table.stations[k]
     }
 
-    fn entry(&self, k: usize) -> Entry {
-        self.station(k).half_breadths.get(self.j).map_or(Entry::Absent, |cell| cell.entry)
-    }
-
     fn value(&self, k: usize) -> Option<f64> {
-        match self.entry(k) {
-            Entry::Given(y) if y.is_finite() => Some(y),
-            _ => None,
-        }
+        self.station(k).half_breadth(self.j)
     }
 
     fn is_above_deck(&self, k: usize) -> bool {
-        let (station, z) = (self.station(k), self.table.waterlines[self.j]);
-        let blank = |j: usize| station.half_breadths.get(j).is_none_or(|cell| cell.entry == Entry::Absent);
-        self.value(k).is_none()
-            && match station.deck_height {
-                Some(deck) => deck < z,
-                None => {
-                    (0..self.j).any(|j| station.half_breadths.get(j).and_then(|c| c.value()).is_some_and(|y| y > 0.0))
-                        && (self.j..self.table.waterlines.len()).all(blank)
-                }
-            }
+        self.station(k).ends_below(self.j, self.table.waterlines[self.j])
     }
 }
 
 impl Observations {
-    /// Reads a table whose stations and waterlines rise; cells of `left_out` (station, waterline) say nothing.
+    /// Reads a table whose stations and waterlines rise.
     #[must_use]
-    pub fn new(table: &OffsetTable, left_out: &[(usize, usize)]) -> Self {
+    pub fn new(table: &OffsetTable) -> Self {
         let stations = &table.stations;
         let highest = table.waterlines.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let lowest = table.waterlines.iter().copied().fold(f64::INFINITY, f64::min);
-        let keels =
-            || stations.iter().enumerate().filter_map(|(k, s)| s.keel_height.filter(|z| z.is_finite()).map(|z| (k, z)));
+        let keels = || stations.iter().filter_map(|s| s.keel_height.filter(|z| z.is_finite()).map(|z| (s, z)));
         let keel = keels().map(|(_, z)| z).fold(f64::INFINITY, f64::min);
         let height = highest - keel.min(lowest);
         let bottom = if lowest - keel > ABOVE_KEEL * height { keel } else { lowest };
         let mut found = Self::default();
         for j in 0..table.waterlines.len() {
-            found.waterline(&Line { table, j }, left_out);
+            found.waterline(&Line { table, j });
         }
-        for (k, z) in keels() {
-            let x = stations[k].station.x;
+        for (station, z) in keels() {
             let level = z - bottom <= LEVEL * height;
-            let flat = stations[k].flat_of_bottom.unwrap_or(0.0);
             // On the lowest waterline an offset says it already.
-            let said = level && bottom >= lowest;
-            if !said {
-                let (y, scale) = if level { (flat, 1.0) } else { (0.0, EXACT) };
-                found.push(Cell { x, z: if level { bottom } else { z }, y, scale }, Source::Keel { station: k });
-            }
-        }
-        let mut top = highest;
-        for (k, station) in stations.iter().enumerate() {
-            let (Some(z), Some(y)) = (station.deck_height, station.deck_half_breadth) else { continue };
-            if !(z.is_finite() && y.is_finite()) {
+            if level && bottom >= lowest {
                 continue;
             }
             let x = station.station.x;
-            let said = table.waterlines.iter().position(|&w| (w - z).abs() <= 1e-9 * height);
-            if said.is_none_or(|j| station.half_breadths.get(j).and_then(|c| c.value()).is_none()) && z <= top {
-                found.push(Cell { x, z, y, scale: 1.0 }, Source::Deck { station: k });
+            found.readings.push(if level {
+                Cell { x, z: bottom, y: station.flat_of_bottom.unwrap_or(0.0), scale: 1.0 }
+            } else {
+                Cell { x, z, y: 0.0, scale: EXACT }
+            });
+        }
+        for station in stations {
+            let deck = station.deck_height.zip(station.deck_half_breadth);
+            let Some((z, y)) = deck.filter(|(z, y)| z.is_finite() && y.is_finite() && *z <= highest) else { continue };
+            // On a waterline an offset says it already.
+            let waterline = table.waterlines.iter().position(|&w| (w - z).abs() <= 1e-9 * height);
+            if waterline.and_then(|j| station.half_breadth(j)).is_none() {
+                found.readings.push(Cell { x: station.station.x, z, y, scale: 1.0 });
             }
         }
-        top = top.max(highest);
         let ends = found.waterlines.iter().flat_map(|w| w.ends).map(End::outermost);
-        let places = found.readings.iter().map(|r| r.cell.x);
+        let places = found.readings.iter().map(|cell| cell.x);
         let along = ends.chain(places).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-        found.extent = [along, [bottom, top]];
-        let mut lowest = found.readings.iter().filter(|r| r.cell.z <= bottom + 1e-9 * height).peekable();
-        found.keel_closed = lowest.peek().is_some() && lowest.all(|r| r.cell.y <= 0.0);
+        found.extent = [along, [bottom, highest]];
+        let mut lowest = found.readings.iter().filter(|cell| cell.z <= bottom + 1e-9 * height).peekable();
+        found.keel_closed = lowest.peek().is_some() && lowest.all(|cell| cell.y <= 0.0);
         found
     }
 
-    fn push(&mut self, cell: Cell, source: Source) {
-        self.readings.push(Reading { cell, source });
-    }
-
-    fn waterline(&mut self, line: &Line<'_>, left_out: &[(usize, usize)]) {
+    fn waterline(&mut self, line: &Line<'_>) {
         let count = line.table.stations.len();
         let (j, z) = (line.j, line.table.waterlines[line.j]);
         let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
         let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
         for &k in &given {
             let Some(y) = line.value(k) else { continue };
-            if left_out.contains(&(k, j)) || (y <= 0.0 && !positive.is_empty()) {
+            if y <= 0.0 && !positive.is_empty() {
                 continue;
             }
             let marks = line.station(k).half_breadths[j].marks;
@@ -217,7 +151,7 @@ impl Observations {
             } else {
                 1.0
             };
-            self.push(Cell { x: line.station(k).station.x, z, y, scale }, Source::Offset { station: k, waterline: j });
+            self.readings.push(Cell { x: line.station(k).station.x, z, y, scale });
         }
         let (Some(&first), Some(&last)) = (positive.first(), positive.last()) else { return };
         // Above the deck the side goes on. Blanks and zeros between offsets say nothing: keels are written so.
@@ -250,7 +184,7 @@ impl Observations {
             if (at - x).abs() <= 1e-9 * (1.0 + x.abs()) {
                 return End::Cut(x);
             }
-            self.push(Cell { x: at, z, y: 0.0, scale: EXACT }, Source::End { waterline: line.j });
+            self.readings.push(Cell { x: at, z, y: 0.0, scale: EXACT });
             return End::Closed(at);
         }
         if side == 0
@@ -264,7 +198,7 @@ impl Observations {
         let Some(next) = next else { return End::Cut(x) };
         let beyond = line.station(next).station.x;
         if is_plumb(line, side) {
-            self.push(Cell { x: beyond, z, y: 0.0, scale: EXACT }, Source::End { waterline: line.j });
+            self.readings.push(Cell { x: beyond, z, y: 0.0, scale: EXACT });
             return End::Closed(beyond);
         }
         End::Between(x, beyond)
@@ -272,10 +206,8 @@ impl Observations {
 
     fn above_deck(&mut self, line: &Line<'_>, k: usize) {
         let station = line.station(k);
-        let below = || station.half_breadths[..line.j].iter().rev().find_map(crate::hull::Cell::value);
-        let Some(y) = station.deck_half_breadth.or_else(below) else { return };
-        let cell = Cell { x: station.station.x, z: line.table.waterlines[line.j], y, scale: 1.0 };
-        self.bounds.push(Reading { cell, source: Source::AboveDeck { station: k, waterline: line.j } });
+        let Some(y) = station.edge_half_breadth(line.j) else { return };
+        self.bounds.push(Cell { x: station.station.x, z: line.table.waterlines[line.j], y, scale: 1.0 });
     }
 }
 

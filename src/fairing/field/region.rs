@@ -2,18 +2,25 @@
 //!
 //! A field runs past the ends of the hull over the whole rectangle; the hull is where it is positive. Stern and stem are
 //! its zero contours, or the edges of the rectangle where it is still positive there (a transom). The chart of the hull
-//! bends that of the field near the ends alone,
+//! bends that of the field near the ends alone.
 //!
 //! ```text
-//! u(w, v) = w + (alpha(v) - 0) A(w) + (beta(v) - 1) B(w),   A = ((1 - w/r)+)^p,   B(w) = ((1 - (1-w)/r)+)^p
+//! u(w, v) = w + alpha(v) A(w) + (beta(v) - 1) B(w),   A = ((1 - w/r)+)^p,   B(w) = ((1 - (1-w)/r)+)^p
 //! ```
 //!
-//! with alpha and beta the ends in u, r and p so that u rises with w by at least a quarter everywhere; p = 5 keeps four
-//! derivatives.
+//! Here alpha and beta are the ends in u. The reach r and the power p let u rise with w by at least a quarter
+//! everywhere. p = 5 keeps four derivatives.
 
 use super::chart::Chart;
 use super::net::{DEGREE, Net};
-use crate::spline::KnotVector;
+use crate::numeric::bracketed_root;
+use crate::spline::{BsplineCurve, BsplineSurface, KnotVector, SplineError};
+
+/// Greatest factor of the errors in y of a cell over those normal to the hull.
+const STEEPEST: f64 = 10.0;
+
+/// Error in u of a zero of the field.
+const ROUNDING: f64 = 1e-15;
 
 /// Steps a span in which a zero of the field is looked for.
 const STEPS: usize = 8;
@@ -27,41 +34,42 @@ const CORRECTIONS: usize = 6;
 /// How far from an end a bend reaches at least.
 const REACH: f64 = 0.3;
 
-/// A field on its net.
-#[derive(Debug, Clone, Copy)]
-pub struct Field<'a> {
+/// A field on its chart.
+#[derive(Debug, Clone)]
+pub struct Field {
     /// The chart.
-    pub chart: &'a Chart,
-    /// The net.
-    pub net: &'a Net,
-    /// Its control values \[m\].
-    pub values: &'a [f64],
+    pub chart: Chart,
+    surface: BsplineSurface<1>,
+    /// Lines u = constant of the net.
+    lines: f64,
 }
 
-impl Field<'_> {
-    /// Half-breadth at (u, v) \[m\].
-    #[must_use]
-    pub fn at(&self, place: [f64; 2]) -> f64 {
-        let ((i, along), (j, up)) = (self.net.basis(0, place[0]), self.net.basis(1, place[1]));
-        let count = self.net.shape()[1];
-        let row = |r: usize| -> f64 {
-            let values = &self.values[(i + r) * count + j..];
-            up.iter().zip(values).map(|(b, c)| b * c).sum()
-        };
-        along.iter().enumerate().map(|(r, b)| b * row(r)).sum()
+impl Field {
+    /// The field of these control values \[m\] on a net.
+    ///
+    /// # Errors
+    /// [`SplineError`] when there are not as many as the net has.
+    pub fn new(chart: Chart, net: &Net, values: &[f64]) -> Result<Self, SplineError> {
+        let [u, v] = net.knots.clone();
+        let lines = u.breakpoints().len() as f64;
+        Ok(Self { chart, surface: BsplineSurface::new(u, v, values.iter().map(|&y| [y]).collect())?, lines })
     }
 
-    /// sqrt(1 + y_x^2 + y_z^2) at (x, z): the error of a half-breadth over the error normal to the hull.
+    /// Half-breadth at (u, v) \[m\].
+    #[must_use]
+    pub fn at(&self, [u, v]: [f64; 2]) -> f64 {
+        self.surface.eval(u, v)[0]
+    }
+
+    /// sqrt(1 + y_x^2 + y_z^2) at (x, z): the error of a half-breadth over the error normal to the hull, at most
+    /// [`STEEPEST`].
     #[must_use]
     pub fn steepness(&self, x: f64, z: f64) -> f64 {
         let (u, v) = (self.chart.u(x), self.chart.v(z));
-        let step = 1e-5;
-        let slope = |a: [f64; 2], b: [f64; 2], distance: f64| (self.at(a) - self.at(b)) / distance;
-        let (low, high) = ((u - step).max(0.0), (u + step).min(1.0));
-        let along = slope([high, v], [low, v], self.chart.x(high) - self.chart.x(low));
-        let (low, high) = ((v - step).max(0.0), (v + step).min(1.0));
-        let up = slope([u, high], [u, low], self.chart.z(high) - self.chart.z(low));
-        (1.0 + along * along + up * up).sqrt()
+        let [[_, up], [along, _]] = self.surface.derivatives::<2>(u, v).map(|row| row.map(|value| value[0]));
+        // Infinite on a flat bottom with b = 0; `min` takes what is no number for that.
+        let (along, up) = (along / self.chart.x_slope(u), up / self.chart.z_slope(v));
+        (1.0 + along * along + up * up).sqrt().min(STEEPEST)
     }
 
     /// Where the field is least at height v between u = `from` and u = `to`, at one of the places at which zeros are looked
@@ -74,8 +82,7 @@ impl Field<'_> {
     }
 
     fn steps(&self, from: f64, to: f64) -> usize {
-        let spans = self.net.knots[0].breakpoints().len() as f64;
-        (((to - from).abs() * spans).ceil() as usize * STEPS).max(STEPS)
+        (((to - from).abs() * self.lines).ceil() as usize * STEPS).max(STEPS)
     }
 
     /// The first zero at height v on the way from u = `from`, where the field is positive, to u = `to`; none where it is
@@ -83,31 +90,20 @@ impl Field<'_> {
     #[must_use]
     pub fn zero(&self, v: f64, from: f64, to: f64) -> Option<f64> {
         let steps = self.steps(from, to);
-        let (mut inside, mut outside) = (from, None);
-        for k in 1..=steps {
-            let u = from + (to - from) * k as f64 / steps as f64;
-            if self.at([u, v]) <= 0.0 {
-                outside = Some(u);
-                break;
-            }
-            inside = u;
-        }
-        let mut outside = outside?;
-        for _ in 0..60 {
-            let middle = 0.5 * (inside + outside);
-            if self.at([middle, v]) > 0.0 { inside = middle } else { outside = middle }
-        }
-        Some(0.5 * (inside + outside))
+        let place = |k: usize| from + (to - from) * k as f64 / steps as f64;
+        let value = |u: f64| self.at([u, v]);
+        let outside = (1..=steps).find(|&k| value(place(k)) <= 0.0)?;
+        let (inside, outside) = (place(outside - 1), place(outside));
+        // Without a bracket the field is not positive at the start, and the hull ends there.
+        Some(bracketed_root(value, inside, outside, ROUNDING).unwrap_or(inside))
     }
 }
 
 /// How the ends of the hull bend the chart of its field.
 #[derive(Debug, Clone)]
 pub struct Bend {
-    /// Knots of the ends along v.
-    pub knots: KnotVector,
-    /// Control values of u at the aft and at the forward end, over v.
-    pub ends: [Vec<f64>; 2],
+    /// u at the aft and at the forward end, over v.
+    pub ends: [BsplineCurve<1>; 2],
     /// How far from the ends the bend reaches, aft and forward.
     pub reach: [f64; 2],
     /// Its power, aft and forward.
@@ -118,21 +114,14 @@ impl Bend {
     /// The bend whose ends are given at any v: their control values are the ends at the Greville places (variation
     /// diminishing splines, Schoenberg 1967), corrected by what the spline misses there a few times, so that it comes near
     /// the interpolating spline where that does not swing.
-    #[must_use]
-    pub fn new(knots: KnotVector, end: impl Fn(f64) -> [f64; 2]) -> Self {
-        let sites = knots.greville();
-        let wanted: Vec<[f64; 2]> = sites.iter().map(|&v| end(v)).collect();
-        let ends = [0, 1].map(|side| {
-            let exact: Vec<f64> = wanted.iter().map(|ends| ends[side]).collect();
-            let mut control = exact.clone();
-            for _ in 0..CORRECTIONS {
-                let found: Vec<f64> = sites.iter().map(|&v| spline(&knots, &control, v)).collect();
-                control.iter_mut().zip(exact.iter().zip(&found)).for_each(|(c, (e, f))| *c += e - f);
-            }
-            let bounds = exact.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &e| [a.min(e), b.max(e)]);
-            control.into_iter().map(|c| c.clamp(bounds[0], bounds[1])).collect::<Vec<f64>>()
-        });
-        let most = [ends[0].iter().fold(0.0f64, |m, &e| m.max(e)), ends[1].iter().fold(0.0f64, |m, &e| m.max(1.0 - e))];
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots make no curve.
+    pub fn new(knots: &KnotVector, end: impl Fn(f64) -> [f64; 2]) -> Result<Self, SplineError> {
+        let wanted: Vec<[f64; 2]> = knots.greville().into_iter().map(end).collect();
+        let curve = |side: usize| through(knots, &wanted.iter().map(|ends| ends[side]).collect::<Vec<f64>>());
+        let ends = [curve(0)?, curve(1)?];
+        let most = [0, 1].map(|side| off_edge(&ends[side], side));
         let mut reach = [REACH; 2];
         let mut power = [DEGREE as i32; 2];
         for side in 0..2 {
@@ -144,37 +133,39 @@ impl Bend {
                 power[side] = ((0.5 * (1.0 + room) / most[side].max(1e-9)).floor() as i32).clamp(1, DEGREE as i32);
             }
         }
-        Self { knots, ends, reach, power }
+        Ok(Self { ends, reach, power })
     }
 
     /// u at (w, v).
     #[must_use]
     pub fn u(&self, w: f64, v: f64) -> f64 {
-        let [a, b] = [0, 1].map(|side| spline(&self.knots, &self.ends[side], v));
+        let [a, b] = [0, 1].map(|side| self.ends[side].eval(v)[0]);
         let fade = |side: usize, w: f64| (1.0 - w / self.reach[side]).max(0.0).powi(self.power[side]);
         w + a * fade(0, w) + (b - 1.0) * fade(1, 1.0 - w)
-    }
-
-    /// w at (u, v), to rounding, by bisection.
-    #[must_use]
-    pub fn w(&self, u: f64, v: f64) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.u(middle, v) < u { low = middle } else { high = middle }
-        }
-        0.5 * (low + high)
     }
 
     /// Whether no end is off an edge of the rectangle.
     #[must_use]
     pub fn is_straight(&self) -> bool {
-        self.ends[0].iter().all(|e| *e <= 0.0) && self.ends[1].iter().all(|e| *e >= 1.0)
+        (0..2).all(|side| off_edge(&self.ends[side], side) <= 0.0)
     }
 }
 
-fn spline(knots: &KnotVector, control: &[f64], t: f64) -> f64 {
-    let span = knots.find_span(t);
-    let p = knots.degree();
-    knots.basis(span, t)[..=p].iter().zip(&control[span - p..]).map(|(b, c)| b * c).sum()
+/// The furthest that a control value of an end is off its edge of the rectangle, into it.
+fn off_edge(end: &BsplineCurve<1>, side: usize) -> f64 {
+    end.points().iter().map(|[u]| if side == 0 { *u } else { 1.0 - u }).fold(0.0, f64::max)
+}
+
+/// The spline near values at the Greville places, within their range.
+fn through(knots: &KnotVector, values: &[f64]) -> Result<BsplineCurve<1>, SplineError> {
+    let bounds = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &e| [a.min(e), b.max(e)]);
+    let curve = |control: &[f64]| BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect());
+    let mut control = values.to_vec();
+    for _ in 0..CORRECTIONS {
+        let found = curve(&control)?;
+        let missed = knots.greville().into_iter().zip(values).map(|(v, value)| value - found.eval(v)[0]);
+        control.iter_mut().zip(missed).for_each(|(c, missed)| *c += missed);
+    }
+    control.iter_mut().for_each(|c| *c = c.clamp(bounds[0], bounds[1]));
+    curve(&control)
 }

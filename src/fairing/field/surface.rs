@@ -2,15 +2,12 @@
 
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
-use super::choice::{Chosen, choose};
-use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::choice::{Chosen, Energies, choose};
+use super::likelihood::{Cell, Observed, Smoothed, smoothed};
 use super::net::{DEGREE, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
-
-/// Greatest factor of the errors in y of a cell over those normal to the hull.
-pub const STEEPEST: f64 = 10.0;
 
 /// Heights a span at which the kind of an end is looked at.
 const SAMPLES: usize = 8;
@@ -37,8 +34,8 @@ pub struct LevelField {
     pub net: Net,
     /// Chart, weight and field.
     pub chosen: Chosen,
-    /// The cells with their factors, as they were used.
-    pub cells: Vec<Cell>,
+    /// The field itself.
+    pub field: Field,
     /// The chart of the hull.
     pub bent: Bent,
     /// The power of the steepness of the hull that the errors go with.
@@ -66,20 +63,20 @@ impl LevelField {
         let [length, height] = seen.extent;
         let net = Net::uniform([stations.max(4), waterlines.max(4)], [stations as f64 - 1.0, waterlines as f64 - 1.0])?;
         let rectangle = Chart { length, height, shape: Shape { keel: 0.1, ends: [0.0; 2] } };
-        let cells: Vec<Cell> = seen.readings.iter().map(|reading| reading.cell).collect();
-        let greatest = cells.iter().fold(0.0f64, |m, cell| m.max(cell.y));
+        let greatest = seen.readings.iter().fold(0.0f64, |m, cell| m.max(cell.y));
         let least = (resolution / 12f64.sqrt()).max(LEAST_NOISE * 2.0 * greatest);
-        let first = smooth_first(&net, &cells, rectangle, least).ok_or(FieldError::Undetermined)?;
-        let field = Field { chart: &rectangle, net: &net, values: &first.values };
-        let steepness: Vec<f64> = cells.iter().map(|c| field.steepness(c.x, c.z).min(STEEPEST)).collect();
+        let mut energies = Energies::new(&net);
+        let first = smooth_first(&mut energies, &seen.readings, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let field = Field::new(rectangle, &net, &first.values)?;
+        let steepness: Vec<f64> = seen.readings.iter().map(|cell| field.steepness(cell.x, cell.z)).collect();
         // The power of the steepness that the errors go with: 0 where they are alike in y, as written digits are, 1 where they
         // are alike normal to the hull, as readings of a drawing are.
         let mut best: Option<(f64, f64, Chosen, Vec<Cell>)> = None;
         for power in POWERS {
-            let scaled: Vec<Cell> =
-                cells.iter().zip(&steepness).map(|(c, s)| Cell { scale: c.scale * s.powf(power), ..*c }).collect();
+            let scale = |(cell, s): (&Cell, &f64)| Cell { scale: cell.scale * s.powf(power), ..*cell };
+            let scaled: Vec<Cell> = seen.readings.iter().zip(&steepness).map(scale).collect();
             let jacobian: f64 = scaled.iter().map(|c| 2.0 * c.scale.ln()).sum();
-            if let Some(found) = choose(&net, &scaled, rectangle, least) {
+            if let Some(found) = choose(&mut energies, &scaled, rectangle, least) {
                 let cost = found.field.cost + jacobian;
                 if best.as_ref().is_none_or(|b| cost < b.0) {
                     best = Some((cost, power, found, scaled));
@@ -87,48 +84,41 @@ impl LevelField {
             }
         }
         let (_, power, mut chosen, mut cells) = best.ok_or(FieldError::Undetermined)?;
-        let rough = Roughness::new(&net, chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
+        let rough = energies.of(chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
+        let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         for _ in 0..ROUNDS {
-            let field = Field { chart: &chosen.chart, net: &net, values: &chosen.field.values };
             let count = cells.len();
             for bound in &seen.bounds {
-                let Cell { x, z, y, .. } = bound.cell;
-                let found = field.at([chosen.chart.u(x), chosen.chart.v(z)]);
-                let broken = found < 0.5 * y;
-                let known = cells.iter().any(|cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9);
-                if broken && !known {
-                    cells.push(bound.cell);
+                let broken = field.at([field.chart.u(bound.x), field.chart.v(bound.z)]) < 0.5 * bound.y;
+                let same = |cell: &Cell| (cell.x - bound.x).abs() < 1e-9 && (cell.z - bound.z).abs() < 1e-9;
+                if broken && !cells.iter().any(same) {
+                    cells.push(*bound);
                 }
             }
             if cells.len() == count {
                 break;
             }
             let observed = Observed::new(&net, &chosen.chart, &cells);
-            chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
-                .map_err(|_| FieldError::Undetermined)?;
+            chosen.field =
+                smoothed(&observed, rough, 10f64.powf(chosen.exponent), least).map_err(|_| FieldError::Undetermined)?;
+            field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
-        let bent = bent(&net, &chosen, seen)?;
-        Ok(Self { net, chosen, cells, bent, power })
-    }
-
-    /// The field.
-    #[must_use]
-    pub fn field(&self) -> Field<'_> {
-        Field { chart: &self.chosen.chart, net: &self.net, values: &self.chosen.field.values }
+        let bent = bent(&net, &field, seen)?;
+        Ok(Self { field, bent, net, chosen, power })
     }
 }
 
 /// A first smooth field, for the slopes of the hull.
-fn smooth_first(net: &Net, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
-    let observed = Observed::new(net, &chart, cells);
-    let rough = Roughness::new(net, 1.0).ok()?;
-    let tried = (-6..=0).filter_map(|e| smoothed(&observed, &rough, 10f64.powi(e), least).ok());
+fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
+    let observed = Observed::new(energies.net, &chart, cells);
+    let rough = energies.of(1.0).ok()?;
+    let tried = (-6..=0).filter_map(|e| smoothed(&observed, rough, 10f64.powi(e), least).ok());
     tried.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
 /// The ends of a hull at any height.
 struct Ends<'a> {
-    field: Field<'a>,
+    field: &'a Field,
     seen: &'a Observations,
     /// The least v at which a contour is looked for: on a keel the field vanishes all along.
     least: f64,
@@ -138,7 +128,7 @@ impl Ends<'_> {
     /// u of the end at v, and whether the hull is cut off there with breadth.
     fn at(&self, v: f64, side: usize) -> (f64, bool) {
         let v = v.max(self.least);
-        let (chart, lines) = (self.field.chart, &self.seen.waterlines);
+        let (chart, lines) = (&self.field.chart, &self.seen.waterlines);
         let z = chart.z(v);
         let above = lines.partition_point(|line| line.z < z);
         let last = lines.len() - 1;
@@ -185,12 +175,11 @@ impl Ends<'_> {
 }
 
 /// The chart of the hull: its ends are those of the field, within what the table leaves open.
-fn bent(net: &Net, chosen: &Chosen, seen: &Observations) -> Result<Bent, FieldError> {
-    let chart = chosen.chart;
+fn bent(net: &Net, field: &Field, seen: &Observations) -> Result<Bent, FieldError> {
     let mut breaks = net.knots[1].breakpoints();
     let spacing = 1.0 / (breaks.len() - 1) as f64;
     let least = if seen.keel_closed { 0.5 * spacing } else { 0.0 };
-    let ends = Ends { field: Field { chart: &chart, net, values: &chosen.field.values }, seen, least };
+    let ends = Ends { field, seen, least };
     let mut corners: Vec<f64> = (0..2).flat_map(|side| ends.corners(side, SAMPLES * (breaks.len() - 1))).collect();
     corners.retain(|v| (CLOSE * spacing..=1.0 - CLOSE * spacing).contains(v));
     corners.sort_by(f64::total_cmp);
@@ -202,11 +191,11 @@ fn bent(net: &Net, chosen: &Chosen, seen: &Observations) -> Result<Bent, FieldEr
     let multiplicities: Vec<usize> =
         breaks[1..count - 1].iter().map(|b| if corners.contains(b) { DEGREE } else { 1 }).collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
-    let bend = Bend::new(knots.clone(), |v| [0, 1].map(|side| ends.at(v, side).0));
+    let bend = Bend::new(&knots, |v| [0, 1].map(|side| ends.at(v, side).0))?;
     // At a corner the end is closed where it is so on one side of it.
     let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
     let closed = [0, 1].map(|side| knots.greville().iter().map(|&v| is_closed(v, side)).collect());
-    let keel_closed = seen.keel_closed;
+    let (chart, keel_closed) = (field.chart, seen.keel_closed);
     Ok(Bent { chart, knots: [with_breaks(&net.knots[0], &bend)?, knots], bend, corners, closed, keel_closed })
 }
 
@@ -216,7 +205,7 @@ fn with_breaks(knots: &KnotVector, bend: &Bend) -> Result<KnotVector, SplineErro
     let spacing = 1.0 / (breaks.len() - 1) as f64;
     for side in 0..2 {
         let at = if side == 0 { bend.reach[0] } else { 1.0 - bend.reach[1] };
-        let bends = bend.ends[side].iter().any(|e| (e - side as f64).abs() > 1e-9);
+        let bends = bend.ends[side].points().iter().any(|[e]| (e - side as f64).abs() > 1e-9);
         if bends && at > 0.0 && at < 1.0 && breaks.iter().all(|b| (b - at).abs() > 0.2 * spacing) {
             breaks.push(at);
         }

@@ -30,7 +30,7 @@ fn wavy() -> (Net, Vec<f64>) {
 
 /// The chart of a net that is not bent.
 fn straight(net: &Net) -> Bent {
-    let bend = Bend::new(net.knots[1].clone(), |_| [0.0, 1.0]);
+    let bend = Bend::new(&net.knots[1], |_| [0.0, 1.0]).unwrap();
     let closed = [vec![false; net.shape()[1]], vec![false; net.shape()[1]]];
     Bent { chart: chart(), bend, knots: net.knots.clone(), corners: Vec::new(), closed, keel_closed: false }
 }
@@ -127,10 +127,10 @@ fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
 fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
     let (net, values) = wavy();
     let chart = chart();
-    let field = Field { chart: &chart, net: &net, values: &values };
+    let field = Field::new(chart, &net, &values).unwrap();
     let ends = |v: f64| [0.04 + 0.03 * (1.0 - v * v), 1.0 - 0.05 * (1.0 - v)];
     let knots = [KnotVector::uniform(5, 36).unwrap(), KnotVector::uniform(5, 16).unwrap()];
-    let bend = Bend::new(knots[1].clone(), ends);
+    let bend = Bend::new(&knots[1], ends).unwrap();
     let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
     let bent = Bent { chart, bend, knots, corners: Vec::new(), closed, keel_closed: false };
     let y = bent.half_breadths(&field).unwrap();
@@ -184,7 +184,7 @@ fn wigley() -> OffsetTable {
 
 #[test]
 fn ends_at_perpendiculars_are_exact() {
-    let seen = Observations::new(&wigley(), &[]);
+    let seen = Observations::new(&wigley());
     assert!(seen.keel_closed);
     assert_eq!(seen.extent, [[0.0, 100.0], [0.0, 6.25]]);
     assert_eq!(seen.waterlines.len(), 10);
@@ -194,9 +194,9 @@ fn ends_at_perpendiculars_are_exact() {
 /// The parabolic hull comes back to a tenth of a millimetre between its offsets, with its ends.
 #[test]
 fn a_parabolic_hull_comes_back() {
-    let seen = Observations::new(&wigley(), &[]);
+    let seen = Observations::new(&wigley());
     let found = LevelField::new(&seen, [21, 11], 0.0).unwrap();
-    let (field, chart) = (found.field(), found.chosen.chart);
+    let (field, chart) = (&found.field, found.chosen.chart);
     for (x, z) in [(37.0, 1.7), (50.0, 6.0), (8.0, 3.3), (91.0, 2.4)] {
         let (t, s): (f64, f64) = (x / 50.0 - 1.0, 1.0 - z / 6.25);
         let exact = 5.0 * (1.0 - t * t) * (1.0 - s * s);

@@ -99,14 +99,11 @@ impl Waterline<'_> {
     }
 
     fn entry(&self, k: usize) -> Entry {
-        self.station(k).half_breadths.get(self.j).map_or(Entry::Absent, |c| c.entry)
+        self.station(k).entry(self.j)
     }
 
     fn value(&self, k: usize) -> Option<f64> {
-        match self.entry(k) {
-            Entry::Given(y) if y.is_finite() => Some(y),
-            _ => None,
-        }
+        self.station(k).half_breadth(self.j)
     }
 
     fn x(&self, k: usize) -> f64 {
@@ -119,28 +116,12 @@ impl Waterline<'_> {
 
     /// Whether the deck at side lies below the waterline at a station.
     fn above_deck(&self, k: usize) -> bool {
-        let station = self.station(k);
-        self.value(k).is_none()
-            && match station.deck_height {
-                Some(deck) => deck < self.z(),
-                // Blank above the highest offset.
-                None => {
-                    station.half_breadths[..self.j.min(station.half_breadths.len())]
-                        .iter()
-                        .any(|c| c.value().is_some_and(|y| y > 0.0))
-                        && station.half_breadths.iter().skip(self.j).all(|c| matches!(c.entry, Entry::Absent))
-                        && self.entry(k) == Entry::Absent
-                }
-            }
+        self.station(k).ends_below(self.j, self.z())
     }
 
-    /// The half-breadth that continues the side above the deck: of the deck, or of the highest offset below.
+    /// The half-breadth that continues the side above the deck.
     fn deck_half_breadth(&self, k: usize) -> Option<f64> {
-        let station = self.station(k);
-        station.deck_half_breadth.or_else(|| {
-            let below = self.j.min(station.half_breadths.len());
-            station.half_breadths[..below].iter().rev().find_map(super::super::Cell::value)
-        })
+        self.station(k).edge_half_breadth(self.j)
     }
 }
 

@@ -94,14 +94,6 @@ pub struct DesignTargets {
     pub section_character: Option<f64>,
 }
 
-/// The former name of [`DesignTargets`].
-#[doc(hidden)]
-pub type Wishes = DesignTargets;
-
-/// The former name of [`MidshipTarget`].
-#[doc(hidden)]
-pub type MidshipWish = MidshipTarget;
-
 /// The hull that meets the targets.
 ///
 /// # Errors
