@@ -62,7 +62,7 @@ impl Field {
     }
 
     /// sqrt(1 + y_x^2 + y_z^2) at (x, z): the error of a half-breadth over the error normal to the hull, at most
-    /// [`STEEPEST`].
+    /// ten.
     #[must_use]
     pub fn steepness(&self, x: f64, z: f64) -> f64 {
         let (u, v) = (self.chart.u(x), self.chart.v(z));
