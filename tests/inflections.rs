@@ -203,7 +203,7 @@ fn numbers_that_make_no_bands() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(39), ..ProptestConfig::default() })]
 
     /// Coarse values and bands make many near misses. The number must be certified, and no curve through the middle of
     /// random values within the bands may have fewer changes.

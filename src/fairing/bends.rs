@@ -138,6 +138,11 @@ impl Bend {
         Some(scaled.limit(if positive { [-room, f64::INFINITY] } else { [f64::NEG_INFINITY, room] }))
     }
 
+    /// The numerator scaled to size 1: row, offset and the room that a curvature \[1/m\] has on it.
+    pub(super) fn scaled_row(&self, net: &[f64], room: f64) -> Option<(Row, f64, f64)> {
+        self.scaled(net, room).map(|scaled| (scaled.row, scaled.offset, scaled.room))
+    }
+
     /// The numerator scaled to size 1, with the room that a curvature has on it \[1/m\].
     fn scaled(&self, net: &[f64], room: f64) -> Option<Scaled> {
         let size = self.numerator.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
@@ -186,6 +191,7 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
     let bends: Vec<Bend> = match line {
         Line::Station(x) => {
             let places: &[f64] = match () {
+                () if surface.is_field => &PLACES_UPRIGHT,
                 () if hull.is_level() => &PLACES,
                 () if hull.is_upright() => &PLACES_UPRIGHT,
                 () => &PLACES_ACROSS,
@@ -194,7 +200,11 @@ pub fn bends(surface: &FairSurface, line: Line) -> Vec<Bend> {
             along.filter_map(|v| hull.length_parameter(x, v).and_then(|u| bend(net, [u, v], true))).collect()
         }
         Line::Waterline(z) => {
-            let places: &[f64] = if hull.is_level() { &PLACES } else { &PLACES_ACROSS };
+            let places: &[f64] = match () {
+                () if surface.is_field => &PLACES_UPRIGHT,
+                () if hull.is_level() => &PLACES,
+                () => &PLACES_ACROSS,
+            };
             let along = inside(net.u(), places).into_iter();
             along.filter_map(|u| hull.height_parameter_at(u, z).and_then(|v| bend(net, [u, v], false))).collect()
         }
@@ -372,7 +382,7 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
         let to = (from + 1..bends.len()).find(|&k| signs[k] == -signs[from]).unwrap_or(bends.len());
         let largest = bends[from..to].iter().map(|bend| bend.curvature(net).abs()).fold(0.0, f64::max);
         let arc = largest * length(bends, [from, to], net).powi(2) / 8.0;
-        small[from..to].fill(arc < 2.0 * seen || departure(bends, [from, to], net) < seen);
+        small[from..to].fill(arc < 2.0 * seen || departs(bends, [from, to], net) < seen);
         from = to;
     }
     small
@@ -380,7 +390,7 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
 
 /// Greatest distance of a part of a line from its chord \[m\]: with theta the integral of curvature along the line, the
 /// integral of theta less its mean, from the middle of the gap before the part to the middle of the gap after it.
-fn departure(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
+pub(super) fn departs(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
     let (mut s, mut turned, mut off) = (vec![0.0], 0.0, vec![0.0]);
     for k in from..to {
         let step = gap(bends, k) * stretch(&bends[k], net);
@@ -452,7 +462,7 @@ mod tests {
     fn what_departs_is_known_to_a_hundredth() {
         let off = |second: &dyn Fn(f64) -> f64| {
             let (bends, second) = line(second);
-            departure(&bends, [0, bends.len()], &second)
+            departs(&bends, [0, bends.len()], &second)
         };
         assert!((off(&|_| 1e-3) - 0.0125).abs() < 1e-4);
         assert!((off(&|x| 1e-3 * (PI * x / 10.0).sin()) - 0.1 / PI.powi(2)).abs() < 1e-4);

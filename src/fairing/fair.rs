@@ -13,8 +13,9 @@ use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
-use super::fielded::local_noise;
+use super::fielded::{NEGATIVE, local_noise};
 use super::guard::{Guarded, Question};
+use super::humps;
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
 use super::least_bending::{LeastBending, least_bending};
@@ -309,6 +310,10 @@ pub fn fair_prepared(
     if surface.is_field || !surface.own && (settings.admits || surface.places.iter().any(|place| place.locked)) {
         admit(&mut wishes.breadths, &surface.start);
     }
+    if surface.is_field {
+        // What is no more than its errors below the centreplane is at the centreplane.
+        wishes.breadths.iter_mut().for_each(|limit| limit.lower = limit.lower.max(-NEGATIVE * sigma));
+    }
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
     let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
@@ -373,7 +378,29 @@ pub fn fair_prepared(
     // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
     // nothing elsewhere.
     let mut guarded = None;
-    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
+    let asks = settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal();
+    if asks && surface.is_field {
+        let question = humps::Question {
+            model,
+            smoother,
+            smoothed,
+            lambda,
+            sigma,
+            wishes: &wishes,
+            lines: &guarded_lines(&prepared.lines, &settings.rules),
+            seen: settings.seen,
+            price: settings.price,
+            solver: &settings.solver,
+        };
+        let mut found = question.run(&solved)?;
+        programs += found.programs;
+        iterations += found.iterations;
+        if let Some(accepted) = found.accepted.take() {
+            price = (accepted.1.objective - solved.objective) / (sigma * sigma);
+            (program, solved) = accepted;
+        }
+        guarded = Some(found);
+    } else if asks {
         let question = Question {
             surface,
             model,

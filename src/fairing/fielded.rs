@@ -4,20 +4,37 @@
 //! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
-use super::fair::{FairError, FairSettings, Prepared};
+use super::constraint::breadths;
+use super::fair::{FairError, FairSettings, MISFIT, Prepared};
 use super::field::observed::Observations;
 use super::field::surface::LevelField;
 use super::model::{Model, Reading, Stationary, value};
+use super::program::{Program, Wishes};
 use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, readings};
 use crate::hull::{Hull, HullError, OffsetTable};
+use crate::numeric::median;
+use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
 /// A half-breadth of the bottom above this part of B is none of a keel.
 const KEEL: f64 = 1e-2;
 
-/// Most noise of a field that follows its table, over the breadth.
-const MOST_NOISE: f64 = 1.25e-3;
+/// The noise of a field over that of the table where its neighbourhood is smooth, from which the field does not follow
+/// the table: where it is above [`ROUGH`], and in any case.
+const LACK_OF_FIT: [f64; 2] = [1.25, 3.0];
+
+/// Noise of a rough drawing, over the breadth.
+const ROUGH: f64 = 1.25e-3;
+
+/// Part of the noise of the table below which residuals say nothing of the fit.
+const LEAST_NOISE: f64 = 0.5;
+
+/// The largest residual over the typical one from which a field does not follow its table.
+const FARTHEST: f64 = 10.0;
+
+/// Noise levels by which a field may pass the centreplane.
+pub(super) const NEGATIVE: f64 = 3.0;
 
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
@@ -31,6 +48,9 @@ const LEAST_FREEDOM: f64 = 0.05;
 /// Powers of ten to each side of the weight of a field that are drawn.
 const TRIALS: i32 = 3;
 
+/// Standard deviation over the median of absolute values, of a normal variable.
+const NORMAL: f64 = 1.4826;
+
 /// What the likelihood says of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Likely {
@@ -41,9 +61,9 @@ pub(super) struct Likely {
 }
 
 impl FairSurface {
-    /// The field of a level table over the chart of its hull; none where the offsets determine none. Deck and particulars
-    /// are those of `fitted`.
-    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull) -> Option<(Self, Likely)> {
+    /// The field of a level table of this noise \[m\] over the chart of its hull; none where the offsets determine none, or
+    /// it does not follow them. Deck and particulars are those of `fitted`.
+    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull, noise: f64) -> Option<(Self, Likely)> {
         let seen = Observations::new(table);
         let shape = [table.stations.len(), table.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 3 || seen.readings.len() < 16 {
@@ -52,7 +72,12 @@ impl FairSurface {
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = LevelField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
-        if field.chosen.field.sigma > (MOST_NOISE * breadth).max(2.0 * quantum) {
+        let sigma = field.chosen.field.sigma;
+        let level = noise.max(quantum);
+        if sigma > LACK_OF_FIT[1] * level
+            || sigma > (LACK_OF_FIT[0] * level).max(ROUGH * breadth)
+            || lacks_fit(&field.residuals, quantum.max(LEAST_NOISE * noise))
+        {
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -75,17 +100,43 @@ impl FairSurface {
         weigh(&mut readings, &places, &field, &known);
         let energy = field.bent.energy(&field.net, field.chosen.anisotropy);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
-        let model = Model {
-            energy,
-            readings,
-            known,
-            straight: None,
-            start: None,
-            carried: None,
-            stationary: Some(Stationary { weight: likely.weight, net: start.clone() }),
-        };
-        Some((Self::over(hull, model, places, start, field.chosen.anisotropy), likely))
+        let stationary = Some(Stationary { weight: likely.weight, net: start.clone() });
+        let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
+        let field = Self::over(hull, model, places, start, field.chosen.anisotropy);
+        Some((field.off_the_centreplane(likely)?, likely))
     }
+
+    /// The field of least objective that passes the centreplane by no more than its errors; none where that was not found.
+    fn off_the_centreplane(mut self, likely: Likely) -> Option<Self> {
+        let margin = NEGATIVE * likely.sigma;
+        let mut limits = breadths(&self.hull, &self.start, f64::INFINITY, margin);
+        limits.iter_mut().for_each(|limit| limit.lower = -margin);
+        if limits.iter().all(|limit| value(&limit.row, &self.start) >= limit.lower) {
+            return Some(self);
+        }
+        let smoother = Smoother::new(&self.model);
+        let lambda = likely.weight / smoother.unit;
+        let wishes = Wishes { breadths: limits, widening: 1.0, ..Wishes::default() };
+        let program = Program::new(&self.model, &smoother, lambda, &wishes, None);
+        let solved = program.solve(&self.model, &smoother, lambda, &Settings::default()).ok()?;
+        if !solved.is_optimal() {
+            return None;
+        }
+        self.hull = self.hull_of(&solved.net).ok()?;
+        self.model.stationary = Some(Stationary { weight: likely.weight, net: solved.net.clone() });
+        self.start = solved.net;
+        Some(self)
+    }
+}
+
+/// Whether a field follows its table in most places and not in some: the residuals are above `least` \[m\], and
+/// [`MISFIT`] times what the typical one says.
+fn lacks_fit(residuals: &[f64], least: f64) -> bool {
+    let mut sizes: Vec<f64> = residuals.iter().map(|residual| residual.abs()).collect();
+    let all = (sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len().max(1) as f64).sqrt();
+    let most = sizes.iter().copied().fold(0.0, f64::max);
+    let typical = NORMAL * median(&mut sizes).unwrap_or(0.0);
+    all > least && (all > MISFIT * typical || most > FARTHEST * typical)
 }
 
 /// The hull of a field.

@@ -195,7 +195,7 @@ impl Default for Job {
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },
             locked: Vec::new(),
-            field: false,
+            field: true,
             exclude_suspects: true,
             signs: true,
             price: PRICE,
@@ -228,6 +228,16 @@ pub enum JobError {
         draught: f64,
         /// Depth \[m\].
         depth: f64,
+    },
+    /// B is no breadth of this hull.
+    #[error(
+        "half-breadths up to {greatest:.3} m do not go with B = {breadth:?} m: state the moulded breadth of this hull (B under [dimensions])"
+    )]
+    Breadth {
+        /// Greatest half-breadth \[m\].
+        greatest: f64,
+        /// B \[m\].
+        breadth: f64,
     },
     /// L_PP is no length of this hull.
     #[error(

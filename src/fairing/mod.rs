@@ -18,6 +18,7 @@ mod fielded;
 mod flats;
 pub mod guard;
 pub mod held;
+mod humps;
 pub mod infeasible;
 pub mod inflections;
 pub mod inspect;

@@ -12,6 +12,9 @@ use crate::hull::{Cut, Hull, OffsetTable};
 use crate::qp::Status;
 use crate::units::counted;
 
+/// Changes of sign over their least number, and beyond that, from which they are far above it.
+const FAR_ABOVE: [f64; 2] = [1.5, 2.0];
+
 /// A cell and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
@@ -173,6 +176,29 @@ impl Outcome {
     pub fn inflections(&self, of: &str) -> [usize; 2] {
         let list = self.turns.iter().filter(|turns| kind(&turns.cut) == of);
         list.fold([0, 0], |[before, after], turns| [before + turns.before, after + turns.after])
+    }
+
+    /// Changes of sign of curvature on all stations and waterlines before and after.
+    #[must_use]
+    pub fn changes_of_sign(&self) -> [usize; 2] {
+        let [stations, waterlines] = ["station", "waterline"].map(|kind| self.inflections(kind));
+        [stations[0] + waterlines[0], stations[1] + waterlines[1]]
+    }
+
+    /// The least number of them within the tolerances, the sum over the lines; none where that of a line is not known.
+    #[must_use]
+    pub fn least_changes_of_sign(&self) -> Option<usize> {
+        let lines = self.turns.iter().filter(|turns| matches!(kind(&turns.cut), "station" | "waterline"));
+        lines.map(|turns| turns.minimum.map(|(least, _)| least)).sum()
+    }
+
+    /// Whether stations and waterlines have more changes of sign than before, or as many where they are far above the
+    /// least.
+    #[must_use]
+    pub fn is_no_fairer(&self) -> bool {
+        let [before, after] = self.changes_of_sign();
+        let far = |least: usize| after as f64 > FAR_ABOVE[0] * least as f64 + FAR_ABOVE[1];
+        after > before || after == before && self.least_changes_of_sign().is_some_and(far)
     }
 
     /// How many targets the surface through the table is off by more than a part of their scale.

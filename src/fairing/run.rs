@@ -152,6 +152,10 @@ impl<'a> Run<'a> {
         if draught > depth * (1.0 + 1e-9) {
             return Err(JobError::Draught { draught, depth });
         }
+        let (breadth, widest) = (before.particulars().breadth, surface.start.iter().copied().fold(0.0, f64::max));
+        if surface.is_field && widest > breadth {
+            return Err(JobError::Breadth { greatest: widest, breadth });
+        }
         let (length, stations) = (before.particulars().length_between_perpendiculars, &table.stations);
         let places = stations.iter().map(|station| station.station.x);
         let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);

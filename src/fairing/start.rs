@@ -117,7 +117,16 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own)?;
+        let as_field = own && job.is_plain() && table.lines.is_empty();
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
+        let mut likely = None;
+        if as_field {
+            let level = modelled.before.is_level();
+            match level.then(|| FairSurface::of_field(&cleaned.clean, &modelled.before, noise)).flatten() {
+                Some(field) => (modelled.surface, likely) = (field.0, Some(field.1)),
+                None => modelled = Modelled::new(job, &cleaned, &found, noise, own)?,
+            }
+        }
         if job.exclude_suspects && modelled.surface.own {
             let mut without = cleaned.clone();
             let wrong = modelled.gross_errors()?;
@@ -145,18 +154,6 @@ impl Started {
                     FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None, &modelled.breaks)?;
                 (modelled.search, gap) = (None, 0.0);
             }
-        }
-        let mut likely = None;
-        if own
-            && !modelled.surface.own
-            && job.is_plain()
-            && table.lines.is_empty()
-            && modelled.before.is_level()
-            && let Some((surface, found)) = FairSurface::of_field(&cleaned.clean, &modelled.before)
-        {
-            modelled.surface = surface;
-            (modelled.search, gap) = (None, 0.0);
-            likely = Some(found);
         }
         let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
         modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));

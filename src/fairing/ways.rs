@@ -123,7 +123,8 @@ impl Job {
         if self.weight.is_some() || !self.rules.iter().any(kept) {
             return Ok(None);
         }
-        let without = Self { rules: self.rules.iter().filter(|rule| !kept(rule)).cloned().collect(), ..self.clone() };
+        let rules = self.rules.iter().filter(|rule| !kept(rule)).cloned().collect();
+        let without = Self { rules, field: false, ..self.clone() };
         Ok(Started::new(&without, table, true)?.noise_of_its_own_net())
     }
 

@@ -281,6 +281,7 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
 fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
     match error {
         JobError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+        JobError::Breadth { .. } => &["dimensions.B"],
         JobError::Length { .. } => &["dimensions.Lpp"],
         JobError::Fit(FitError::Hull(hull)) | JobError::Hull(hull) | JobError::Fair(FairError::Hull(hull)) => {
             match hull {

@@ -13,6 +13,7 @@ use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
 use crate::fairing::smoothing::end_of_search;
+use crate::qp::Status;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
@@ -335,13 +336,38 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
 }
 
+/// Whether the hull is fairer, by how much, and what it cost.
+fn headline(outcome: &Outcome) -> String {
+    let [before, after] = outcome.changes_of_sign();
+    let verdict = match outcome.status {
+        Status::Optimal if outcome.is_no_fairer() => "No fairer",
+        Status::Optimal if after == before => "Fair as before",
+        Status::Optimal => "Fairer",
+        _ => "Compromise",
+    };
+    let least = outcome.least_changes_of_sign().map_or(String::new(), |least| format!(" (least {least})"));
+    let moves = millimetres(outcome.moves().0);
+    let kept: Vec<String> =
+        outcome.held.iter().filter(|held| held.is_had()).map(|held| held.constraint.words()).collect();
+    let kept = match kept.as_slice() {
+        [] => String::new(),
+        [one] => format!(", {one} held"),
+        [first @ .., last] if first.len() < MOST_AREAS => format!(", {} and {last} held", first.join(", ")),
+        many => format!(", {} targets held", many.len()),
+    };
+    format!(
+        "{verdict}: {before} > {after} changes of sign of curvature on stations and waterlines{least}, moves {moves} mm RMS{kept}."
+    )
+}
+
 /// The page of `fair`, at most 80 columns wide.
 #[must_use]
 pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
     let name: String = job.table.name.chars().take(WIDTH - 20).collect();
     let p = outcome.after.particulars();
-    let mut page = format!("{name}: {}\n", status_word(outcome.status));
+    let mut page = wrapped(&headline(outcome), 2);
+    page.push_str(&format!("{name}: {}\n", status_word(outcome.status)));
     let length = p.length_between_perpendiculars;
     page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n", p.breadth, p.draught, p.depth));
     page.push_str(&assumed(job, outcome));

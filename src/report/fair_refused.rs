@@ -86,12 +86,26 @@ impl FairOutputs {
         Some(self.warning("W401", message, &format!("Ask for nearer targets{wider}")))
     }
 
+    /// That the hull is no fairer than the surface through the table, and what may help.
+    fn no_fairer(&self) -> String {
+        let [before, after] = self.outcome.changes_of_sign();
+        let least = self.outcome.least_changes_of_sign().map_or(String::new(), |least| format!(" (least {least})"));
+        format!(
+            "the hull is no fairer than the surface through the table: {before} > {after} changes of sign of curvature on \
+             stations and waterlines{least}. The files are written. Ask for nearer targets, wider tolerances or more \
+             smoothing (--weight), or look for errors with `loftsman check`"
+        )
+    }
+
     /// The failure that ends the program when the targets cannot all be met.
     ///
     /// # Errors
-    /// [`Failure::Infeasible`].
+    /// [`Failure::Infeasible`]; [`Failure::Check`] when they are met and the hull is no fairer for it.
     pub fn verdict(&self) -> Result<(), Failure> {
         let (code, message, help) = match self.outcome.status {
+            Status::Optimal if self.request.signs != Some(false) && self.outcome.is_no_fairer() => {
+                return Err(Failure::Check(format!("E503 {}: {}", self.table_file.display(), self.no_fairer())));
+            }
             Status::Optimal => return Ok(()),
             Status::Infeasible => (
                 "E401",

@@ -5,7 +5,7 @@ use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies, choose};
 use super::likelihood::{Cell, Observed, Smoothed, smoothed};
 use super::net::{DEGREE, Net};
-use super::observed::{End, Observations};
+use super::observed::{EXACT, End, Observations};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
 
@@ -40,6 +40,8 @@ pub struct LevelField {
     pub bent: Bent,
     /// The power of the steepness of the hull that the errors go with.
     pub power: f64,
+    /// Residuals of what is not exact, over the scale of its errors \[m\].
+    pub residuals: Vec<f64>,
 }
 
 /// Why there is no field.
@@ -104,7 +106,9 @@ impl LevelField {
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
         let bent = bent(&net, &field, seen)?;
-        Ok(Self { field, bent, net, chosen, power })
+        let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
+        let residuals = cells.iter().filter(|cell| cell.scale > EXACT).map(residual).collect();
+        Ok(Self { field, bent, net, chosen, power, residuals })
     }
 }
 

@@ -1,0 +1,304 @@
+//! Which humps and hollows of the lines of a field are errors of its table, and the field without them.
+//!
+//! A hump is a part of a station or a waterline with curvature of one sign. The numerator of curvature at a place is a
+//! linear form a c of the control values ([`super::bends`]) with the posterior standard error sigma sqrt(a'N^-1 a). With
+//!
+//! ```text
+//! t = max |a c| / (sigma sqrt(a'N^-1 a))        over the places of a hump,
+//! ```
+//!
+//! removing the hump costs t^2 sigma^2 of the objective at least. Humps below the price of an inflection are removed,
+//! the least of a line first, each into its neighbours. One convex program has the signs that remain; what a hump costs
+//! there is at most the sum of multiplier times violation over its places. Humps above the price are given back, and the
+//! program is solved again. A line whose answer has more inflections than it was asked for has the signs without the room
+//! about its inflections in the next program.
+
+use super::bends::{Bend, changes, dead, departs};
+use super::choice::{trial, worth_it};
+use super::guard::Guarded;
+use super::least::TableLine;
+use super::model::{Limit, Model, value};
+use super::program::{Program, RowName, Solved, Wishes};
+use super::smoothing::{Smoothed, Smoother};
+use crate::numeric::SymmetricBand;
+use crate::qp::{ProblemError, Settings};
+use std::collections::BTreeMap;
+
+/// Most programs.
+const ROUNDS: usize = 8;
+
+/// Most programs that choose what is worth its price.
+const CHOICES: usize = 3;
+
+/// Places of a line to each side of an inflection at which no sign is asked for.
+const AROUND: usize = 4;
+
+/// Part of the dead band of curvature that the limits leave open, for an interior to solve in.
+const ROOM: f64 = 1e-2;
+
+/// Where no program satisfies the signs, humps that are charged more than this part of the dearest are given back.
+const SHARE: f64 = 0.5;
+
+/// A program without its signs.
+pub(super) struct Question<'a> {
+    pub(super) model: &'a Model,
+    pub(super) smoother: &'a Smoother,
+    pub(super) smoothed: &'a Smoothed,
+    pub(super) lambda: f64,
+    /// Noise of a reading of weight 1 \[m\].
+    pub(super) sigma: f64,
+    pub(super) wishes: &'a Wishes,
+    pub(super) lines: &'a [TableLine],
+    /// Least departure from the chord that counts \[m\].
+    pub(super) seen: f64,
+    /// Dearest hump, in sigma^2.
+    pub(super) price: f64,
+    pub(super) solver: &'a Settings,
+}
+
+/// A part of a line with one sign.
+#[derive(Debug, Clone, Copy)]
+struct Hump {
+    sign: i8,
+    from: usize,
+    to: usize,
+    /// Its clearest place, in standard errors.
+    clear: f64,
+    /// Whether its departure counts.
+    seen: bool,
+}
+
+/// A hump: index of its line, and its own.
+type Place = (usize, usize);
+
+/// The limits of the places of each hump.
+type Parts = BTreeMap<Place, Vec<Limit>>;
+
+/// What each hump costs at most \[m^2\].
+type Charges = BTreeMap<Place, f64>;
+
+/// A line with what is asked of it.
+struct Asked {
+    /// Its bends.
+    bends: Vec<Bend>,
+    /// The field's own humps.
+    humps: Vec<Hump>,
+    /// Those that are given back.
+    back: Vec<bool>,
+    /// Whether signs are asked for whatever becomes of its humps.
+    watched: bool,
+    /// Places to each side of an inflection without a sign.
+    around: usize,
+}
+
+impl Question<'_> {
+    /// Solves for the least inflections that are worth their price; `free` is the answer without signs.
+    pub(super) fn run(&self, free: &Solved) -> Result<Guarded, ProblemError> {
+        let inverse = self.smoothed.factor.inverse_band();
+        let mut asked: Vec<Asked> = self.lines.iter().map(|line| self.line(line, &free.net, &inverse)).collect();
+        let mut found = Guarded::told(self.lines);
+        let mut choices = 0;
+        for _ in 0..ROUNDS {
+            let signs: Vec<Option<Vec<i8>>> = asked.iter().map(|line| line.signs(self.price)).collect();
+            let mut parts = Parts::new();
+            for (k, (line, signs)) in asked.iter().zip(&signs).enumerate() {
+                for (hump, limit) in signs.iter().flat_map(|signs| line.limits(signs, &free.net)) {
+                    parts.entry((k, hump)).or_default().push(limit);
+                }
+            }
+            if parts.is_empty() {
+                break;
+            }
+            if choices < CHOICES {
+                choices += 1;
+                found.programs += 1;
+                match self.choose(&parts, &free.net, &mut asked)? {
+                    None => break,
+                    Some(true) => continue,
+                    Some(false) => (),
+                }
+            }
+            let (program, solved, charges) = self.solve(&parts, &free.net)?;
+            found.programs += 1;
+            found.iterations += solved.solution.iterations;
+            let again = if solved.is_optimal() {
+                let again = self.watch(&mut asked, &signs, &solved.net);
+                self.tell(&mut found, &signs, &charges);
+                found.accepted = Some((program, solved));
+                again
+            } else {
+                let dearest = charges.values().copied().fold(0.0, f64::max);
+                let gone = charges.iter().filter(|(_, charge)| **charge > 0.0 && **charge >= SHARE * dearest);
+                gone.fold(false, |again, (&(k, hump), _)| again | !std::mem::replace(&mut asked[k].back[hump], true))
+            };
+            if !again {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Gives back the humps that are not worth their price together; whether there were any, none where nothing was
+    /// found.
+    fn choose(&self, parts: &Parts, net: &[f64], asked: &mut [Asked]) -> Result<Option<bool>, ProblemError> {
+        let program = Program::new(self.model, self.smoother, self.lambda, self.wishes, None);
+        let limits: Vec<&[Limit]> = parts.values().map(Vec::as_slice).collect();
+        let prices = vec![self.price * self.sigma * self.sigma; limits.len()];
+        let chosen = worth_it((&program, &self.smoother.reduced), net, &limits, &prices, self.solver)?;
+        let Some(chosen) = chosen else { return Ok(None) };
+        let gone = parts.keys().zip(chosen).filter(|(_, worth)| !worth);
+        Ok(Some(gone.fold(false, |again, (&(k, hump), _)| again | !std::mem::replace(&mut asked[k].back[hump], true))))
+    }
+
+    /// The program with signs, its answer, and what each hump is charged \[m^2\].
+    fn solve(&self, parts: &Parts, net: &[f64]) -> Result<(Program, Solved, Charges), ProblemError> {
+        let bends: Vec<Limit> = parts.values().flatten().cloned().collect();
+        let owners: Vec<Place> = parts.iter().flat_map(|(&owner, limits)| limits.iter().map(move |_| owner)).collect();
+        let wishes = Wishes { bends, ..self.wishes.clone() };
+        let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
+        let solved = program.solve(self.model, self.smoother, self.lambda, &trial(self.solver))?;
+        let mut charges = Charges::new();
+        for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
+            let RowName::Bend(row) = *name else { continue };
+            let limit = &wishes.bends[row];
+            let now = value(&limit.row, net);
+            let against = (limit.lower - now).max(now - limit.upper).max(0.0);
+            *charges.entry(owners[row]).or_default() += z.abs() * against;
+        }
+        Ok((program, solved, charges))
+    }
+
+    /// Whether a line of the answer `net` has more inflections than it was asked for; it has signs, and less room about
+    /// its inflections, from then on.
+    fn watch(&self, asked: &mut [Asked], signs: &[Option<Vec<i8>>], net: &[f64]) -> bool {
+        let mut again = false;
+        for (line, signs) in asked.iter_mut().zip(signs) {
+            let wanted = signs.as_ref().map_or_else(|| line.count(), |signs| changes(signs));
+            if line.counted(net, self.seen) <= wanted || line.watched && line.around <= 1 {
+                continue;
+            }
+            line.around = if signs.is_some() { 1 } else { AROUND };
+            line.watched = true;
+            again = true;
+        }
+        again
+    }
+
+    /// What the lines were asked for, and what it cost.
+    fn tell(&self, found: &mut Guarded, signs: &[Option<Vec<i8>>], charges: &Charges) {
+        (found.asked, found.prices, found.most) = (Vec::new(), Vec::new(), Vec::new());
+        for (k, (line, signs)) in self.lines.iter().zip(signs).enumerate() {
+            let Some(signs) = signs else { continue };
+            let own = charges.range((k, 0)..(k + 1, 0)).map(|(_, charge)| charge);
+            found.asked.push(line.line);
+            found.prices.push((line.line, own.sum::<f64>() / (self.sigma * self.sigma)));
+            found.most.push((line.line, changes(signs)));
+        }
+    }
+
+    fn line(&self, line: &TableLine, net: &[f64], inverse: &SymmetricBand) -> Asked {
+        let bends = line.bends.clone();
+        let error = |bend: &Bend| {
+            let (row, _) = self.smoother.reduced.row(&bend.numerator);
+            inverse.quadratic_form(row.into_iter()).max(0.0).sqrt()
+        };
+        let errors: Vec<f64> = bends.iter().map(error).collect();
+        let humps = humps(&bends, &errors, net, self.sigma, self.seen);
+        let back = vec![false; humps.len()];
+        Asked { bends, humps, back, watched: false, around: AROUND }
+    }
+}
+
+/// The humps of a line, seen or not.
+fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> Vec<Hump> {
+    let values: Vec<f64> = bends.iter().map(|bend| value(&bend.numerator, net) + bend.offset).collect();
+    let mut found: Vec<Hump> = Vec::new();
+    for (k, value) in values.iter().enumerate() {
+        let clear = if errors[k] > 0.0 { value.abs() / (sigma * errors[k]) } else { 0.0 };
+        let sign = if *value >= 0.0 { 1 } else { -1 };
+        match found.last_mut().filter(|last| last.sign == sign) {
+            Some(last) => (last.to, last.clear) = (k + 1, last.clear.max(clear)),
+            None => found.push(Hump { sign, from: k, to: k + 1, clear, seen: false }),
+        }
+    }
+    for hump in &mut found {
+        hump.seen = departs(bends, [hump.from, hump.to], net) >= seen;
+    }
+    found
+}
+
+impl Asked {
+    /// Signs of all places once what is below the price is removed; none where nothing that counts is removed.
+    fn signs(&self, price: f64) -> Option<Vec<i8>> {
+        let least = price.sqrt();
+        let mut parts: Vec<(Hump, bool)> = self.humps.iter().copied().zip(self.back.iter().copied()).collect();
+        let mut removed = false;
+        while parts.len() > 1 {
+            let free = |(hump, back): &(Hump, bool)| !hump.seen || !back && hump.clear < least;
+            // What does not count goes first, then what is least clear.
+            let key = |hump: &Hump| (hump.seen, hump.clear);
+            let next = (0..parts.len())
+                .filter(|&k| free(&parts[k]))
+                .min_by(|&a, &b| key(&parts[a].0).partial_cmp(&key(&parts[b].0)).unwrap_or(std::cmp::Ordering::Equal));
+            let Some(k) = next else { break };
+            removed |= parts[k].0.seen;
+            let (low, high) = (k.saturating_sub(1), (k + 1).min(parts.len() - 1));
+            let beside = if k > 0 { low } else { high };
+            let mut whole = parts[beside];
+            for part in &parts[low..=high] {
+                whole.0.from = whole.0.from.min(part.0.from);
+                whole.0.to = whole.0.to.max(part.0.to);
+                if part.0.sign == whole.0.sign {
+                    whole.0.clear = whole.0.clear.max(part.0.clear);
+                    whole.0.seen |= part.0.seen;
+                    whole.1 |= part.1;
+                }
+            }
+            parts.splice(low..=high, [whole]);
+        }
+        if !removed && !self.watched {
+            return None;
+        }
+        let mut signs = vec![0; self.bends.len()];
+        for (part, _) in &parts {
+            signs[part.from..part.to].fill(part.sign);
+        }
+        Some(signs)
+    }
+
+    /// Inflections of the field that count.
+    fn count(&self) -> usize {
+        let seen: Vec<i8> = self.humps.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
+        changes(&seen)
+    }
+
+    /// Those of a net.
+    fn counted(&self, net: &[f64], seen: f64) -> usize {
+        let found = humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen);
+        let told: Vec<i8> = found.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
+        changes(&told)
+    }
+
+    /// The limits of the places that have a sign, but for those about an inflection that are not clear. What does not
+    /// count may stay and not grow.
+    fn limits(&self, signs: &[i8], net: &[f64]) -> Vec<(usize, Limit)> {
+        let none = ROOM * dead(&self.bends, net);
+        let count = signs.len();
+        let beside = |k: usize| {
+            let near = k.saturating_sub(self.around)..(k + self.around + 1).min(count);
+            signs[near].iter().any(|&sign| sign != signs[k])
+        };
+        let mut limits = Vec::new();
+        for (index, hump) in self.humps.iter().enumerate() {
+            let places = (hump.from..hump.to).filter(|&k| !beside(k)).map(|k| (&self.bends[k], signs[k]));
+            for (bend, sign) in places {
+                let Some((row, offset, room)) = bend.scaled_row(net, none) else { continue };
+                let now = f64::from(sign) * (value(&row, net) + offset);
+                let least = if hump.seen { -room } else { now.min(-room) };
+                let [lower, upper] = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
+                limits.push((index, Limit { lower: lower - offset, upper: upper - offset, row }));
+            }
+        }
+        limits
+    }
+}
