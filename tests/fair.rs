@@ -97,6 +97,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let page = stdout(&output);
     assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
+    assert!(page.starts_with("Fairer: ") && page.contains("changes of sign of curvature"), "{page}");
     let names = names_in(&out);
     let expected = [
         "changes.csv",

@@ -325,7 +325,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "control_polygon": { "before": polygon(&outcome.signs[0]), "after": polygon(&outcome.signs[1]) },
         "lines": outcome.proposals.iter().map(proposed).collect::<Vec<_>>(),
         "infeasible": diagnosis(outcome),
-        "moves": { "offsets": outcome.changes.len(), "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)) },
+        "moves": { "offsets": outcome.changes.len(), "rms": number(rms), "max": number(max), "at": largest.map(|change| place(table, change)), "rms_normal": number(outcome.normal_moves[0]), "max_normal": number(outcome.normal_moves[1]) },
         "tolerance": {
             "least": json_number(range.map(|r| r[0])), "largest": json_number(range.map(|r| r[1])),
             "reached": reached(outcome).count(),

@@ -1,5 +1,6 @@
 //! What a fair hull holds and what each wish costs: the same program without its rows.
 
+use super::choice::trial;
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairSettings, Faired};
 use super::model::{Limit, Model, value};
@@ -92,7 +93,13 @@ pub(super) fn constraints(
     [before, after]: [&Hull; 2],
     solver: &mut RepeatedSolver<'_>,
 ) -> Vec<Held> {
-    let prices = faired.prices_of_constraints(&surface.model, settings.constraints.len(), solver);
+    let (model, count) = (&surface.model, settings.constraints.len());
+    let prices = if surface.is_field {
+        // A price that takes long is not worth waiting for.
+        faired.prices_of_constraints(model, count, &mut RepeatedSolver::new(&trial(&settings.solver)))
+    } else {
+        faired.prices_of_constraints(model, count, solver)
+    };
     let list = settings.constraints.iter().zip(prices).enumerate();
     list.map(|(k, (&constraint, price))| {
         let row = |name: RowName| name == RowName::Constraint(k);

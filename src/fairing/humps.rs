@@ -302,3 +302,57 @@ impl Asked {
         limits
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line of places one metre apart with humps of these signs, clearness and departure.
+    fn line(list: &[(i8, usize, f64, bool)]) -> Asked {
+        let mut humps: Vec<Hump> = Vec::new();
+        for &(sign, count, clear, seen) in list {
+            let from = humps.last().map_or(0, |last| last.to);
+            humps.push(Hump { sign, from, to: from + count, clear, seen });
+        }
+        let places = humps.last().map_or(0, |last| last.to);
+        let bend =
+            |k: usize| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at: k as f64 };
+        let back = vec![false; humps.len()];
+        Asked { bends: (0..places).map(bend).collect(), humps, back, watched: false, around: 1 }
+    }
+
+    #[test]
+    fn humps_below_the_price_take_the_sign_around_them() {
+        let mut inner = line(&[(-1, 4, 30.0, true), (1, 3, 2.0, true), (-1, 4, 40.0, true)]);
+        assert_eq!(inner.signs(12.0), Some(vec![-1; 11]));
+        assert_eq!((inner.count(), inner.signs(3.0)), (2, None));
+        inner.back[1] = true;
+        assert_eq!(inner.signs(12.0), None);
+        // At an end: the sign beside it.
+        let outer = line(&[(1, 2, 1.0, true), (-1, 5, 9.0, true)]);
+        assert_eq!(outer.signs(12.0), Some(vec![-1; 7]));
+    }
+
+    #[test]
+    fn humps_that_do_not_count_ask_for_nothing() {
+        let small = line(&[(-1, 4, 30.0, true), (1, 3, 20.0, false), (-1, 4, 40.0, true)]);
+        assert_eq!((small.count(), small.signs(12.0)), (0, None));
+        // Beside one that is removed they may stay and not grow.
+        let both = line(&[(-1, 4, 30.0, true), (1, 3, 20.0, false), (-1, 4, 40.0, true), (1, 4, 1.0, true)]);
+        assert_eq!(both.signs(12.0), Some(vec![-1; 15]));
+        let net: Vec<f64> = (0..15).map(|k| if (4..7).contains(&k) { 0.5 } else { -1.0 }).collect();
+        let limits = both.limits(&[-1; 15], &net);
+        let upper = |k: usize| limits.iter().find(|(_, limit)| limit.row[0].0 == k).map(|(_, limit)| limit.upper);
+        assert!(upper(5).is_some_and(|upper| (upper - 0.5).abs() < 1e-12));
+        assert!(upper(12).is_some_and(|upper| upper < 0.01));
+    }
+
+    #[test]
+    fn no_sign_is_asked_for_beside_an_inflection() {
+        let changing = line(&[(-1, 6, 30.0, true), (1, 6, 40.0, true)]);
+        let signs: Vec<i8> = (0..12).map(|k| if k < 6 { -1 } else { 1 }).collect();
+        let limits = changing.limits(&signs, &signs.iter().map(|&sign| f64::from(sign)).collect::<Vec<_>>());
+        let rows: Vec<usize> = limits.iter().map(|(_, limit)| limit.row[0].0).collect();
+        assert_eq!(rows, (0..5).chain(7..12).collect::<Vec<_>>());
+    }
+}

@@ -80,6 +80,8 @@ pub struct Outcome {
     pub table: OffsetTable,
     /// Every cell that was read.
     pub changes: Vec<Change>,
+    /// What they move normal to the hull, root of the mean square and the most \[m\].
+    pub normal_moves: [f64; 2],
     /// Offsets that were unknown: doubtful ones of the fair table.
     pub predicted: Vec<Predicted>,
     /// Constraints.

@@ -23,7 +23,7 @@ use super::rules::guarded_lines;
 use super::start::Started;
 use super::surface::{FairSurface, Origin};
 use super::suspects::Suspects;
-use super::told::{Counted, Watched, changes, predicted, written};
+use super::told::{Counted, Watched, changes, normal_moves, predicted, written};
 use crate::hull::{Hull, OffsetTable};
 use crate::numeric::join;
 use crate::qp::{RepeatedSolver, Status};
@@ -312,6 +312,7 @@ impl<'a> Run<'a> {
                 faired.solved.solution.status
             },
             table: written(self.table, &changes, &predicted),
+            normal_moves: normal_moves(&surface, &after),
             predicted,
             jump: surface.greatest_jump(&after),
             beyond,

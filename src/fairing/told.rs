@@ -51,6 +51,21 @@ pub(super) fn changes(
     changes
 }
 
+/// What offsets move normal to the hull, root of the mean square and the most \[m\]: n_y |dy|, n the unit normal of the
+/// surface there, to first order in the move.
+pub(super) fn normal_moves(surface: &FairSurface, after: &Hull) -> [f64; 2] {
+    let moves = surface.places.iter().zip(&surface.model.readings).map(|(place, reading)| {
+        let [[here, across], [along, _]] = after.surface().derivatives::<2>(place.at[0], place.at[1]);
+        let part = |a: usize, b: usize| along[a] * across[b] - along[b] * across[a];
+        let [x, y, z] = [part(1, 2), part(2, 0), part(0, 1)];
+        let area = x.hypot(y).hypot(z);
+        let cosine = if area > 0.0 { (y / area).abs() } else { 1.0 };
+        cosine * (here[1] - reading.value).abs()
+    });
+    let (count, squares, most) = moves.fold((0.0, 0.0, 0.0_f64), |(n, s, most), m| (n + 1.0, s + m * m, most.max(m)));
+    [(squares / f64::max(count, 1.0)).sqrt(), most]
+}
+
 /// The half-breadths of the fair surface where the table says `?`; a blank says nothing.
 pub(super) fn predicted(table: &OffsetTable, after: &Hull) -> Vec<Predicted> {
     let asked = |cell: &Cell| {

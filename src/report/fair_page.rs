@@ -101,9 +101,11 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
         line.push_str(&format!("; tolerance {} mm", millimetres(most)));
     }
     line.push_str(&format!(
-        ". Moves: {} mm RMS, {} mm at most{at}; {}.",
+        ". Moves: {} mm RMS, {} mm at most{at}, normal to the hull {} and {} mm; {}.",
         millimetres(rms),
         millimetres(largest),
+        millimetres(outcome.normal_moves[0]),
+        millimetres(outcome.normal_moves[1]),
         noise(outcome)
     ));
     page.push_str(&wrapped(&line, 2));

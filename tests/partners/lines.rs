@@ -76,6 +76,13 @@ pub(crate) fn samples(lines: &[Line], surface: impl Fn(f64, f64) -> f64) -> Vec<
     lines.iter().map(|line| (0..PLACES).map(|k| at(line, line.place(k))).collect()).collect()
 }
 
+/// The departure of a hump from its chord from which it counts \[m\], for stations over a length \[m\] and a table of a
+/// resolution \[mm\].
+pub(crate) fn seen(x: &[f64], resolution: f64) -> f64 {
+    let ends = x.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| [a.min(x), b.max(x)]);
+    ((ends[1] - ends[0]) / 50_000.0).max(2e-3 * resolution)
+}
+
 /// Root of the mean square over all numbers that are there.
 fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.filter(|v| v.is_finite()).fold((0.0, 0usize), |(sum, count), v| (sum + v * v, count + 1));
@@ -116,10 +123,23 @@ fn range(line: &Line, k: &[f64]) -> Option<f64> {
     (range * (line.to - line.from).powi(2) / 8.0 >= 0.02).then_some(range)
 }
 
-/// Changes of sign of the numbers of at least this size.
-fn signs(k: &[f64], least: f64) -> usize {
-    let large: Vec<f64> = k.iter().copied().filter(|k| k.abs() >= least).collect();
-    large.windows(2).filter(|w| w[0] * w[1] < 0.0).count()
+/// Changes of sign of the curvature k of a line y between humps that leave their chord by `seen` \[m\] or more.
+fn signs(line: &Line, y: &[f64], k: &[f64], seen: f64) -> usize {
+    let departure = |from: usize, to: usize| {
+        let slope = (y[to] - y[from]) / (to - from) as f64;
+        let off = (from..=to).map(|i| (y[i] - y[from] - slope * (i - from) as f64).abs()).fold(0.0, f64::max);
+        off / (slope / line.step()).hypot(1.0)
+    };
+    let mut counted: Vec<bool> = Vec::new();
+    let mut from = 0;
+    while from < k.len() {
+        let to = (from..k.len()).find(|&i| (k[i] > 0.0) != (k[from] > 0.0)).unwrap_or(k.len());
+        if departure(from, to + 1) >= seen {
+            counted.push(k[from] > 0.0);
+        }
+        from = to;
+    }
+    counted.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// Turning points of at least this size: monotone pieces less one.
@@ -147,14 +167,15 @@ pub(crate) struct Shape {
     pub(crate) curvature: f64,
     /// Total variation of the curvature over the truth's: median over the lines.
     pub(crate) variation: f64,
-    /// Changes of sign of the curvature beyond the truth's: sums over all waterlines and over all stations.
+    /// Changes of sign of the curvature beyond the truth's, between humps that count: sums over all waterlines and over all
+    /// stations.
     pub(crate) signs: [i64; 2],
     /// Monotone pieces of the curvature beyond the truth's: on the worst line.
     pub(crate) pieces: i64,
 }
 
-/// The comparison of lines with those of the truth.
-pub(crate) fn shape(lines: &[Line], drawn: &[Vec<f64>], truth: &[Vec<f64>]) -> Shape {
+/// The comparison of lines with those of the truth; a hump counts from a departure of `seen` \[m\] from its chord on.
+pub(crate) fn shape(lines: &[Line], drawn: &[Vec<f64>], truth: &[Vec<f64>], seen: f64) -> Shape {
     let curves: Vec<[Vec<f64>; 2]> = lines
         .iter()
         .zip(drawn.iter().zip(truth))
@@ -165,14 +186,15 @@ pub(crate) fn shape(lines: &[Line], drawn: &[Vec<f64>], truth: &[Vec<f64>]) -> S
     let mut ratios: Vec<f64> = totals.iter().filter(|pair| pair[1] > 0.02 * most).map(|[a, b]| a / b).collect();
     ratios.sort_by(f64::total_cmp);
     let (mut parts, mut changes, mut pieces) = (Vec::new(), [0; 2], i64::MIN);
-    for (line, [ours, true_line]) in lines.iter().zip(&curves) {
+    for ((line, [ours, true_line]), [a, b]) in
+        lines.iter().zip(&curves).zip(drawn.iter().zip(truth).map(|(a, b)| [a, b]))
+    {
+        let which = usize::from(line.direction == Direction::Station);
+        changes[which] += signs(line, a, ours, seen) as i64 - signs(line, b, true_line, seen) as i64;
         let Some(range) = range(line, true_line) else { continue };
         parts.extend(ours.iter().zip(true_line).map(|(a, b)| (a - b) / range));
-        let (which, at_turn, at_sign) =
-            if line.direction == Direction::Waterline { (0, 0.03, 0.02) } else { (1, 0.01, 0.005) };
-        let beyond = |count: &dyn Fn(&[f64]) -> usize| count(ours) as i64 - count(true_line) as i64;
-        changes[which] += beyond(&|k| signs(k, at_sign * range));
-        pieces = pieces.max(beyond(&|k| turns(k, at_turn * range)));
+        let least = [0.03, 0.01][which] * range;
+        pieces = pieces.max(turns(ours, least) as i64 - turns(true_line, least) as i64);
     }
     Shape {
         curvature: root_mean_square(parts.into_iter()),

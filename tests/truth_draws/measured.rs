@@ -30,8 +30,11 @@ impl Measured {
         let started = cpu_seconds();
         let outcome = catch_unwind(AssertUnwindSafe(|| Job::default().run(&draw.table)));
         let seconds = cpu_seconds() - started;
+        let resolution = 1e3 * draw.errors.resolution();
+        let table = Table::from(&draw.table);
+        let seen = lines::seen(&table.x, resolution);
         let measure = |samples: &[Vec<f64>]| {
-            (1e3 * lines::rms(samples, &draw.samples), lines::shape(&draw.lines, samples, &draw.samples))
+            (1e3 * lines::rms(samples, &draw.samples), lines::shape(&draw.lines, samples, &draw.samples, seen))
         };
         let outcome = match outcome {
             Ok(Ok(outcome)) => {
@@ -41,14 +44,12 @@ impl Measured {
             Ok(Err(error)) => Err(error.to_string()),
             Err(_) => Err("panic".to_owned()),
         };
-        let table = Table::from(&draw.table);
         let partners = with_partners.then(|| {
             [partners::interpolation, partners::smoother, partners::likelihood].map(|partner| {
                 let (rms, shape) = measure(&partner(&table, &draw.lines).samples);
                 [rms, shape.curvature]
             })
         });
-        let resolution = 1e3 * draw.errors.resolution();
         Self { outcome, partners, smoothed: draw.truth.smoothed, resolution, seconds }
     }
 
