@@ -171,7 +171,7 @@ fn the_fair_hulls_of_the_tables_are_near_their_truths() {
     );
     println!("{said}");
     assert!(ratios[middle] <= 1.01 && above <= 2 && worst <= 1.2, "{said}");
-    assert!(variations[middle] <= 1.1 && waving <= 6, "{said}");
+    assert!(variations[middle] <= 1.1 && waving <= 8, "{said}");
 }
 
 /// The carried tables made fair: `LOFTSMAN_GOLDEN=1` writes their nets.

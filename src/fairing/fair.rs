@@ -13,7 +13,7 @@ use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
-use super::fielded::{NEGATIVE, local_noise};
+use super::fielded::{below_centreplane, local_noise};
 use super::guard::{Guarded, Question};
 use super::humps;
 use super::infeasible::Diagnosis;
@@ -311,8 +311,9 @@ pub fn fair_prepared(
         admit(&mut wishes.breadths, &surface.start);
     }
     if surface.is_field {
+        let least = below_centreplane(sigma, hull);
         // What is no more than its errors below the centreplane is at the centreplane.
-        wishes.breadths.iter_mut().for_each(|limit| limit.lower = limit.lower.max(-NEGATIVE * sigma));
+        wishes.breadths.iter_mut().for_each(|limit| limit.lower = limit.lower.max(-least));
     }
     let forms = sign_forms(surface);
     let model = &surface.model.clone();

@@ -4,7 +4,7 @@
 //! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
-use super::constraint::breadths;
+use super::constraint::{Constraint, breadths};
 use super::fair::{FairError, FairSettings, MISFIT, Prepared};
 use super::field::observed::Observations;
 use super::field::surface::LevelField;
@@ -27,14 +27,17 @@ const LACK_OF_FIT: [f64; 2] = [1.25, 3.0];
 /// Noise of a rough drawing, over the breadth.
 const ROUGH: f64 = 1.25e-3;
 
+/// Part of the volume by which a field may differ from the surface through the table: more is open between its waterlines.
+const VOLUME: f64 = 0.02;
+
 /// Part of the noise of the table below which residuals say nothing of the fit.
 const LEAST_NOISE: f64 = 0.5;
 
 /// The largest residual over the typical one from which a field does not follow its table.
 const FARTHEST: f64 = 10.0;
 
-/// Noise levels by which a field may pass the centreplane.
-pub(super) const NEGATIVE: f64 = 3.0;
+/// Noise levels, and part of the breadth, by which a field may pass the centreplane: beside its ends it does.
+const NEGATIVE: [f64; 2] = [3.0, 3e-3];
 
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
@@ -103,12 +106,14 @@ impl FairSurface {
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone() });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let field = Self::over(hull, model, places, start, field.chosen.anisotropy);
-        Some((field.off_the_centreplane(likely)?, likely))
+        let field = field.off_the_centreplane(likely)?;
+        let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));
+        ((own - through).abs() <= VOLUME * through.abs()).then_some((field, likely))
     }
 
     /// The field of least objective that passes the centreplane by no more than its errors; none where that was not found.
     fn off_the_centreplane(mut self, likely: Likely) -> Option<Self> {
-        let margin = NEGATIVE * likely.sigma;
+        let margin = below_centreplane(likely.sigma, &self.hull);
         let mut limits = breadths(&self.hull, &self.start, f64::INFINITY, margin);
         limits.iter_mut().for_each(|limit| limit.lower = -margin);
         if limits.iter().all(|limit| value(&limit.row, &self.start) >= limit.lower) {
@@ -127,6 +132,11 @@ impl FairSurface {
         self.start = solved.net;
         Some(self)
     }
+}
+
+/// What a field of this noise \[m\] may pass the centreplane by \[m\].
+pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
+    (NEGATIVE[0] * sigma).max(NEGATIVE[1] * hull.particulars().breadth)
 }
 
 /// Whether a field follows its table in most places and not in some: the residuals are above `least` \[m\], and

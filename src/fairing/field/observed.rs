@@ -81,6 +81,11 @@ impl Line<'_> {
         self.station(k).half_breadth(self.j)
     }
 
+    /// The lowest waterline of the table \[m\].
+    fn lowest(&self) -> f64 {
+        self.table.waterlines.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     fn is_above_deck(&self, k: usize) -> bool {
         self.station(k).ends_below(self.j, self.table.waterlines[self.j])
     }
@@ -137,9 +142,13 @@ impl Observations {
         let (j, z) = (line.j, line.table.waterlines[line.j]);
         let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
         let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
+        // The lowest waterline with more zeros than breadths between its ends is a keel with some width here and there.
+        let ends = positive.first().zip(positive.last()).filter(|_| z <= line.lowest());
+        let inside = |k: usize| ends.is_some_and(|(&first, &last)| (first..=last).contains(&k));
+        let is_keel = given.iter().filter(|k| inside(**k)).count() > 2 * positive.len();
         for &k in &given {
             let Some(y) = line.value(k) else { continue };
-            if y <= 0.0 && !positive.is_empty() {
+            if y <= 0.0 && !positive.is_empty() && !(is_keel && inside(k)) {
                 continue;
             }
             let marks = line.station(k).half_breadths[j].marks;
