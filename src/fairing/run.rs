@@ -141,7 +141,9 @@ impl<'a> Run<'a> {
         } = Started::new(job, table, way.own)?;
         (way.progress)(&format!(
             "{}; {}",
-            if surface.own {
+            if surface.is_field {
+                "a field follows the table"
+            } else if surface.own {
                 "an independent net follows the table"
             } else {
                 "the net of the surface through the table"
