@@ -138,13 +138,8 @@ impl Bend {
         Some(scaled.limit(if positive { [-room, f64::INFINITY] } else { [f64::NEG_INFINITY, room] }))
     }
 
-    /// The numerator scaled to size 1: row, offset and the room that a curvature \[1/m\] has on it.
-    pub(super) fn scaled_row(&self, net: &[f64], room: f64) -> Option<(Row, f64, f64)> {
-        self.scaled(net, room).map(|scaled| (scaled.row, scaled.offset, scaled.room))
-    }
-
     /// The numerator scaled to size 1, with the room that a curvature has on it \[1/m\].
-    fn scaled(&self, net: &[f64], room: f64) -> Option<Scaled> {
+    pub(super) fn scaled(&self, net: &[f64], room: f64) -> Option<Scaled> {
         let size = self.numerator.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
         let row = self.numerator.iter().map(|&(i, value)| (i, value / size)).collect();
         let room = room * self.along.hypot(value(&self.slope, net)).powi(3) / size;
@@ -153,19 +148,19 @@ impl Bend {
 }
 
 /// A numerator scaled to size 1.
-struct Scaled {
+pub(super) struct Scaled {
     row: Row,
     offset: f64,
-    room: f64,
+    pub(super) room: f64,
 }
 
 impl Scaled {
-    fn at(&self, net: &[f64]) -> f64 {
+    pub(super) fn at(&self, net: &[f64]) -> f64 {
         value(&self.row, net) + self.offset
     }
 
     /// Limits of the numerator as limits of its row.
-    fn limit(self, [lower, upper]: [f64; 2]) -> Limit {
+    pub(super) fn limit(self, [lower, upper]: [f64; 2]) -> Limit {
         Limit { lower: lower - self.offset, upper: upper - self.offset, row: self.row }
     }
 }
@@ -382,7 +377,7 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
         let to = (from + 1..bends.len()).find(|&k| signs[k] == -signs[from]).unwrap_or(bends.len());
         let largest = bends[from..to].iter().map(|bend| bend.curvature(net).abs()).fold(0.0, f64::max);
         let arc = largest * length(bends, [from, to], net).powi(2) / 8.0;
-        small[from..to].fill(arc < 2.0 * seen || departs(bends, [from, to], net) < seen);
+        small[from..to].fill(arc < 2.0 * seen || departure(bends, [from, to], net) < seen);
         from = to;
     }
     small
@@ -390,7 +385,7 @@ fn unseen(bends: &[Bend], signs: &[i8], net: &[f64], seen: f64) -> Vec<bool> {
 
 /// Greatest distance of a part of a line from its chord \[m\]: with theta the integral of curvature along the line, the
 /// integral of theta less its mean, from the middle of the gap before the part to the middle of the gap after it.
-pub(super) fn departs(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
+pub(super) fn departure(bends: &[Bend], [from, to]: [usize; 2], net: &[f64]) -> f64 {
     let (mut s, mut turned, mut off) = (vec![0.0], 0.0, vec![0.0]);
     for k in from..to {
         let step = gap(bends, k) * stretch(&bends[k], net);
@@ -462,7 +457,7 @@ mod tests {
     fn what_departs_is_known_to_a_hundredth() {
         let off = |second: &dyn Fn(f64) -> f64| {
             let (bends, second) = line(second);
-            departs(&bends, [0, bends.len()], &second)
+            departure(&bends, [0, bends.len()], &second)
         };
         assert!((off(&|_| 1e-3) - 0.0125).abs() < 1e-4);
         assert!((off(&|x| 1e-3 * (PI * x / 10.0).sin()) - 0.1 / PI.powi(2)).abs() < 1e-4);

@@ -379,30 +379,21 @@ pub fn fair_prepared(
     // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
     // nothing elsewhere.
     let mut guarded = None;
-    let asks = settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal();
-    if asks && surface.is_field {
-        let question = humps::Question {
+    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
+        let lines = &guarded_lines(&prepared.lines, &settings.rules);
+        let of_field = || humps::Question {
             model,
             smoother,
             smoothed,
             lambda,
             sigma,
             wishes: &wishes,
-            lines: &guarded_lines(&prepared.lines, &settings.rules),
+            lines,
             seen: settings.seen,
             price: settings.price,
             solver: &settings.solver,
         };
-        let mut found = question.run(&solved)?;
-        programs += found.programs;
-        iterations += found.iterations;
-        if let Some(accepted) = found.accepted.take() {
-            price = (accepted.1.objective - solved.objective) / (sigma * sigma);
-            (program, solved) = accepted;
-        }
-        guarded = Some(found);
-    } else if asks {
-        let question = Question {
+        let of_fit = || Question {
             surface,
             model,
             smoother,
@@ -410,7 +401,7 @@ pub fn fair_prepared(
             sigma,
             errors: prepared.errors,
             wishes: &wishes,
-            lines: &guarded_lines(&prepared.lines, &settings.rules),
+            lines,
             kept: &settings.kept,
             strict: &settings.strict,
             oblique: &settings.oblique,
@@ -419,7 +410,7 @@ pub fn fair_prepared(
             price: settings.price,
             solver: &settings.solver,
         };
-        let mut found = question.run(&solved)?;
+        let mut found = if surface.is_field { of_field().run(&solved)? } else { of_fit().run(&solved)? };
         programs += found.programs;
         iterations += found.iterations;
         if let Some(accepted) = found.accepted.take() {

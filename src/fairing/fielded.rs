@@ -10,10 +10,10 @@ use super::field::observed::Observations;
 use super::field::surface::LevelField;
 use super::model::{Model, Reading, Stationary, value};
 use super::program::{Program, Wishes};
+use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, readings};
 use crate::hull::{Hull, HullError, OffsetTable};
-use crate::numeric::median;
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
@@ -50,9 +50,6 @@ const LEAST_FREEDOM: f64 = 0.05;
 
 /// Powers of ten to each side of the weight of a field that are drawn.
 const TRIALS: i32 = 3;
-
-/// Standard deviation over the median of absolute values, of a normal variable.
-const NORMAL: f64 = 1.4826;
 
 /// What the likelihood says of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,12 +137,12 @@ pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
 }
 
 /// Whether a field follows its table in most places and not in some: the residuals are above `least` \[m\], and
-/// [`MISFIT`] times what the typical one says.
+/// [`MISFIT`] times what the typical one says, or one is [`FARTHEST`] times it.
 fn lacks_fit(residuals: &[f64], least: f64) -> bool {
-    let mut sizes: Vec<f64> = residuals.iter().map(|residual| residual.abs()).collect();
-    let all = (sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len().max(1) as f64).sqrt();
-    let most = sizes.iter().copied().fold(0.0, f64::max);
-    let typical = NORMAL * median(&mut sizes).unwrap_or(0.0);
+    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
+    let all = (squares / residuals.len().max(1) as f64).sqrt();
+    let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
+    let typical = typical(residuals.iter().copied());
     all > least && (all > MISFIT * typical || most > FARTHEST * typical)
 }
 

@@ -80,7 +80,7 @@ impl HeldRule {
 }
 
 /// By how much a net breaks a limit.
-fn violated(limit: &Limit, net: &[f64]) -> f64 {
+pub(super) fn violated(limit: &Limit, net: &[f64]) -> f64 {
     let y = value(&limit.row, net);
     (limit.lower - y).max(y - limit.upper).max(0.0)
 }

@@ -13,9 +13,10 @@
 //! program is solved again. A line whose answer has more inflections than it was asked for has the signs without the room
 //! about its inflections in the next program.
 
-use super::bends::{Bend, changes, dead, departs};
+use super::bends::{Bend, changes, dead, departure};
 use super::choice::{trial, worth_it};
 use super::guard::Guarded;
+use super::held::violated;
 use super::least::TableLine;
 use super::model::{Limit, Model, value};
 use super::program::{Program, RowName, Solved, Wishes};
@@ -129,7 +130,7 @@ impl Question<'_> {
             } else {
                 let dearest = charges.values().copied().fold(0.0, f64::max);
                 let gone = charges.iter().filter(|(_, charge)| **charge > 0.0 && **charge >= SHARE * dearest);
-                gone.fold(false, |again, (&(k, hump), _)| again | !std::mem::replace(&mut asked[k].back[hump], true))
+                give_back(&mut asked, gone.map(|(&place, _)| place))
             };
             if !again {
                 break;
@@ -147,7 +148,7 @@ impl Question<'_> {
         let chosen = worth_it((&program, &self.smoother.reduced), net, &limits, &prices, self.solver)?;
         let Some(chosen) = chosen else { return Ok(None) };
         let gone = parts.keys().zip(chosen).filter(|(_, worth)| !worth);
-        Ok(Some(gone.fold(false, |again, (&(k, hump), _)| again | !std::mem::replace(&mut asked[k].back[hump], true))))
+        Ok(Some(give_back(asked, gone.map(|(&place, _)| place))))
     }
 
     /// The program with signs, its answer, and what each hump is charged \[m^2\].
@@ -160,10 +161,7 @@ impl Question<'_> {
         let mut charges = Charges::new();
         for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
             let RowName::Bend(row) = *name else { continue };
-            let limit = &wishes.bends[row];
-            let now = value(&limit.row, net);
-            let against = (limit.lower - now).max(now - limit.upper).max(0.0);
-            *charges.entry(owners[row]).or_default() += z.abs() * against;
+            *charges.entry(owners[row]).or_default() += z.abs() * violated(&wishes.bends[row], net);
         }
         Ok((program, solved, charges))
     }
@@ -209,6 +207,17 @@ impl Question<'_> {
     }
 }
 
+/// Gives humps back; whether one of them was not given back before.
+fn give_back(asked: &mut [Asked], gone: impl Iterator<Item = Place>) -> bool {
+    gone.fold(false, |again, (k, hump)| again | !std::mem::replace(&mut asked[k].back[hump], true))
+}
+
+/// Inflections between the humps that count.
+fn inflections(humps: &[Hump]) -> usize {
+    let signs: Vec<i8> = humps.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
+    changes(&signs)
+}
+
 /// The humps of a line, seen or not.
 fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> Vec<Hump> {
     let values: Vec<f64> = bends.iter().map(|bend| value(&bend.numerator, net) + bend.offset).collect();
@@ -222,7 +231,7 @@ fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> 
         }
     }
     for hump in &mut found {
-        hump.seen = departs(bends, [hump.from, hump.to], net) >= seen;
+        hump.seen = departure(bends, [hump.from, hump.to], net) >= seen;
     }
     found
 }
@@ -268,15 +277,12 @@ impl Asked {
 
     /// Inflections of the field that count.
     fn count(&self) -> usize {
-        let seen: Vec<i8> = self.humps.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
-        changes(&seen)
+        inflections(&self.humps)
     }
 
     /// Those of a net.
     fn counted(&self, net: &[f64], seen: f64) -> usize {
-        let found = humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen);
-        let told: Vec<i8> = found.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
-        changes(&told)
+        inflections(&humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen))
     }
 
     /// The limits of the places that have a sign, but for those about an inflection that are not clear. What does not
@@ -292,11 +298,11 @@ impl Asked {
         for (index, hump) in self.humps.iter().enumerate() {
             let places = (hump.from..hump.to).filter(|&k| !beside(k)).map(|k| (&self.bends[k], signs[k]));
             for (bend, sign) in places {
-                let Some((row, offset, room)) = bend.scaled_row(net, none) else { continue };
-                let now = f64::from(sign) * (value(&row, net) + offset);
+                let Some(scaled) = bend.scaled(net, none) else { continue };
+                let (now, room) = (f64::from(sign) * scaled.at(net), scaled.room);
                 let least = if hump.seen { -room } else { now.min(-room) };
-                let [lower, upper] = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
-                limits.push((index, Limit { lower: lower - offset, upper: upper - offset, row }));
+                let range = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
+                limits.push((index, scaled.limit(range)));
             }
         }
         limits

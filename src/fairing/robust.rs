@@ -39,7 +39,7 @@ const LEVEL: f64 = 0.02;
 const MOST: f64 = 0.05;
 
 /// 1.4826 times the median of the sizes: the standard deviation of most of them.
-fn typical(values: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn typical(values: impl Iterator<Item = f64>) -> f64 {
     1.4826 * median(&mut values.map(f64::abs).collect::<Vec<_>>()).unwrap_or(0.0)
 }
 

@@ -124,7 +124,7 @@ impl Started {
             let level = modelled.before.is_level();
             match level.then(|| FairSurface::of_field(&cleaned.clean, &modelled.before, noise)).flatten() {
                 Some(field) => (modelled.surface, likely) = (field.0, Some(field.1)),
-                None => modelled = Modelled::new(job, &cleaned, &found, noise, own)?,
+                None => modelled.net_again(job, &cleaned, &found, noise)?,
             }
         }
         if job.exclude_suspects && modelled.surface.own {
@@ -223,6 +223,15 @@ impl Modelled {
             None => before,
         };
         Ok(Self { before, notes: fitted.notes, proposals, start, breaks, surface, search, watched })
+    }
+
+    /// Takes a net of its own where the table may have one, over the same surface.
+    fn net_again(&mut self, job: &Job, table: &Cleaned, found: &Suspects, noise: f64) -> Result<(), JobError> {
+        let (proposals, _, (start, breaks), surface, search) =
+            Self::surface(job, table, found, (noise, true), &self.before)?;
+        (self.proposals, self.start, self.breaks, self.surface, self.search) =
+            (proposals, start, breaks, surface, search);
+        Ok(())
     }
 
     /// What may be declared, the surface through the table with what is where that is another one, the same with edges

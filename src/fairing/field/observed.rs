@@ -81,11 +81,6 @@ impl Line<'_> {
         self.station(k).half_breadth(self.j)
     }
 
-    /// The lowest waterline of the table \[m\].
-    fn lowest(&self) -> f64 {
-        self.table.waterlines.iter().copied().fold(f64::INFINITY, f64::min)
-    }
-
     fn is_above_deck(&self, k: usize) -> bool {
         self.station(k).ends_below(self.j, self.table.waterlines[self.j])
     }
@@ -104,7 +99,7 @@ impl Observations {
         let bottom = if lowest - keel > ABOVE_KEEL * height { keel } else { lowest };
         let mut found = Self::default();
         for j in 0..table.waterlines.len() {
-            found.waterline(&Line { table, j });
+            found.waterline(&Line { table, j }, lowest);
         }
         for (station, z) in keels() {
             let level = z - bottom <= LEVEL * height;
@@ -137,13 +132,13 @@ impl Observations {
         found
     }
 
-    fn waterline(&mut self, line: &Line<'_>) {
+    fn waterline(&mut self, line: &Line<'_>, lowest: f64) {
         let count = line.table.stations.len();
         let (j, z) = (line.j, line.table.waterlines[line.j]);
         let given: Vec<usize> = (0..count).filter(|&k| line.value(k).is_some()).collect();
         let positive: Vec<usize> = given.iter().copied().filter(|&k| line.value(k).is_some_and(|y| y > 0.0)).collect();
         // The lowest waterline with more zeros than breadths between its ends is a keel with some width here and there.
-        let ends = positive.first().zip(positive.last()).filter(|_| z <= line.lowest());
+        let ends = positive.first().zip(positive.last()).filter(|_| z <= lowest);
         let inside = |k: usize| ends.is_some_and(|(&first, &last)| (first..=last).contains(&k));
         let is_keel = given.iter().filter(|k| inside(**k)).count() > 2 * positive.len();
         for &k in &given {
