@@ -170,6 +170,9 @@ fn the_table_keeps_its_notation_and_says_what_rounding_did() {
     // Texts of the changes are those of the two tables.
     let changes = file(&outputs, "changes.csv");
     let rows: Vec<Vec<&str>> = changes.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    // Zeros beyond an end that the field finds are no offsets of the hull.
+    let (unused, rows): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.contains(&"not used"));
+    assert!(unused.iter().all(|row| row[4].parse::<f64>().is_ok_and(|y| y.abs() < 1e-9)), "{unused:?}");
     assert_eq!(rows.len(), outputs.outcome.changes.len());
     for row in &rows {
         let [before, after, moved] = [4, 5, 6].map(|k| row[k].parse::<f64>().unwrap());
@@ -644,8 +647,9 @@ fn unknown_offsets_are_predicted() {
     let output = program(&["fair", &table.display().to_string(), "-o", &out, "--no-figures"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let changes = read_text(path.join("out/changes.csv"));
-    let last: Vec<&str> = changes.lines().last().unwrap().split(',').collect();
-    assert_eq!((last[0], last[3], last[4], last[11]), ("18.288", "3.2512", "", "?"));
+    let mut rows = changes.lines().map(|line| line.split(',').collect::<Vec<&str>>());
+    let last = rows.find(|row| row.get(11) == Some(&"?")).unwrap();
+    assert_eq!((last[0], last[3], last[4]), ("18.288", "3.2512", ""));
     assert!((last[5].parse::<f64>().unwrap() - 3.3569).abs() < 0.02, "{last:?}");
     assert!(last[12].starts_with("(3.3") && last[12].ends_with(')'), "{last:?}");
     let fair = read_text(path.join("out/offsets.csv"));
@@ -851,14 +855,32 @@ fn a_table_that_is_read_is_not_written_over() {
     assert_eq!(fs::read_dir(&path).unwrap().count(), 1);
 }
 
-/// The stern of the S-175 is closed up to the counter at 9.7 m: with control values that the fit leaves below 4e-5 m free
+/// With more room offsets move further and the hull is fairer: with 10, 20, 40 and 80 mm the net of the surface through this
+/// table moved them by 1.24, 1.99, 1.98 and 1.35 mm.
+#[test]
+fn more_room_makes_a_hull_fairer() {
+    let with = |tolerance: &str| {
+        let (_, outputs) =
+            faired(&carried("tests/data/s175/offsets.csv"), &[("--tolerance", "tolerance.table", tolerance)]);
+        outputs.verdict().unwrap();
+        assert!(outputs.outcome.is_field);
+        let kept = outputs.outcome.changes.iter().filter(|change| !change.suspect);
+        let largest = kept.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max);
+        (outputs.outcome.moves().0, largest, outputs.outcome.changes_of_sign()[1])
+    };
+    let [narrow, wide] = ["10 mm", "40 mm"].map(with);
+    assert!(narrow.1 <= 0.01 + 1e-9 && wide.1 <= 0.04 + 1e-9, "{narrow:?} {wide:?}");
+    assert!(wide.0 > 1.3 * narrow.0 && wide.2 < narrow.2, "{narrow:?} {wide:?}");
+}
+
+/// The stern of the S-175 is closed up to the counter at 9.5 m: with control values that the fit leaves below 4e-5 m free
 /// to move it opened by 14 mm.
 #[test]
 fn ends_that_are_closed_stay_closed() {
     let (_, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[]);
     let hull = json(file(&outputs, "hull.json"));
     let edge = |axis: &str| hull["surface"][axis][0].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
-    let below: Vec<f64> = edge("y").into_iter().zip(edge("z")).filter(|(_, z)| *z < 9.7).map(|(y, _)| y).collect();
+    let below: Vec<f64> = edge("y").into_iter().zip(edge("z")).filter(|(_, z)| *z < 9.5).map(|(y, _)| y).collect();
     assert!(below.len() > 15 && below.iter().all(|y| y.abs() < 1e-4), "{below:?}");
 }
 

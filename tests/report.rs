@@ -456,7 +456,7 @@ fn the_verdict_says_how_many_offsets_were_kept_and_with_which_settings() {
         "1 suspected typing error left out",
         "Settings: toleranc",
         "smoothing weight",
-        "Made from offsets.csv (sha256",
+        "from offsets.csv (sha256",
     ] {
         assert!(svg.contains(part), "{part} is not in {svg}");
     }

@@ -102,8 +102,9 @@ impl FairSurface {
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone() });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
-        let field = Self::over(hull, model, places, start, field.chosen.anisotropy);
-        let field = field.off_the_centreplane(likely)?;
+        let mut found = Self::over(hull, model, places, start, field.chosen.anisotropy);
+        found.breaks = field.lines;
+        let field = found.off_the_centreplane(likely)?;
         let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));
         ((own - through).abs() <= VOLUME * through.abs()).then_some((field, likely))
     }

@@ -146,8 +146,8 @@ pub struct Job {
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
     pub locked: Vec<(usize, usize)>,
-    /// Whether a level table without targets, locks, rules and tolerances of its own is smoothed as a fair field
-    /// ([`super::field`]), where that follows it.
+    /// Whether a level table without targets, locks and rules is smoothed as a fair field ([`super::field`]), where that
+    /// follows it.
     pub field: bool,
     /// Whether suspects are left out.
     pub exclude_suspects: bool,
@@ -164,14 +164,13 @@ pub struct Job {
 }
 
 impl Job {
-    /// Whether a field is asked for and the job leaves everything else to the program.
-    pub(super) fn is_plain(&self) -> bool {
+    /// Whether a field is asked for, and nothing that only the net of a fit can do.
+    pub(super) fn suits_a_field(&self) -> bool {
         let kept = Self::default();
         self.field
             && self.weight.is_none()
             && self.energy == kept.energy
             && self.holding == kept.holding
-            && self.tolerance == kept.tolerance
             && self.locked.is_empty()
             && self.rules.is_empty()
             && self.lines.is_empty()

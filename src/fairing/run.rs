@@ -479,6 +479,7 @@ impl<'a> Run<'a> {
             }
         };
         surface.straight_parts().iter().for_each(|note| when(true, note));
+        surface.break_lines().for_each(|note| when(true, &note));
         faired.bent.iter().for_each(|bent| when(true, &LeastBending::words(bent)));
         when(
             job.bending && faired.bent.is_none() && optimal,

@@ -117,7 +117,7 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let as_field = own && job.is_plain() && table.lines.is_empty();
+        let as_field = own && job.suits_a_field() && table.lines.is_empty();
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
         let mut likely = None;
         if as_field {

@@ -18,6 +18,7 @@
 use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
+use super::field::breaks::Line;
 use super::metric::{Metric, true_energy};
 use super::model::{Model, Reading};
 use super::unbroken::{Breaks, Unbroken};
@@ -158,6 +159,8 @@ pub struct FairSurface {
     pub plain: bool,
     /// Whether the net is that of a fair field.
     pub is_field: bool,
+    /// Waterlines across which a field breaks.
+    pub breaks: Vec<Line>,
 }
 
 /// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one
@@ -391,6 +394,7 @@ impl FairSurface {
             plain,
             own: smooth,
             is_field: false,
+            breaks: Vec::new(),
             simple: over.is_none_or(|(over, _)| over.simple),
             hull,
         })
@@ -412,7 +416,19 @@ impl FairSurface {
             simple: true,
             courses: [Course::default(), Course::default()],
             is_field: true,
+            breaks: Vec::new(),
         }
+    }
+
+    /// Waterlines across which the curvature of a field breaks, in words.
+    pub(super) fn break_lines(&self) -> impl Iterator<Item = String> {
+        self.breaks.iter().map(|line| {
+            format!(
+                "curvature breaks along the waterline at z = {:.2} m, as at the end of a bilge: the offsets show it (-2 ln of the likelihood \
+                 falls by {:.0})",
+                line.z, line.gain
+            )
+        })
     }
 
     /// Straight parts that were found and are kept straight, in words.

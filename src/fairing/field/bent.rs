@@ -6,7 +6,7 @@
 //! What is left is the rule's own error, which is zero where the chart is not bent.
 
 use super::chart::Chart;
-use super::net::{DEGREE, Net, ORDER};
+use super::net::{Break, DEGREE, Net, ORDER};
 use super::region::{Bend, Field};
 use crate::numeric::{SymmetricBand, gauss_legendre};
 use crate::spline::{Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
@@ -48,6 +48,8 @@ pub struct Bent {
     pub knots: [KnotVector; 2],
     /// Lines v = constant across which the chart has a corner.
     pub corners: Vec<f64>,
+    /// Lines v = constant across which the field breaks.
+    pub breaks: Vec<Break>,
     /// Whether the hull closes at the ends, for every control value along v.
     pub closed: [Vec<bool>; 2],
     /// Whether it closes along the keel.
@@ -179,7 +181,7 @@ impl Bent {
     pub fn energy(&self, net: &Net, anisotropy: f64) -> SymmetricBand {
         let [rows, columns] = self.shape();
         // Across a corner two spans of v meet that share one function.
-        let reach = if self.corners.is_empty() { DEGREE } else { 2 * DEGREE };
+        let reach = if self.corners.is_empty() && self.breaks.is_empty() { DEGREE } else { 2 * DEGREE };
         let width = DEGREE.min(rows - 1) * columns + reach.min(columns - 1);
         let mut matrix = SymmetricBand::zeros(rows * columns, width);
         let rule = gauss_legendre(NODES);
@@ -237,20 +239,23 @@ impl Bent {
         matrix
     }
 
-    /// Charges what derivatives of the field jump across the corners of the chart, where those of the net do.
+    /// Charges what derivatives of the field jump across the corners of the chart, where those of the net do, and across
+    /// its breaks.
     fn charge_jumps(&self, matrix: &mut SymmetricBand, [n, m]: [f64; 2]) {
         let columns = self.shape()[1];
         let rule = gauss_legendre(NODES);
         let breaks = self.knots[0].breakpoints();
-        for &v in &self.corners {
+        let corner = |&at: &f64| Break { at, order: 1, charge: JUMP };
+        for line in self.corners.iter().map(corner).chain(self.breaks.iter().copied()) {
+            let v = line.at;
             let above = self.knots[1].find_span(v);
-            let below = above - DEGREE;
+            let below = above - line.multiplicity();
             let sides = [below, above].map(|span| (span, taylor(&self.knots[1], span, v)));
             for along in breaks.windows(2) {
                 for (w, weight) in rule.on(along[0], along[1]) {
                     let ahead = self.knots[0].find_span(w);
                     let (i, ahead) = (ahead - DEGREE, taylor(&self.knots[0], ahead, w));
-                    for k in 1..ORDER {
+                    for k in line.order..ORDER {
                         let mut row: Vec<(usize, f64)> = Vec::new();
                         let mut measure = 0.0;
                         for (side, (span, up)) in sides.iter().enumerate() {
@@ -264,7 +269,7 @@ impl Bent {
                                 }
                             }
                         }
-                        let factor = JUMP * measure * n;
+                        let factor = line.charge * measure * n;
                         for (a, &(i, x)) in row.iter().enumerate() {
                             for (b, &(j, y)) in row.iter().enumerate() {
                                 if j < i || i == j && (a == b) {

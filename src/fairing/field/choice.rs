@@ -18,6 +18,10 @@ const ANISOTROPIES: [f64; 8] = [0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0];
 /// Values of c.
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
+/// Where the descent starts, in the grids: a flat bottom, and a V keel. From one alone an S-shaped hull whose sections leave
+/// the keel straight came out 30 mm fuller below its first waterline.
+const STARTS: [[usize; 4]; 2] = [[1, 3, 0, 0], [5, 3, 0, 0]];
+
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
@@ -96,34 +100,7 @@ impl Search<'_, '_> {
         }
         let observed = Observed::new(self.energies.net, &self.chart(at), self.cells);
         let Ok(rough) = self.energies.of(ANISOTROPIES[at[1]]) else { return f64::INFINITY };
-        let mut trials = 0;
-        let mut best: Option<(f64, Smoothed)> = None;
-        let mut seen = BTreeSet::new();
-        let mut look = |exponent: f64, best: &mut Option<(f64, Smoothed)>| {
-            let key = (exponent * 16.0).round() as i64;
-            if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || !seen.insert(key) {
-                return;
-            }
-            trials += 1;
-            if let Ok(found) = smoothed(&observed, rough, 10f64.powf(exponent), self.least)
-                && best.as_ref().is_none_or(|(_, b)| found.cost < b.cost)
-            {
-                *best = Some((exponent, found));
-            }
-        };
-        // Outwards from the last best weight in steps of a decade, then finer.
-        let mut step = STEPS[0];
-        look(self.exponent, &mut best);
-        while step > STEPS[1] {
-            while let Some(centre) = best.as_ref().map(|b| b.0) {
-                look(centre - step, &mut best);
-                look(centre + step, &mut best);
-                if best.as_ref().is_none_or(|b| (b.0 - centre).abs() < 1e-9) {
-                    break;
-                }
-            }
-            step *= 0.5;
-        }
+        let (best, trials) = weighed(&observed, rough, self.exponent, self.least);
         self.trials += trials;
         let Some((exponent, found)) = best else { return f64::INFINITY };
         self.exponent = exponent;
@@ -131,31 +108,92 @@ impl Search<'_, '_> {
         self.known.insert(at, (exponent, found));
         cost
     }
+
+    /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid.
+    fn descent(&mut self, mut at: [usize; 4], beside: usize) -> Option<[usize; 4]> {
+        for _ in 0..ROUNDS {
+            let before = at;
+            for k in [1, 0, 2, 3] {
+                let count = [KEELS.len(), ANISOTROPIES.len(), ENDS.len(), ENDS.len()][k];
+                let last = count.min(at[k].saturating_add(beside).saturating_add(1));
+                let tried = (at[k].saturating_sub(beside)..last).map(|q| {
+                    let mut place = at;
+                    place[k] = q;
+                    (self.cost(place), place)
+                });
+                at = tried.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+            }
+            if at == before {
+                break;
+            }
+        }
+        Some(at)
+    }
 }
 
-/// The chart of greatest likelihood over a rectangle; the noise is at least `least` \[m\]. None where the cells determine
-/// no field.
-#[must_use]
-pub fn choose(energies: &mut Energies<'_>, cells: &[Cell], rectangle: Chart, least: f64) -> Option<Chosen> {
-    let known = BTreeMap::new();
-    let mut search = Search { energies, cells, rectangle, least, known, exponent: FIRST, trials: 0 };
-    let mut at = [1, 3, 0, 0];
-    for _ in 0..ROUNDS {
-        let before = at;
-        for k in [1, 0, 2, 3] {
-            let count = [KEELS.len(), ANISOTROPIES.len(), ENDS.len(), ENDS.len()][k];
-            let tried = (0..count).map(|q| {
-                let mut place = at;
-                place[k] = q;
-                (search.cost(place), place)
-            });
-            at = tried.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+/// The decimal logarithm of the weight of greatest likelihood with its field, outwards from `start` in steps of a decade,
+/// then finer; and how many were tried.
+pub(super) fn weighed(
+    observed: &Observed,
+    rough: &Roughness,
+    start: f64,
+    least: f64,
+) -> (Option<(f64, Smoothed)>, usize) {
+    let mut trials = 0;
+    let mut best: Option<(f64, Smoothed)> = None;
+    let mut seen = BTreeSet::new();
+    let mut look = |exponent: f64, best: &mut Option<(f64, Smoothed)>| {
+        let key = (exponent * 16.0).round() as i64;
+        if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || !seen.insert(key) {
+            return;
         }
-        if at == before {
-            break;
+        trials += 1;
+        if let Ok(found) = smoothed(observed, rough, 10f64.powf(exponent), least)
+            && best.as_ref().is_none_or(|(_, b)| found.cost < b.cost)
+        {
+            *best = Some((exponent, found));
         }
+    };
+    let mut step = STEPS[0];
+    look(start, &mut best);
+    while step > STEPS[1] {
+        while let Some(centre) = best.as_ref().map(|b| b.0) {
+            look(centre - step, &mut best);
+            look(centre + step, &mut best);
+            if best.as_ref().is_none_or(|b| (b.0 - centre).abs() < 1e-9) {
+                break;
+            }
+        }
+        step *= 0.5;
     }
+    (best, trials)
+}
+
+/// The chart of greatest likelihood over a rectangle; the noise is at least `least` \[m\]. With an earlier choice only charts
+/// beside it are tried, as long as they are better. None where the cells determine no field.
+#[must_use]
+pub fn choose(
+    energies: &mut Energies<'_>,
+    cells: &[Cell],
+    rectangle: Chart,
+    least: f64,
+    earlier: Option<&Chosen>,
+) -> Option<Chosen> {
+    let known = BTreeMap::new();
+    let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
+    let mut search = Search { energies, cells, rectangle, least, known, exponent, trials: 0 };
+    let starts = earlier.map_or(STARTS.to_vec(), |earlier| vec![place(earlier)]);
+    let beside = if earlier.is_some() { 1 } else { usize::MAX };
+    let ends = starts.into_iter().filter_map(|start| search.descent(start, beside)).collect::<Vec<_>>();
+    let at = ends.into_iter().min_by(|a, b| search.cost(*a).total_cmp(&search.cost(*b)))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
     Some(Chosen { chart, anisotropy: ANISOTROPIES[at[1]], exponent, field, trials: search.trials })
+}
+
+/// Where a choice stands in the grids.
+fn place(chosen: &Chosen) -> [usize; 4] {
+    let of = |grid: &[f64], value: f64| grid.iter().position(|other| (other - value).abs() < 1e-12).unwrap_or(0);
+    let Shape { keel, ends } = chosen.chart.shape;
+    [of(&KEELS, keel), of(&ANISOTROPIES, chosen.anisotropy), of(&ENDS, ends[0]), of(&ENDS, ends[1])]
 }

@@ -13,7 +13,7 @@
 use super::chart::Chart;
 use super::net::{KERNEL, Net, ORDER};
 use crate::numeric::{SingularMatrix, SymmetricBand};
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// An offset on the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +36,7 @@ pub struct Observed {
     /// Rows over the scales.
     rows: Vec<Vec<(usize, f64)>>,
     values: Vec<f64>,
+    scales: Vec<f64>,
     /// log det X'X.
     kernel: f64,
 }
@@ -72,7 +73,63 @@ impl Observed {
             }
         }
         let kernel = SymmetricEigen::new(gram).eigenvalues.iter().map(|e| e.max(1e-300).ln()).sum();
-        Self { normal, right, rows, values, kernel }
+        let scales = cells.iter().map(|cell| cell.scale).collect();
+        Self { normal, right, rows, values, scales, kernel }
+    }
+
+    /// How likely it is that functions, given by their values at the cells, are in the errors of the field of a weight: the
+    /// statistic b'G^-1 b / sigma^2 of the score test, chi-squared without them (Rao 1948), with the scaled values Phi.
+    ///
+    /// ```text
+    /// b = Phi'(y - M c),   G = Phi'Phi - Phi'M (M'M + wP)^-1 M'Phi
+    /// ```
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when the cells do not determine the field.
+    pub fn scores(
+        &self,
+        roughness: &Roughness,
+        weight: f64,
+        field: &Smoothed,
+        candidates: &[Vec<Vec<f64>>],
+    ) -> Result<Vec<f64>, SingularMatrix> {
+        let factor = self.normal.plus(weight, &roughness.matrix).factor()?;
+        let of = |row: &[(usize, f64)], net: &[f64]| row.iter().map(|(j, b)| b * net[*j]).sum::<f64>();
+        let residuals: Vec<f64> =
+            self.rows.iter().zip(&self.values).map(|(row, y)| y - of(row, &field.values)).collect();
+        let score = |functions: &Vec<Vec<f64>>| {
+            let scaled: Vec<Vec<f64>> = functions
+                .iter()
+                .map(|f| f.iter().zip(&self.scales).map(|(value, scale)| value / scale).collect())
+                .collect();
+            let left: Vec<Vec<f64>> = scaled
+                .iter()
+                .map(|f| {
+                    let mut net = vec![0.0; self.right.len()];
+                    for (row, value) in self.rows.iter().zip(f) {
+                        row.iter().for_each(|(j, b)| net[*j] += b * value);
+                    }
+                    factor.solve(&mut net);
+                    self.rows.iter().zip(f).map(|(row, value)| value - of(row, &net)).collect()
+                })
+                .collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let count = functions.len();
+            let gram =
+                DMatrix::from_fn(count, count, |i, j| 0.5 * (dot(&scaled[i], &left[j]) + dot(&scaled[j], &left[i])));
+            let told = DVector::from_fn(count, |i, _| dot(&scaled[i], &residuals));
+            let solved = SymmetricEigen::new(gram);
+            let greatest = solved.eigenvalues.max();
+            let parts = solved.eigenvectors.tr_mul(&told);
+            let sum: f64 = parts
+                .iter()
+                .zip(&solved.eigenvalues)
+                .filter(|(_, e)| **e > 1e-9 * greatest)
+                .map(|(part, e)| part * part / e)
+                .sum();
+            sum / (field.sigma * field.sigma)
+        };
+        Ok(candidates.iter().map(score).collect())
     }
 
     /// Number of cells.

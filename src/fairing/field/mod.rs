@@ -15,6 +15,7 @@
 
 #[allow(clippy::needless_range_loop, reason = "orders of derivatives are what the loops run over")]
 pub mod bent;
+pub mod breaks;
 pub mod chart;
 pub mod choice;
 pub mod likelihood;

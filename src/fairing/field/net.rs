@@ -7,9 +7,18 @@
 //! ```
 //!
 //! Here a is the anisotropy. The kernel of E are the polynomials in u and v of total degree n - 1.
+//!
+//! Across a break v = constant the derivatives by v from some order r on may jump. The energy has their jumps J_k.
+//!
+//! ```text
+//! h int sum_(k = r)^3 (J_k / M^k)^2 ds
+//! ```
+//!
+//! With the charge h a break is a prior of its own, and adds nothing to the kernel.
 
 use crate::numeric::{SingularMatrix, SymmetricBand};
-use crate::spline::{Gram, KnotVector, SplineError, add_product, binomial};
+use crate::spline::{Collocation, Gram, KnotVector, SplineError, add_product, binomial};
+use nalgebra::DMatrix;
 
 /// Order of the energy.
 pub const ORDER: usize = 4;
@@ -20,6 +29,60 @@ pub const DEGREE: usize = 5;
 /// Polynomials of the kernel.
 pub const KERNEL: usize = ORDER * (ORDER + 1) / 2;
 
+/// Lines of the net nearer to each other than this part of a span are one.
+pub const CLOSE: f64 = 0.4;
+
+/// A line v = constant of a net across which derivatives may jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Break {
+    /// v on it.
+    pub at: f64,
+    /// The least order of the derivatives that jump: 1 for a knuckle, 2 for a tangent line.
+    pub order: usize,
+    /// h: what a jump of one is charged.
+    pub charge: f64,
+}
+
+impl Break {
+    /// Multiplicity of its knot.
+    #[must_use]
+    pub fn multiplicity(&self) -> usize {
+        DEGREE + 1 - self.order
+    }
+
+    /// What the derivatives jump by across it, order by order, in the functions of `knots` from the first on that has any.
+    #[must_use]
+    pub fn jumps(&self, knots: &KnotVector) -> (usize, Vec<Vec<f64>>) {
+        let above = knots.find_span(self.at);
+        let below = above - self.multiplicity();
+        let sides = [below, above].map(|span| knots.basis_derivatives::<ORDER>(span, self.at));
+        let row = |order: usize| {
+            let mut row = vec![0.0; DEGREE + 1 + self.multiplicity()];
+            for k in 0..=DEGREE {
+                row[k] -= sides[0][order][k];
+                row[self.multiplicity() + k] += sides[1][order][k];
+            }
+            row
+        };
+        (below - DEGREE, (self.order..ORDER).map(row).collect())
+    }
+}
+
+/// Uniform knots of so many spans with these breaks.
+fn with_breaks(spans: usize, breaks: &[Break]) -> Result<KnotVector, SplineError> {
+    let spacing = 1.0 / spans.max(1) as f64;
+    let far = |t: f64| breaks.iter().all(|b| (b.at - t).abs() >= CLOSE * spacing);
+    let mut lines: Vec<(f64, usize)> = (0..=spans)
+        .map(|k| k as f64 * spacing)
+        .filter(|&t| t <= 0.0 || t >= 1.0 - 1e-12 || far(t))
+        .map(|t| (t.min(1.0), 1))
+        .collect();
+    lines.extend(breaks.iter().map(|b| (b.at, b.multiplicity())));
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (places, times): (Vec<f64>, Vec<usize>) = lines.into_iter().unzip();
+    KnotVector::from_breakpoints(DEGREE, &places, &times[1..times.len() - 1])
+}
+
 /// A tensor-product net over the unit square, numbered v fastest, with the parts of its energy.
 #[derive(Debug, Clone)]
 pub struct Net {
@@ -27,18 +90,26 @@ pub struct Net {
     pub knots: [KnotVector; 2],
     /// Intervals that a parameter is counted in.
     pub intervals: [f64; 2],
+    /// Lines across which it may break.
+    pub breaks: Vec<Break>,
     parts: Vec<SymmetricBand>,
-    /// Control values that are taken out to make the energy definite, and the logarithm of the factor between the
-    /// determinant of what is left and the product of the eigenvalues that are not zero, constants left out.
+    /// What jumps are charged.
+    charges: Option<SymmetricBand>,
+    /// Control values that are taken out to make the energy definite.
     grounded: Vec<usize>,
+    /// The logarithm of the square of the determinant of the kernel's functions at these.
+    grounding: f64,
 }
 
 impl Net {
-    /// The net on the given knots.
-    #[must_use]
-    pub fn new(knots: [KnotVector; 2], intervals: [f64; 2]) -> Self {
+    /// The net on the given knots, which have those of the breaks.
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine a polynomial.
+    pub fn new(knots: [KnotVector; 2], intervals: [f64; 2], breaks: Vec<Break>) -> Result<Self, SplineError> {
         let count = [knots[0].basis_count(), knots[1].basis_count()];
-        let width = knots[0].degree().min(count[0] - 1) * count[1] + knots[1].degree().min(count[1] - 1);
+        let most = breaks.iter().map(Break::multiplicity).max().unwrap_or(0);
+        let width = DEGREE.min(count[0] - 1) * count[1] + (DEGREE + most).min(count[1] - 1);
         let grams = |k: usize, order: usize| {
             let gram = Gram::new(&knots[k], &knots[k], [order, order]);
             (gram, intervals[k].powi(1 - 2 * order as i32))
@@ -52,11 +123,45 @@ impl Net {
             })
             .collect();
         let spread = |k: usize, j: usize| j * (count[k] - 1) / (ORDER - 1);
-        let grounded = (0..ORDER)
-            .flat_map(|i| (0..ORDER - i).map(move |j| (i, j)))
-            .map(|(i, j)| spread(0, i) * count[1] + spread(1, j))
-            .collect();
-        Self { knots, intervals, parts, grounded }
+        let pairs: Vec<[usize; 2]> = (0..ORDER).flat_map(|i| (0..ORDER - i).map(move |j| [i, j])).collect();
+        let powers = [powers(&knots[0])?, powers(&knots[1])?];
+        let places: Vec<[usize; 2]> = pairs.iter().map(|&[i, j]| [spread(0, i), spread(1, j)]).collect();
+        let functions = DMatrix::from_fn(KERNEL, KERNEL, |row, column| {
+            let ([i, j], [p, q]) = (places[row], pairs[column]);
+            powers[0][p][i] * powers[1][q][j]
+        });
+        let grounding = 2.0 * functions.lu().determinant().abs().max(f64::MIN_POSITIVE).ln();
+        let grounded = places.iter().map(|[i, j]| i * count[1] + j).collect();
+        let mut net = Self { knots, intervals, breaks, parts, charges: None, grounded, grounding };
+        net.charges = (!net.breaks.is_empty()).then(|| net.charged(width));
+        Ok(net)
+    }
+
+    /// What jumps of a net are charged: its intervals times the integral over the break of their squares.
+    fn charged(&self, width: usize) -> SymmetricBand {
+        let [rows, columns] = self.shape();
+        let mut sum = SymmetricBand::zeros(self.size(), width);
+        let gram = Gram::new(&self.knots[0], &self.knots[0], [0, 0]);
+        for line in &self.breaks {
+            let (first, jumps) = line.jumps(&self.knots[1]);
+            for (order, jump) in (line.order..).zip(&jumps) {
+                let factor = line.charge * self.intervals[0] * self.intervals[1].powi(-2 * order as i32);
+                for (a, x) in jump.iter().enumerate() {
+                    for (b, y) in jump.iter().enumerate() {
+                        for i in 0..rows {
+                            for k in i.saturating_sub(DEGREE)..=i {
+                                let (p, q) = (i * columns + first + a, k * columns + first + b);
+                                // Each pair once: of the same function along the break both orders are met.
+                                if i > k || p >= q {
+                                    sum.add(p, q, factor * x * y * gram.get(i, k));
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        sum
     }
 
     /// Clamped uniform knots of so many spans.
@@ -64,7 +169,16 @@ impl Net {
     /// # Errors
     /// [`SplineError`] without spans.
     pub fn uniform(spans: [usize; 2], intervals: [f64; 2]) -> Result<Self, SplineError> {
-        Ok(Self::new([KnotVector::uniform(DEGREE, spans[0])?, KnotVector::uniform(DEGREE, spans[1])?], intervals))
+        Self::broken(spans, intervals, Vec::new())
+    }
+
+    /// The same with breaks; lines of the knots beside them are left out.
+    ///
+    /// # Errors
+    /// [`SplineError`] without spans, or for breaks beside each other.
+    pub fn broken(spans: [usize; 2], intervals: [f64; 2], breaks: Vec<Break>) -> Result<Self, SplineError> {
+        let [along, up] = [KnotVector::uniform(DEGREE, spans[0])?, with_breaks(spans[1], &breaks)?];
+        Self::new([along, up], intervals, breaks)
     }
 
     /// Numbers of control values along u and v.
@@ -92,11 +206,15 @@ impl Net {
         for (k, part) in self.parts.iter().enumerate() {
             all = all.plus(anisotropy.powi(1 - 2 * k as i32), part);
         }
-        all
+        match &self.charges {
+            Some(charges) => all.plus(1.0, charges),
+            None => all,
+        }
     }
 
-    /// The logarithm of the product of the eigenvalues of P that are not zero, but for a constant of the net: that of the
-    /// determinant of P without the rows and columns of as many control values as its kernel has functions.
+    /// The logarithm of the product of the eigenvalues of P that are not zero over the determinant of the Gram matrix of the
+    /// kernel's functions in control values: that of the determinant of P without the rows and columns of as many control
+    /// values as its kernel has functions, over the square of that of the functions there.
     ///
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite.
@@ -109,7 +227,7 @@ impl Net {
                 matrix.add(row, column, energy.get(i, j));
             }
         }
-        Ok(matrix.factor()?.log_determinant())
+        Ok(matrix.factor()?.log_determinant() - self.grounding)
     }
 
     /// The values of the functions along one direction that are not zero at a place, and the first of them.
@@ -128,4 +246,16 @@ impl Net {
         let entry = |r: usize, s: usize| ((i + r) * count + j + s, along[r] * up[s]);
         (0..=DEGREE).flat_map(|r| (0..=DEGREE).map(move |s| (r, s))).map(|(r, s)| entry(r, s)).collect()
     }
+}
+
+/// Control values of the powers of 2 t - 1 up to the degree of the kernel.
+fn powers(knots: &KnotVector) -> Result<Vec<Vec<f64>>, SplineError> {
+    let sites = knots.greville();
+    let solver = Collocation::new(knots, &sites)?;
+    let power = |k: usize| {
+        let mut values: Vec<f64> = sites.iter().map(|t| (2.0 * t - 1.0).powi(k as i32)).collect();
+        solver.solve(&mut values);
+        values
+    };
+    Ok((0..ORDER).map(power).collect())
 }

@@ -1,10 +1,11 @@
 //! From the offsets of a table to the chart of its hull.
 
 use super::bent::Bent;
+use super::breaks::{Line, broken};
 use super::chart::{Chart, Shape};
-use super::choice::{Chosen, Energies, choose};
-use super::likelihood::{Cell, Observed, Smoothed, smoothed};
-use super::net::{DEGREE, Net};
+use super::choice::{Chosen, Energies, choose, weighed};
+use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::net::{Break, CLOSE, DEGREE, Net};
 use super::observed::{EXACT, End, Observations};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
@@ -12,11 +13,11 @@ use crate::spline::{KnotVector, SplineError};
 /// Heights a span at which the kind of an end is looked at.
 const SAMPLES: usize = 8;
 
-/// Lines of the net nearer to each other than this part of a span are one.
-const CLOSE: f64 = 0.4;
+/// Powers of the steepness that are tried, the first with every chart.
+const POWERS: [f64; 3] = [0.5, 0.0, 1.0];
 
-/// Powers of the steepness that are tried.
-const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
+/// Spans of the net over those of the table.
+const FINER: f64 = 1.5;
 
 /// Distance in v at which the sides of a corner are looked at.
 const BESIDE: f64 = 1e-6;
@@ -38,6 +39,8 @@ pub struct LevelField {
     pub field: Field,
     /// The chart of the hull.
     pub bent: Bent,
+    /// Lines across which it breaks.
+    pub lines: Vec<Line>,
     /// The power of the steepness of the hull that the errors go with.
     pub power: f64,
     /// Residuals of what is not exact, over the scale of its errors \[m\].
@@ -63,7 +66,8 @@ impl LevelField {
     /// [`FieldError`] where they determine none.
     pub fn new(seen: &Observations, [stations, waterlines]: [usize; 2], resolution: f64) -> Result<Self, FieldError> {
         let [length, height] = seen.extent;
-        let net = Net::uniform([stations.max(4), waterlines.max(4)], [stations as f64 - 1.0, waterlines as f64 - 1.0])?;
+        let spans = [stations.max(4), waterlines.max(4)];
+        let net = Net::uniform(spans, [stations as f64 - 1.0, waterlines as f64 - 1.0])?;
         let rectangle = Chart { length, height, shape: Shape { keel: 0.1, ends: [0.0; 2] } };
         let greatest = seen.readings.iter().fold(0.0f64, |m, cell| m.max(cell.y));
         let least = (resolution / 12f64.sqrt()).max(LEAST_NOISE * 2.0 * greatest);
@@ -71,21 +75,29 @@ impl LevelField {
         let first = smooth_first(&mut energies, &seen.readings, rectangle, least).ok_or(FieldError::Undetermined)?;
         let field = Field::new(rectangle, &net, &first.values)?;
         let steepness: Vec<f64> = seen.readings.iter().map(|cell| field.steepness(cell.x, cell.z)).collect();
+        let scaled = |power: f64| -> Vec<Cell> {
+            let scale = |(cell, s): (&Cell, &f64)| Cell { scale: cell.scale * s.powf(power), ..*cell };
+            seen.readings.iter().zip(&steepness).map(scale).collect()
+        };
+        let jacobian = |cells: &[Cell]| cells.iter().map(|cell| 2.0 * cell.scale.ln()).sum::<f64>();
         // The power of the steepness that the errors go with: 0 where they are alike in y, as written digits are, 1 where they
         // are alike normal to the hull, as readings of a drawing are.
-        let mut best: Option<(f64, f64, Chosen, Vec<Cell>)> = None;
-        for power in POWERS {
-            let scale = |(cell, s): (&Cell, &f64)| Cell { scale: cell.scale * s.powf(power), ..*cell };
-            let scaled: Vec<Cell> = seen.readings.iter().zip(&steepness).map(scale).collect();
-            let jacobian: f64 = scaled.iter().map(|c| 2.0 * c.scale.ln()).sum();
-            if let Some(found) = choose(&mut energies, &scaled, rectangle, least) {
-                let cost = found.field.cost + jacobian;
-                if best.as_ref().is_none_or(|b| cost < b.0) {
-                    best = Some((cost, power, found, scaled));
-                }
+        let mut cells = scaled(POWERS[0]);
+        let mut chosen = choose(&mut energies, &cells, rectangle, least, None).ok_or(FieldError::Undetermined)?;
+        let mut power = POWERS[0];
+        let cost = |chosen: &Chosen, cells: &[Cell]| chosen.field.cost + jacobian(cells);
+        for other in &POWERS[1..] {
+            let others = scaled(*other);
+            let Some(found) = choose(&mut energies, &others, rectangle, least, Some(&chosen)) else { continue };
+            if cost(&found, &others) < cost(&chosen, &cells) {
+                (power, chosen, cells) = (*other, found, others);
             }
         }
-        let (_, power, mut chosen, mut cells) = best.ok_or(FieldError::Undetermined)?;
+        let finer = spans.map(|count| (FINER * count as f64).round() as usize);
+        let net = Net::uniform(finer, net.intervals)?;
+        let chosen = refined(&net, &cells, chosen, least).ok_or(FieldError::Undetermined)?;
+        let (net, mut chosen, lines) = broken(net, finer, &cells, chosen, least);
+        let mut energies = Energies::new(&net);
         let rough = energies.of(chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         for _ in 0..ROUNDS {
@@ -108,8 +120,16 @@ impl LevelField {
         let bent = bent(&net, &field, seen)?;
         let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
         let residuals = cells.iter().filter(|cell| cell.scale > EXACT).map(residual).collect();
-        Ok(Self { field, bent, net, chosen, power, residuals })
+        Ok(Self { field, bent, net, chosen, power, residuals, lines })
     }
+}
+
+/// The choice on a finer net, with its best weight.
+fn refined(net: &Net, cells: &[Cell], chosen: Chosen, least: f64) -> Option<Chosen> {
+    let rough = Roughness::new(net, chosen.anisotropy).ok()?;
+    let (found, trials) = weighed(&Observed::new(net, &chosen.chart, cells), &rough, chosen.exponent, least);
+    let (exponent, field) = found?;
+    Some(Chosen { exponent, field, trials: chosen.trials + trials, ..chosen })
 }
 
 /// A first smooth field, for the slopes of the hull.
@@ -192,15 +212,21 @@ fn bent(net: &Net, field: &Field, seen: &Observations) -> Result<Bent, FieldErro
     breaks.extend(&corners);
     breaks.sort_by(f64::total_cmp);
     let count = breaks.len();
-    let multiplicities: Vec<usize> =
-        breaks[1..count - 1].iter().map(|b| if corners.contains(b) { DEGREE } else { 1 }).collect();
+    let broken: Vec<Break> = net.breaks.iter().filter(|line| breaks.contains(&line.at)).copied().collect();
+    let multiplicity = |at: &f64| match broken.iter().find(|line| line.at.total_cmp(at).is_eq()) {
+        _ if corners.contains(at) => DEGREE,
+        Some(line) => line.multiplicity(),
+        None => 1,
+    };
+    let multiplicities: Vec<usize> = breaks[1..count - 1].iter().map(multiplicity).collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
     let bend = Bend::new(&knots, |v| [0, 1].map(|side| ends.at(v, side).0))?;
     // At a corner the end is closed where it is so on one side of it.
     let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
     let closed = [0, 1].map(|side| knots.greville().iter().map(|&v| is_closed(v, side)).collect());
     let (chart, keel_closed) = (field.chart, seen.keel_closed);
-    Ok(Bent { chart, knots: [with_breaks(&net.knots[0], &bend)?, knots], bend, corners, closed, keel_closed })
+    let knots = [with_breaks(&net.knots[0], &bend)?, knots];
+    Ok(Bent { chart, knots, bend, corners, breaks: broken, closed, keel_closed })
 }
 
 /// The knots along the field with those at which the bends begin.

@@ -3,13 +3,13 @@
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
 use super::likelihood::{Cell, Observed, Roughness, smoothed};
-use super::net::{KERNEL, Net};
+use super::net::{Break, KERNEL, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
 use super::surface::LevelField;
 use crate::hull::{self, OffsetTable, StationOffsets};
 use crate::numeric::SymmetricBand;
-use crate::spline::{KnotVector, binomial};
+use crate::spline::{BsplineCurve, KnotVector, binomial};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 fn chart() -> Chart {
@@ -20,9 +20,17 @@ fn quadratic(matrix: &SymmetricBand, c: &[f64]) -> f64 {
     matrix.apply(c).iter().zip(c).map(|(a, b)| a * b).sum()
 }
 
+/// A tangent line, and a knuckle beside a line of the net.
+fn breaks() -> Vec<Break> {
+    vec![Break { at: 0.3, order: 2, charge: 0.1 }, Break { at: 0.7, order: 1, charge: 0.01 }]
+}
+
 /// A smooth field on a net of 12 x 8 spans.
 fn wavy() -> (Net, Vec<f64>) {
-    let net = Net::uniform([12, 8], [11.0, 7.0]).unwrap();
+    field_on(Net::uniform([12, 8], [11.0, 7.0]).unwrap())
+}
+
+fn field_on(net: Net) -> (Net, Vec<f64>) {
     let value = |u: f64, v: f64| 8.0 * ((3.3 * u - 0.3).sin() + 0.4 * v * (2.0 * v + 5.0 * u).cos());
     let values = straight(&net).interpolated(value).unwrap();
     (net, values)
@@ -32,7 +40,8 @@ fn wavy() -> (Net, Vec<f64>) {
 fn straight(net: &Net) -> Bent {
     let bend = Bend::new(&net.knots[1], |_| [0.0, 1.0]).unwrap();
     let closed = [vec![false; net.shape()[1]], vec![false; net.shape()[1]]];
-    Bent { chart: chart(), bend, knots: net.knots.clone(), corners: Vec::new(), closed, keel_closed: false }
+    let (knots, breaks) = (net.knots.clone(), net.breaks.clone());
+    Bent { chart: chart(), bend, knots, corners: Vec::new(), breaks, closed, keel_closed: false }
 }
 
 #[test]
@@ -68,10 +77,8 @@ fn the_grounded_determinant_is_the_pseudo_determinant() {
     }
 }
 
-/// The same restricted likelihood from the dense A, for two weights.
-#[test]
-fn the_likelihood_is_that_of_the_dense_matrices() {
-    let net = Net::uniform([5, 4], [4.0, 3.0]).unwrap();
+/// The restricted likelihood of a net and a weight, and the same from the dense A, but for one constant of the table.
+fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
     let chart = chart();
     let cells: Vec<Cell> = (0..40)
         .map(|k| {
@@ -84,8 +91,8 @@ fn the_likelihood_is_that_of_the_dense_matrices() {
             }
         })
         .collect();
-    let rough = Roughness::new(&net, 1.4).unwrap();
-    let observed = Observed::new(&net, &chart, &cells);
+    let rough = Roughness::new(net, 1.4).unwrap();
+    let observed = Observed::new(net, &chart, &cells);
     let n = cells.len();
     let rows = DMatrix::from_fn(n, net.size(), |i, j| {
         let row = net.row([chart.u(cells[i].x), chart.v(cells[i].z)]);
@@ -104,22 +111,75 @@ fn the_likelihood_is_that_of_the_dense_matrices() {
         freedom * (left / freedom).ln() + freedom - determinant
     };
     let ours = |weight: f64| smoothed(&observed, &rough, weight, 1e-12).unwrap().cost;
-    let (a, b) = (1e-3, 1e-1);
-    assert!(
-        ((dense(a) - dense(b)) - (ours(a) - ours(b))).abs() < 1e-5,
-        "{} {}",
-        dense(a) - dense(b),
-        ours(a) - ours(b)
-    );
+    weights.map(|weight| [ours(weight), dense(weight)]).to_vec()
+}
+
+/// Weights and nets with and without breaks are compared by the likelihood that dense matrices have.
+#[test]
+fn the_likelihood_is_that_of_the_dense_matrices() {
+    let nets = [Vec::new(), breaks()].map(|breaks| Net::broken([5, 4], [4.0, 3.0], breaks).unwrap());
+    let found: Vec<[f64; 2]> = nets.iter().flat_map(|net| likelihoods(net, [1e-3, 1e-1])).collect();
+    let constant = found[0][0] - found[0][1];
+    assert!(found.iter().all(|[ours, dense]| (ours - dense - constant).abs() < 1e-5), "{found:?}");
 }
 
 #[test]
 fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
-    let (net, values) = wavy();
-    let bent = straight(&net);
-    assert!(bent.bend.is_straight());
-    let (own, of_net) = (quadratic(&bent.energy(&net, 1.4), &values), quadratic(&net.energy(1.4), &values));
-    assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
+    for breaks in [Vec::new(), breaks()] {
+        let (net, mut values) = field_on(Net::broken([12, 8], [11.0, 7.0], breaks).unwrap());
+        // What jumps.
+        let columns = net.shape()[1];
+        values
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, value)| *value += 0.01 * ((k % columns) * (k % columns) % 7) as f64);
+        let bent = straight(&net);
+        assert!(bent.bend.is_straight());
+        let (own, of_net) = (quadratic(&bent.energy(&net, 1.4), &values), quadratic(&net.energy(1.4), &values));
+        assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
+    }
+}
+
+/// Jumps of a break are those of the derivatives on its sides, and a polynomial has none.
+#[test]
+fn the_jumps_of_a_break_are_those_of_the_derivatives() {
+    let net = Net::broken([6, 8], [5.0, 7.0], breaks()).unwrap();
+    let knots = &net.knots[1];
+    let control: Vec<f64> = (0..knots.basis_count()).map(|k| (k * k % 5) as f64).collect();
+    let curve = BsplineCurve::new(knots.clone(), control.iter().map(|&c| [c]).collect()).unwrap();
+    let greville = knots.greville();
+    for line in breaks() {
+        let (first, rows) = line.jumps(knots);
+        for (order, row) in (line.order..).zip(&rows) {
+            let jump: f64 = row.iter().zip(&control[first..]).map(|(a, c)| a * c).sum();
+            let h = 1e-9;
+            let [below, above] = [-h, h].map(|h| curve.derivatives::<4>(line.at + h)[order][0]);
+            assert!((jump - (above - below)).abs() < 1e-4 * (1.0 + jump.abs()), "{order}: {jump} {}", above - below);
+            // The control values of t are the Greville places.
+            let none: f64 = row.iter().zip(&greville[first..]).map(|(a, t)| a * t).sum();
+            assert!(none.abs() < 1e-9 * row.iter().map(|a| a.abs()).sum::<f64>(), "{order}: {none}");
+        }
+    }
+}
+
+/// A section of a straight side above an arc has its tangent line found to a fifth of a waterline's spacing, and a
+/// parabolic hull has none.
+#[test]
+fn the_upper_end_of_a_bilge_is_found() {
+    let mut table = wigley();
+    let radius = 2.2;
+    for station in &mut table.stations {
+        let t = station.station.x / 50.0 - 1.0;
+        let breadth = 5.0 * (1.0 - t * t);
+        for (cell, z) in station.half_breadths.iter_mut().zip(&table.waterlines) {
+            let arc = radius - (radius * radius - (radius - z).max(0.0).powi(2)).sqrt();
+            *cell = hull::Cell::from(Some(breadth * (1.0 - 0.45 * arc)));
+        }
+    }
+    let found = LevelField::new(&Observations::new(&table), [21, 11], 0.0).unwrap();
+    assert!(found.lines.iter().any(|line| (line.z - radius).abs() < 0.125), "{:?}", found.lines);
+    let none = LevelField::new(&Observations::new(&wigley()), [21, 11], 0.0).unwrap();
+    assert_eq!(none.lines, []);
 }
 
 /// A bent chart holds the field to its resolution, and its energy is that of the field within the hull, by a midpoint rule.
@@ -132,7 +192,7 @@ fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
     let knots = [KnotVector::uniform(5, 36).unwrap(), KnotVector::uniform(5, 16).unwrap()];
     let bend = Bend::new(&knots[1], ends).unwrap();
     let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
-    let bent = Bent { chart, bend, knots, corners: Vec::new(), closed, keel_closed: false };
+    let bent = Bent { chart, bend, knots, corners: Vec::new(), breaks: Vec::new(), closed, keel_closed: false };
     let y = bent.half_breadths(&field).unwrap();
     let energy = quadratic(&bent.energy(&net, 1.4), &y);
     let (mut sum, [rows, columns]) = (0.0, [600, 300]);
