@@ -864,7 +864,8 @@ fn more_room_makes_a_hull_fairer() {
             faired(&carried("tests/data/s175/offsets.csv"), &[("--tolerance", "tolerance.table", tolerance)]);
         outputs.verdict().unwrap();
         assert!(outputs.outcome.is_field);
-        let kept = outputs.outcome.changes.iter().filter(|change| !change.suspect);
+        // The keel closes forward of its last offset, which lies on the closed end.
+        let kept = outputs.outcome.changes.iter().filter(|change| !change.suspect && change.z > 0.0);
         let largest = kept.map(|change| (change.after - change.before).abs()).fold(0.0, f64::max);
         (outputs.outcome.moves().0, largest, outputs.outcome.changes_of_sign()[1])
     };
