@@ -13,6 +13,9 @@ use crate::qp::Settings;
 /// Least tolerance over the breadth: below it a difference is rounding.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-6;
 
+/// Least tolerance of the table over its noise with which a field has something to smooth.
+const LEAST_ROOM: f64 = 0.5;
+
 /// L_PP over the length of the stations, and the reverse, from which it is none of this hull.
 pub(super) const MOST_LENGTH: f64 = 10.0;
 
@@ -164,13 +167,14 @@ pub struct Job {
 }
 
 impl Job {
-    /// Whether a field is asked for, and nothing that only the net of a fit can do.
-    pub(super) fn suits_a_field(&self) -> bool {
+    /// Whether a field is asked for, and nothing that only the net of a fit can do; `noise` \[m\] is that of the table.
+    pub(super) fn suits_a_field(&self, noise: f64) -> bool {
         let kept = Self::default();
         self.field
             && self.weight.is_none()
             && self.energy == kept.energy
             && self.holding == kept.holding
+            && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
             && self.locked.is_empty()
             && self.rules.is_empty()
             && self.lines.is_empty()

@@ -20,9 +20,6 @@ use crate::units::counted;
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
 
-/// Least tolerance of the table over its noise with which a field has something to smooth.
-const LEAST_ROOM: f64 = 0.5;
-
 /// A waterline or a station nearer to a proposed line than this \[m\] is the line.
 const SAME: f64 = 1e-9;
 
@@ -120,8 +117,7 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let room = job.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise);
-        let as_field = own && room && job.suits_a_field() && table.lines.is_empty();
+        let as_field = own && job.suits_a_field(noise) && table.lines.is_empty();
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
         let mut likely = None;
         if as_field {

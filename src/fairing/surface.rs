@@ -18,7 +18,7 @@
 use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
-use super::field::breaks::Line;
+use super::field::breaks::FoundBreak;
 use super::metric::{Metric, true_energy};
 use super::model::{Model, Reading};
 use super::unbroken::{Breaks, Unbroken};
@@ -160,7 +160,7 @@ pub struct FairSurface {
     /// Whether the net is that of a fair field.
     pub is_field: bool,
     /// Waterlines across which a field breaks.
-    pub breaks: Vec<Line>,
+    pub breaks: Vec<FoundBreak>,
 }
 
 /// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one

@@ -7,8 +7,8 @@
 //! in the geometric mean; breaks of waterlines alone make it 9 % less.
 
 use super::chart::Chart;
-use super::choice::{Chosen, weighed};
-use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::choice::Chosen;
+use super::likelihood::{Cell, Observed, Roughness, smoothed};
 use super::net::{Break, Net};
 use std::collections::BTreeSet;
 
@@ -39,7 +39,7 @@ const STEP: f64 = 0.04;
 
 /// A break of the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct FoundBreak {
     /// Height \[m\].
     pub z: f64,
     /// What -2 log l falls by.
@@ -54,7 +54,7 @@ pub fn broken(
     cells: &[Cell],
     mut chosen: Chosen,
     least: f64,
-) -> (Net, Chosen, Vec<Line>) {
+) -> (Net, Chosen, Vec<FoundBreak>) {
     let (chart, intervals) = (chosen.chart, net.intervals);
     let mut lines = Vec::new();
     for _ in 0..MOST {
@@ -68,11 +68,10 @@ pub fn broken(
         let mut best: Option<(f64, f64, Break)> = None;
         for (k, charge) in peaks(&scores).into_iter().take(TRIED).flat_map(|k| FIRST.map(|charge| (k, charge))) {
             let line = Break { at: places[k], order: 2, charge };
-            let found = trial.weighed(line, chosen.exponent).map(|(_, exponent, field)| (field.cost, exponent, line));
-            if let Some(found) = found
-                && best.as_ref().is_none_or(|best| found.0 < best.0)
+            if let Some((_, found)) = trial.weighed(line, chosen.exponent)
+                && best.as_ref().is_none_or(|best| found.field.cost < best.0)
             {
-                best = Some(found);
+                best = Some((found.field.cost, found.exponent, line));
             }
         }
         let Some((_, exponent, line)) = best else { break };
@@ -81,7 +80,7 @@ pub fn broken(
         if gain < GAIN {
             break;
         }
-        lines.push(Line { z: chart.z(line.at), gain });
+        lines.push(FoundBreak { z: chart.z(line.at), gain });
         (net, chosen) = (tried, found);
     }
     (net, chosen, lines)
@@ -98,25 +97,27 @@ struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    fn net(&self, line: Break) -> Option<(Net, Roughness, Observed)> {
+    fn net(&self, line: Break) -> Option<Net> {
         let breaks = self.known.iter().copied().chain([line]).collect();
-        let net = Net::broken(self.spans, self.intervals, breaks).ok()?;
-        let rough = Roughness::new(&net, self.chosen.anisotropy).ok()?;
-        let observed = Observed::new(&net, &self.chosen.chart, self.cells);
-        Some((net, rough, observed))
+        Net::broken(self.spans, self.intervals, breaks).ok()
     }
 
-    /// The net with the break, the decimal logarithm of its best weight, and the field.
-    fn weighed(&self, line: Break, start: f64) -> Option<(Net, f64, Smoothed)> {
-        let (net, rough, observed) = self.net(line)?;
-        let (exponent, field) = weighed(&observed, &rough, start, self.least).0?;
-        Some((net, exponent, field))
+    /// The net with the break, and the choice on it.
+    fn weighed(&self, line: Break, start: f64) -> Option<(Net, Chosen)> {
+        let net = self.net(line)?;
+        let found = self.chosen.on(&net, self.cells, start, self.least)?;
+        Some((net, found))
     }
 
     /// -2 log l of a weight.
     fn cost(&self, line: Break, exponent: f64) -> f64 {
-        let Some((_, rough, observed)) = self.net(line) else { return f64::INFINITY };
-        smoothed(&observed, &rough, 10f64.powf(exponent), self.least).map_or(f64::INFINITY, |field| field.cost)
+        let field = || {
+            let net = self.net(line)?;
+            let rough = Roughness::new(&net, self.chosen.anisotropy).ok()?;
+            let observed = Observed::new(&net, &self.chosen.chart, self.cells);
+            smoothed(&observed, &rough, 10f64.powf(exponent), self.least).ok()
+        };
+        field().map_or(f64::INFINITY, |field| field.cost)
     }
 
     /// The break where it is likeliest, with the charge that is.
@@ -138,8 +139,8 @@ impl Trial<'_> {
         }
         let tried = CHARGES.into_iter().filter_map(|charge| {
             let line = Break { charge, ..best.1 };
-            let (net, exponent, field) = self.weighed(line, exponent)?;
-            Some((net, Chosen { exponent, field, ..self.chosen.clone() }, line))
+            let (net, found) = self.weighed(line, exponent)?;
+            Some((net, found, line))
         });
         tried.min_by(|a, b| a.1.field.cost.total_cmp(&b.1.field.cost))
     }

@@ -74,6 +74,17 @@ pub struct Chosen {
     pub trials: usize,
 }
 
+impl Chosen {
+    /// The same chart and anisotropy on another net, with the weight of greatest likelihood from `start` (its decimal
+    /// logarithm) on. None where the cells determine no field.
+    pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64) -> Option<Self> {
+        let rough = Roughness::new(net, self.anisotropy).ok()?;
+        let (found, trials) = weighed(&Observed::new(net, &self.chart, cells), &rough, start, least);
+        let (exponent, field) = found?;
+        Some(Self { chart: self.chart, anisotropy: self.anisotropy, exponent, field, trials: self.trials + trials })
+    }
+}
+
 struct Search<'a, 'n> {
     energies: &'a mut Energies<'n>,
     cells: &'a [Cell],
@@ -133,12 +144,7 @@ impl Search<'_, '_> {
 
 /// The decimal logarithm of the weight of greatest likelihood with its field, outwards from `start` in steps of a decade,
 /// then finer; and how many were tried.
-pub(super) fn weighed(
-    observed: &Observed,
-    rough: &Roughness,
-    start: f64,
-    least: f64,
-) -> (Option<(f64, Smoothed)>, usize) {
+fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64) -> (Option<(f64, Smoothed)>, usize) {
     let mut trials = 0;
     let mut best: Option<(f64, Smoothed)> = None;
     let mut seen = BTreeSet::new();

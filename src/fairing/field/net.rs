@@ -69,7 +69,7 @@ impl Break {
 }
 
 /// Uniform knots of so many spans with these breaks.
-fn with_breaks(spans: usize, breaks: &[Break]) -> Result<KnotVector, SplineError> {
+fn broken_knots(spans: usize, breaks: &[Break]) -> Result<KnotVector, SplineError> {
     let spacing = 1.0 / spans.max(1) as f64;
     let far = |t: f64| breaks.iter().all(|b| (b.at - t).abs() >= CLOSE * spacing);
     let mut lines: Vec<(f64, usize)> = (0..=spans)
@@ -146,16 +146,16 @@ impl Net {
             let (first, jumps) = line.jumps(&self.knots[1]);
             for (order, jump) in (line.order..).zip(&jumps) {
                 let factor = line.charge * self.intervals[0] * self.intervals[1].powi(-2 * order as i32);
-                for (a, x) in jump.iter().enumerate() {
-                    for (b, y) in jump.iter().enumerate() {
-                        for i in 0..rows {
-                            for k in i.saturating_sub(DEGREE)..=i {
-                                let (p, q) = (i * columns + first + a, k * columns + first + b);
-                                // Each pair once: of the same function along the break both orders are met.
-                                if i > k || p >= q {
-                                    sum.add(p, q, factor * x * y * gram.get(i, k));
-                                }
-                            }
+                let pairs = jump
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(a, x)| jump.iter().enumerate().map(move |(b, y)| (a, b, factor * x * y)));
+                for (a, b, product) in pairs {
+                    for (i, k) in (0..rows).flat_map(|i| (i.saturating_sub(DEGREE)..=i).map(move |k| (i, k))) {
+                        let (p, q) = (i * columns + first + a, k * columns + first + b);
+                        // Each pair once: of the same function along the break both orders are met.
+                        if i > k || p >= q {
+                            sum.add(p, q, product * gram.get(i, k));
                         }
                     }
                 }
@@ -177,7 +177,7 @@ impl Net {
     /// # Errors
     /// [`SplineError`] without spans, or for breaks beside each other.
     pub fn broken(spans: [usize; 2], intervals: [f64; 2], breaks: Vec<Break>) -> Result<Self, SplineError> {
-        let [along, up] = [KnotVector::uniform(DEGREE, spans[0])?, with_breaks(spans[1], &breaks)?];
+        let [along, up] = [KnotVector::uniform(DEGREE, spans[0])?, broken_knots(spans[1], &breaks)?];
         Self::new([along, up], intervals, breaks)
     }
 

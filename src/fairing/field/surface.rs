@@ -1,9 +1,9 @@
 //! From the offsets of a table to the chart of its hull.
 
 use super::bent::Bent;
-use super::breaks::{Line, broken};
+use super::breaks::{FoundBreak, broken};
 use super::chart::{Chart, Shape};
-use super::choice::{Chosen, Energies, choose, weighed};
+use super::choice::{Chosen, Energies, choose};
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
 use super::net::{Break, CLOSE, DEGREE, Net};
 use super::observed::{EXACT, End, Observations};
@@ -40,7 +40,7 @@ pub struct LevelField {
     /// The chart of the hull.
     pub bent: Bent,
     /// Lines across which it breaks.
-    pub lines: Vec<Line>,
+    pub lines: Vec<FoundBreak>,
     /// The power of the steepness of the hull that the errors go with.
     pub power: f64,
     /// Residuals of what is not exact, over the scale of its errors \[m\].
@@ -95,10 +95,8 @@ impl LevelField {
         }
         let finer = spans.map(|count| (FINER * count as f64).round() as usize);
         let net = Net::uniform(finer, net.intervals)?;
-        let chosen = refined(&net, &cells, chosen, least).ok_or(FieldError::Undetermined)?;
+        let chosen = chosen.on(&net, &cells, chosen.exponent, least).ok_or(FieldError::Undetermined)?;
         let (net, mut chosen, lines) = broken(net, finer, &cells, chosen, least);
-        let mut energies = Energies::new(&net);
-        let rough = energies.of(chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         for _ in 0..ROUNDS {
             let count = cells.len();
@@ -112,9 +110,10 @@ impl LevelField {
             if cells.len() == count {
                 break;
             }
+            let rough = Roughness::new(&net, chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
             let observed = Observed::new(&net, &chosen.chart, &cells);
-            chosen.field =
-                smoothed(&observed, rough, 10f64.powf(chosen.exponent), least).map_err(|_| FieldError::Undetermined)?;
+            chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
+                .map_err(|_| FieldError::Undetermined)?;
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
         let bent = bent(&net, &field, seen)?;
@@ -122,14 +121,6 @@ impl LevelField {
         let residuals = cells.iter().filter(|cell| cell.scale > EXACT).map(residual).collect();
         Ok(Self { field, bent, net, chosen, power, residuals, lines })
     }
-}
-
-/// The choice on a finer net, with its best weight.
-fn refined(net: &Net, cells: &[Cell], chosen: Chosen, least: f64) -> Option<Chosen> {
-    let rough = Roughness::new(net, chosen.anisotropy).ok()?;
-    let (found, trials) = weighed(&Observed::new(net, &chosen.chart, cells), &rough, chosen.exponent, least);
-    let (exponent, field) = found?;
-    Some(Chosen { exponent, field, trials: chosen.trials + trials, ..chosen })
 }
 
 /// A first smooth field, for the slopes of the hull.
