@@ -9,6 +9,7 @@ use super::fair::{FairError, FairSettings, MISFIT, Prepared};
 use super::field::observed::Observations;
 use super::field::surface::LevelField;
 use super::model::{Model, Reading, Stationary, value};
+use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
 use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
@@ -98,11 +99,13 @@ impl FairSurface {
         let (mut readings, places): (Vec<Reading>, Vec<Place>) =
             readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, &field, &known);
-        let energy = field.bent.energy(&field.net, field.chosen.anisotropy);
+        let energy = field.bent.energy(&field.net, field.chosen.metric);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
-        let stationary = Some(Stationary { weight: likely.weight, net: start.clone() });
+        let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
+        let moves = move_metric(hull.surface(), readings.len(), scale);
+        let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
-        let mut found = Self::over(hull, model, places, start, field.chosen.anisotropy);
+        let mut found = Self::over(hull, model, places, start, field.chosen.metric.anisotropy);
         found.breaks = field.lines;
         let field = found.off_the_centreplane(likely)?;
         let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));
@@ -126,7 +129,9 @@ impl FairSurface {
             return None;
         }
         self.hull = self.hull_of(&solved.net).ok()?;
-        self.model.stationary = Some(Stationary { weight: likely.weight, net: solved.net.clone() });
+        if let Some(stationary) = &mut self.model.stationary {
+            stationary.net.clone_from(&solved.net);
+        }
         self.start = solved.net;
         Some(self)
     }

@@ -10,7 +10,8 @@
 //! removing the hump costs t^2 sigma^2 of the objective at least. Humps below the price of an inflection are removed,
 //! the least of a line first, each into its neighbours. One convex program has the signs that remain; what a hump costs
 //! there is at most the sum of multiplier times violation over its places. Humps above the price are given back, and the
-//! program is solved again. A line whose answer has more inflections than it was asked for has the signs without the room
+//! program is solved again. Where targets move the whole hull, the humps that the field did not have before are no clearer
+//! than the move: they are candidates, for the price of its mean square in the place of sigma^2. A line whose answer has more inflections than it was asked for has the signs without the room
 //! about its inflections in the next program.
 
 use super::bends::{Bend, changes, dead, departure};
@@ -67,6 +68,8 @@ struct Hump {
     clear: f64,
     /// Whether its departure counts.
     seen: bool,
+    /// Whether the move to the targets made it.
+    new: bool,
 }
 
 /// A hump: index of its line, and its own.
@@ -142,9 +145,11 @@ impl Question<'_> {
     /// Gives back the humps that are not worth their price together; whether there were any, none where nothing was
     /// found.
     fn choose(&self, parts: &Parts, net: &[f64], asked: &mut [Asked]) -> Result<Option<bool>, ProblemError> {
+        let moved = self.moved();
         let program = Program::new(self.model, self.smoother, self.lambda, self.wishes, None);
         let limits: Vec<&[Limit]> = parts.values().map(Vec::as_slice).collect();
-        let prices = vec![self.price * self.sigma * self.sigma; limits.len()];
+        let square = |&(k, hump): &Place| if asked[k].humps[hump].new { moved } else { 0.0 } + self.sigma * self.sigma;
+        let prices: Vec<f64> = parts.keys().map(|place| self.price * square(place)).collect();
         let chosen = worth_it((&program, &self.smoother.reduced), net, &limits, &prices, self.solver)?;
         let Some(chosen) = chosen else { return Ok(None) };
         let gone = parts.keys().zip(chosen).filter(|(_, worth)| !worth);
@@ -194,6 +199,13 @@ impl Question<'_> {
         }
     }
 
+    /// The mean square of the move to the targets at the readings \[m^2\].
+    fn moved(&self) -> f64 {
+        let Some(carried) = &self.model.carried else { return 0.0 };
+        let squares = self.model.readings.iter().map(|reading| reading.weight * value(&reading.row, carried).powi(2));
+        squares.sum::<f64>() / self.smoother.count().max(1) as f64
+    }
+
     fn line(&self, line: &TableLine, net: &[f64], inverse: &SymmetricBand) -> Asked {
         let bends = line.bends.clone();
         let error = |bend: &Bend| {
@@ -201,7 +213,10 @@ impl Question<'_> {
             inverse.quadratic_form(row.into_iter()).max(0.0).sqrt()
         };
         let errors: Vec<f64> = bends.iter().map(error).collect();
-        let humps = humps(&bends, &errors, net, self.sigma, self.seen);
+        let mut humps = humps(&bends, &errors, net, self.sigma, self.seen);
+        if let Some(stationary) = self.model.stationary.as_ref().filter(|_| self.model.carried.is_some()) {
+            mark_new(&mut humps, &self::humps(&bends, &errors, &stationary.net, self.sigma, self.seen));
+        }
         let back = vec![false; humps.len()];
         Asked { bends, humps, back, watched: false, around: AROUND }
     }
@@ -218,6 +233,16 @@ fn inflections(humps: &[Hump]) -> usize {
     changes(&signs)
 }
 
+/// Marks the humps that those before have none of the same sign for.
+fn mark_new(humps: &mut [Hump], before: &[Hump]) {
+    for hump in humps {
+        let same = |old: &&Hump| old.seen && old.sign == hump.sign && old.from < hump.to && hump.from < old.to;
+        if before.iter().find(same).is_none() {
+            (hump.new, hump.clear) = (true, 0.0);
+        }
+    }
+}
+
 /// The humps of a line, seen or not.
 fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> Vec<Hump> {
     let values: Vec<f64> = bends.iter().map(|bend| value(&bend.numerator, net) + bend.offset).collect();
@@ -227,7 +252,7 @@ fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> 
         let sign = if *value >= 0.0 { 1 } else { -1 };
         match found.last_mut().filter(|last| last.sign == sign) {
             Some(last) => (last.to, last.clear) = (k + 1, last.clear.max(clear)),
-            None => found.push(Hump { sign, from: k, to: k + 1, clear, seen: false }),
+            None => found.push(Hump { sign, from: k, to: k + 1, clear, seen: false, new: false }),
         }
     }
     for hump in &mut found {
@@ -318,7 +343,7 @@ mod tests {
         let mut humps: Vec<Hump> = Vec::new();
         for &(sign, count, clear, seen) in list {
             let from = humps.last().map_or(0, |last| last.to);
-            humps.push(Hump { sign, from, to: from + count, clear, seen });
+            humps.push(Hump { sign, from, to: from + count, clear, seen, new: false });
         }
         let places = humps.last().map_or(0, |last| last.to);
         let bend =

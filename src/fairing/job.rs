@@ -173,9 +173,7 @@ impl Job {
         self.field
             && self.weight.is_none()
             && self.energy == kept.energy
-            && self.holding == kept.holding
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
-            && self.locked.is_empty()
             && self.rules.is_empty()
             && self.lines.is_empty()
             && self.accepted == kept.accepted

@@ -29,6 +29,7 @@ mod lines;
 mod lobes;
 pub mod metric;
 pub mod model;
+mod move_metric;
 pub mod noise;
 pub mod oblique;
 pub mod outcome;

@@ -63,6 +63,8 @@ pub struct Stationary {
     pub weight: f64,
     /// The control values \[m\].
     pub net: Vec<f64>,
+    /// What a move of the whole hull costs, d'Q d ([`super::move_metric`]).
+    pub moves: SymmetricBand,
 }
 
 /// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
@@ -86,6 +88,8 @@ pub struct Reduced {
     pub start: Option<Vec<f64>>,
     /// Weight and free control values of the answer where nothing is asked for.
     pub stationary: Option<(f64, Vec<f64>)>,
+    /// Q over the free values.
+    pub moves: Option<SymmetricBand>,
     /// d_k less what the known values contribute.
     pub values: Vec<f64>,
     /// Known values, 0 for free ones.
@@ -173,6 +177,7 @@ impl Model {
                 .stationary
                 .as_ref()
                 .map(|known| (known.weight, free.iter().map(|&i| known.net[i] + carried(i)).collect())),
+            moves: self.stationary.as_ref().map(|known| reduce(&known.moves)),
             free,
             place,
             energy,

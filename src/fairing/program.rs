@@ -97,7 +97,7 @@ pub struct Solved {
 }
 
 /// Both triangles of a band as rows.
-fn symmetric(band: &SymmetricBand, factor: f64) -> SparseRows {
+pub(super) fn symmetric(band: &SymmetricBand, factor: f64) -> SparseRows {
     let (n, w) = (band.size(), band.width());
     let mut rows = SparseRows::new(n);
     for i in 0..n {

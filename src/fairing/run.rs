@@ -167,6 +167,7 @@ impl<'a> Run<'a> {
         }
         let base = if surface.is_field { &surface.hull } else { &before };
         let asked = job.holding.constraints(base)?;
+        let another = if surface.is_field { ON_TARGET } else { way.another };
         let wished = job.rules(table, &surface, &excluded);
         // A net of its own has another volume between the offsets: the tolerances have room for the difference.
         let apart = 6.0 * gap;
@@ -182,7 +183,7 @@ impl<'a> Run<'a> {
         let known = way.followed.unwrap_or(found.noise);
         let roughness = (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0;
         let mut settings = FairSettings {
-            others: asked.iter().map(|c| c.missed(c.value(base), base) > way.another).collect(),
+            others: asked.iter().map(|c| c.missed(c.value(base), base) > another).collect(),
             constraints: asked.clone(),
             rules: wished.clone(),
             weight: job.weight,

@@ -242,6 +242,24 @@ impl Smoother {
         (self.normal.plus(lambda, &self.energy), right)
     }
 
+    /// What a move of the control values costs where it is to be one of the whole hull, with this weight of its energy: over
+    /// the whole surface where that is known, else at the readings.
+    #[must_use]
+    pub(super) fn metric_of_moves(&self, weight: f64) -> SymmetricBand {
+        match &self.reduced.moves {
+            Some(moves) => {
+                let mut all = SymmetricBand::zeros(moves.size(), self.energy.width());
+                for i in 0..moves.size() {
+                    for j in i.saturating_sub(moves.width())..=i {
+                        all.add(i, j, moves.get(i, j));
+                    }
+                }
+                all.plus(weight, &self.energy)
+            }
+            None => self.normal(weight).0,
+        }
+    }
+
     /// What the linear part -2 b of a program has more without what these readings have and those of `other` have not.
     #[must_use]
     pub fn linear_less(&self, other: &Self) -> Vec<f64> {

@@ -1,6 +1,7 @@
 //! The lines of a table inside their runs of offsets, places along them, and measures of what is drawn there.
 
 use super::Table;
+use crate::truth_hulls::measure::sign_changes;
 
 /// Places along a line.
 pub(crate) const PLACES: usize = 201;
@@ -123,25 +124,6 @@ fn range(line: &Line, k: &[f64]) -> Option<f64> {
     (range * (line.to - line.from).powi(2) / 8.0 >= 0.02).then_some(range)
 }
 
-/// Changes of sign of the curvature k of a line y between humps that leave their chord by `seen` \[m\] or more.
-fn signs(line: &Line, y: &[f64], k: &[f64], seen: f64) -> usize {
-    let departure = |from: usize, to: usize| {
-        let slope = (y[to] - y[from]) / (to - from) as f64;
-        let off = (from..=to).map(|i| (y[i] - y[from] - slope * (i - from) as f64).abs()).fold(0.0, f64::max);
-        off / (slope / line.step()).hypot(1.0)
-    };
-    let mut counted: Vec<bool> = Vec::new();
-    let mut from = 0;
-    while from < k.len() {
-        let to = (from..k.len()).find(|&i| (k[i] > 0.0) != (k[from] > 0.0)).unwrap_or(k.len());
-        if departure(from, to + 1) >= seen {
-            counted.push(k[from] > 0.0);
-        }
-        from = to;
-    }
-    counted.windows(2).filter(|pair| pair[0] != pair[1]).count()
-}
-
 /// Turning points of at least this size: monotone pieces less one.
 fn turns(k: &[f64], least: f64) -> usize {
     let k: Vec<f64> = k.iter().copied().filter(|k| k.is_finite()).collect();
@@ -190,7 +172,8 @@ pub(crate) fn shape(lines: &[Line], drawn: &[Vec<f64>], truth: &[Vec<f64>], seen
         lines.iter().zip(&curves).zip(drawn.iter().zip(truth).map(|(a, b)| [a, b]))
     {
         let which = usize::from(line.direction == Direction::Station);
-        changes[which] += signs(line, a, ours, seen) as i64 - signs(line, b, true_line, seen) as i64;
+        changes[which] +=
+            sign_changes(line.step(), a, ours, seen) as i64 - sign_changes(line.step(), b, true_line, seen) as i64;
         let Some(range) = range(line, true_line) else { continue };
         parts.extend(ours.iter().zip(true_line).map(|(a, b)| (a - b) / range));
         let least = [0.03, 0.01][which] * range;

@@ -8,8 +8,8 @@ use loftsman::hull::{FitMethod, Hull, OffsetTable};
 
 use super::{Case, Truth, cases};
 
-/// Second differences below this part of the largest of the truth's line are none.
-pub(crate) const DEAD: f64 = 0.01;
+/// Departure of a hump from its chord over the length of the hull from which it counts.
+pub(crate) const SEEN: f64 = 1.0 / 50_000.0;
 
 impl Truth {
     /// Root of the mean square and largest distance of a hull to the truth \[m\].
@@ -42,19 +42,23 @@ impl Truth {
         let [from, to] = [self.from, self.to];
         let (mut waterlines, mut sections, mut diagonals) = ([0; 2], [0; 2], [0; 2]);
         let add = |sum: &mut [usize; 2], pair: [usize; 2]| (0..2).for_each(|k| sum[k] += pair[k]);
+        let seen = SEEN * self.length;
         let clip = |z: f64| z.clamp(from[1], to[1]);
         for &z in self.clean.waterlines.iter().filter(|&&z| z > from[1]) {
-            add(&mut waterlines, turns([from[0], to[0]], 200, |x| (self.half)(x, clip(z)), |x| other(x, clip(z))));
+            add(
+                &mut waterlines,
+                turns([from[0], to[0]], 200, seen, |x| (self.half)(x, clip(z)), |x| other(x, clip(z))),
+            );
         }
         let stations = &self.clean.stations;
         for station in &stations[1..stations.len() - 1] {
             let x = station.station.x;
-            add(&mut sections, turns([from[1], to[1]], 100, |z| (self.half)(x, z), |z| other(x, z)));
+            add(&mut sections, turns([from[1], to[1]], 100, seen, |z| (self.half)(x, z), |z| other(x, z)));
         }
         for part in [0.4, 0.6, 0.8, 1.0] {
             let height = part * self.draught;
             let true_line = |x: f64| along(height, |z| (self.half)(x, z));
-            add(&mut diagonals, turns([from[0], to[0]], 200, true_line, |x| along(height, |z| other(x, z))));
+            add(&mut diagonals, turns([from[0], to[0]], 200, seen, true_line, |x| along(height, |z| other(x, z))));
         }
         [waterlines, sections, diagonals]
     }
@@ -98,36 +102,50 @@ fn along(height: f64, half: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// Sign changes of a line of the truth and of the hull, on the same points.
+/// Sign changes of a line of the truth and of the hull, on the same points, between humps that leave their chord by `seen`
+/// \[m\] or more.
 fn turns(
     [from, to]: [f64; 2],
     count: usize,
+    seen: f64,
     truth: impl Fn(f64) -> Option<f64>,
     hull: impl Fn(f64) -> Option<f64>,
 ) -> [usize; 2] {
     let at = |k: usize| from + (to - from) * (k as f64 / count as f64).clamp(0.0, 1.0);
-    let [a, b]: [Vec<Option<f64>>; 2] =
-        [(0..=count).map(|k| truth(at(k))).collect(), (0..=count).map(|k| hull(at(k))).collect()];
-    let bend = |line: &[Option<f64>]| Some(line[0]? - 2.0 * line[1]? + line[2]?);
-    let (mut pairs, mut size) = (Vec::new(), 0.0_f64);
-    for (a, b) in a.windows(3).zip(b.windows(3)) {
-        // Where the half-breadth is nothing there is no line.
-        let there = |line: &[Option<f64>]| line.iter().all(|y| y.is_some_and(|y| y > -1.0));
-        if let (true, Some(p), Some(q)) = (there(a) && there(b), bend(a), bend(b)) {
-            size = size.max(p.abs());
-            pairs.push([p, q]);
+    let step = (to - from) / count as f64;
+    // Where the half-breadth is nothing there is no line.
+    let there = |y: Option<f64>| y.filter(|y| *y > -1.0);
+    let points: Vec<Option<[f64; 2]>> =
+        (0..=count).map(|k| Some([there(truth(at(k)))?, there(hull(at(k)))?])).collect();
+    let mut changes = [0; 2];
+    for run in points.split(Option::is_none).filter(|run| run.len() > 2) {
+        for (which, changes) in changes.iter_mut().enumerate() {
+            let y: Vec<f64> = run.iter().flatten().map(|pair| pair[which]).collect();
+            let bends: Vec<f64> = y.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
+            *changes += sign_changes(step, &y, &bends, seen);
         }
     }
-    [0, 1].map(|which| {
-        let (mut last, mut changes) = (0.0, 0);
-        for pair in &pairs {
-            if pair[which].abs() > DEAD * size {
-                changes += usize::from(last * pair[which] < 0.0);
-                last = pair[which];
-            }
+    changes
+}
+
+/// Changes of sign of the curvature k between places of a line y between humps that leave their chord by `seen` \[m\] or
+/// more.
+pub(crate) fn sign_changes(step: f64, y: &[f64], k: &[f64], seen: f64) -> usize {
+    let departure = |from: usize, to: usize| {
+        let slope = (y[to] - y[from]) / (to - from) as f64;
+        let off = (from..=to).map(|i| (y[i] - y[from] - slope * (i - from) as f64).abs()).fold(0.0, f64::max);
+        off / (slope / step).hypot(1.0)
+    };
+    let mut counted: Vec<bool> = Vec::new();
+    let mut from = 0;
+    while from < k.len() {
+        let to = (from..k.len()).find(|&i| (k[i] > 0.0) != (k[from] > 0.0)).unwrap_or(k.len());
+        if departure(from, to + 1) >= seen {
+            counted.push(k[from] > 0.0);
         }
-        changes
-    })
+        from = to;
+    }
+    counted.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// CPU seconds of this thread where the system tells them, else of the clock.

@@ -13,8 +13,8 @@
 //!   published tables, which are rough themselves; fair Series 60 and fair S-175: the same made fair, on defaults.
 //!
 //! Errors are counted on 201 x 101 points. A sign change is one of the second difference of the half-breadth (of the
-//! distance along the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, where it
-//! is above a hundredth of the largest of the truth's own line.
+//! distance along the plane for diagonals) on a grid of 200 (waterlines, diagonals) or 100 (sections) steps, between humps
+//! that leave their chord by L/50,000 or more.
 
 pub(crate) mod measure;
 

@@ -6,7 +6,7 @@
 //! What is left is the rule's own error, which is zero where the chart is not bent.
 
 use super::chart::Chart;
-use super::net::{Break, DEGREE, Net, ORDER};
+use super::net::{Break, DEGREE, Metric, Net, ORDER};
 use super::region::{Bend, Field};
 use crate::numeric::{SymmetricBand, gauss_legendre};
 use crate::spline::{Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
@@ -178,7 +178,7 @@ impl Bent {
 
     /// The energy of the field within the hull, in the net of the hull; `net` is that of the field, for its counts.
     #[must_use]
-    pub fn energy(&self, net: &Net, anisotropy: f64) -> SymmetricBand {
+    pub fn energy(&self, net: &Net, metric: Metric) -> SymmetricBand {
         let [rows, columns] = self.shape();
         // Across a corner two spans of v meet that share one function.
         let reach = if self.corners.is_empty() && self.breaks.is_empty() { DEGREE } else { 2 * DEGREE };
@@ -186,10 +186,10 @@ impl Bent {
         let mut matrix = SymmetricBand::zeros(rows * columns, width);
         let rule = gauss_legendre(NODES);
         let [n, m] = net.intervals;
-        // sum_k C(4, k) (n m) (a)^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
+        // sum_k C(4, k) (n m) g a^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
         let factors: [f64; ORDER + 1] = std::array::from_fn(|k| {
             binomial(ORDER, k)
-                * anisotropy.powi(1 - 2 * k as i32)
+                * metric.factor(k)
                 * n.powi(1 - 2 * (ORDER - k) as i32)
                 * m.powi(1 - 2 * k as i32)
         });

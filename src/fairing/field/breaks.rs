@@ -58,7 +58,7 @@ pub fn broken(
     let (chart, intervals) = (chosen.chart, net.intervals);
     let mut lines = Vec::new();
     for _ in 0..MOST {
-        let Ok(rough) = Roughness::new(&net, chosen.anisotropy) else { break };
+        let Ok(rough) = Roughness::new(&net, chosen.metric) else { break };
         let observed = Observed::new(&net, &chart, cells);
         let places = places(&chart, cells, &net.breaks);
         let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &chart, cells)).collect();
@@ -113,7 +113,7 @@ impl Trial<'_> {
     fn cost(&self, line: Break, exponent: f64) -> f64 {
         let field = || {
             let net = self.net(line)?;
-            let rough = Roughness::new(&net, self.chosen.anisotropy).ok()?;
+            let rough = Roughness::new(&net, self.chosen.metric).ok()?;
             let observed = Observed::new(&net, &self.chosen.chart, self.cells);
             smoothed(&observed, &rough, 10f64.powf(exponent), self.least).ok()
         };

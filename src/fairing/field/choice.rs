@@ -1,10 +1,10 @@
-//! Chart, anisotropy and weight of greatest likelihood.
+//! Chart, metric and weight of greatest likelihood.
 //!
-//! Coordinate descent over grids of the four numbers of the chart, each with its best weight.
+//! Coordinate descent over grids of the numbers of chart and metric, each with its best weight.
 
 use super::chart::{Chart, Shape};
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
-use super::net::Net;
+use super::net::{Metric, Net};
 use crate::numeric::SingularMatrix;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,18 +15,21 @@ const KEELS: [f64; 6] = [0.0, 0.1, 0.2, 0.3, 0.5, 1.0];
 /// Anisotropies.
 const ANISOTROPIES: [f64; 8] = [0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0];
 
+/// Factors of the mixed derivatives.
+const MIXED: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
+
 /// Values of c.
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Where the descent starts, in the grids: a flat bottom, and a V keel. From one alone an S-shaped hull whose sections leave
 /// the keel straight came out 30 mm fuller below its first waterline.
-const STARTS: [[usize; 4]; 2] = [[1, 3, 0, 0], [5, 3, 0, 0]];
+const STARTS: [[usize; 5]; 2] = [[1, 3, 0, 0, 0], [5, 3, 0, 0, 0]];
 
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
 /// Decimal logarithms of the least and of the greatest weight.
-const WEIGHTS: [f64; 2] = [-10.0, 3.0];
+const WEIGHTS: [f64; 2] = [-10.0, 8.0];
 
 /// Decimal logarithms of the weight that is tried first and of the first and the least step from it.
 const FIRST: f64 = -4.0;
@@ -37,7 +40,7 @@ const STEPS: [f64; 2] = [1.0, 0.2];
 pub struct Energies<'a> {
     /// The net.
     pub net: &'a Net,
-    known: BTreeMap<u64, Roughness>,
+    known: BTreeMap<[u64; 2], Roughness>,
 }
 
 impl<'a> Energies<'a> {
@@ -47,14 +50,14 @@ impl<'a> Energies<'a> {
         Self { net, known: BTreeMap::new() }
     }
 
-    /// The one of an anisotropy.
+    /// The one of a metric.
     ///
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite.
-    pub fn of(&mut self, anisotropy: f64) -> Result<&Roughness, SingularMatrix> {
-        match self.known.entry(anisotropy.to_bits()) {
+    pub fn of(&mut self, metric: Metric) -> Result<&Roughness, SingularMatrix> {
+        match self.known.entry([metric.anisotropy.to_bits(), metric.mixed.to_bits()]) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(place) => Ok(place.insert(Roughness::new(self.net, anisotropy)?)),
+            Entry::Vacant(place) => Ok(place.insert(Roughness::new(self.net, metric)?)),
         }
     }
 }
@@ -64,8 +67,8 @@ impl<'a> Energies<'a> {
 pub struct Chosen {
     /// The chart.
     pub chart: Chart,
-    /// Anisotropy of the energy.
-    pub anisotropy: f64,
+    /// The metric of the energy.
+    pub metric: Metric,
     /// Decimal logarithm of the weight.
     pub exponent: f64,
     /// The field.
@@ -75,13 +78,13 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// The same chart and anisotropy on another net, with the weight of greatest likelihood from `start` (its decimal
+    /// The same chart and metric on another net, with the weight of greatest likelihood from `start` (its decimal
     /// logarithm) on. None where the cells determine no field.
     pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64) -> Option<Self> {
-        let rough = Roughness::new(net, self.anisotropy).ok()?;
+        let rough = Roughness::new(net, self.metric).ok()?;
         let (found, trials) = weighed(&Observed::new(net, &self.chart, cells), &rough, start, least);
         let (exponent, field) = found?;
-        Some(Self { chart: self.chart, anisotropy: self.anisotropy, exponent, field, trials: self.trials + trials })
+        Some(Self { chart: self.chart, metric: self.metric, exponent, field, trials: self.trials + trials })
     }
 }
 
@@ -90,27 +93,31 @@ struct Search<'a, 'n> {
     cells: &'a [Cell],
     rectangle: Chart,
     least: f64,
-    known: BTreeMap<[usize; 4], (f64, Smoothed)>,
+    known: BTreeMap<[usize; 5], (f64, Smoothed)>,
     exponent: f64,
     trials: usize,
 }
 
 impl Search<'_, '_> {
-    fn shape(at: [usize; 4]) -> Shape {
+    fn metric(at: [usize; 5]) -> Metric {
+        Metric { anisotropy: ANISOTROPIES[at[1]], mixed: MIXED[at[4]] }
+    }
+
+    fn shape(at: [usize; 5]) -> Shape {
         Shape { keel: KEELS[at[0]], ends: [ENDS[at[2]], ENDS[at[3]]] }
     }
 
-    fn chart(&self, at: [usize; 4]) -> Chart {
+    fn chart(&self, at: [usize; 5]) -> Chart {
         Chart { shape: Self::shape(at), ..self.rectangle }
     }
 
     /// Cost of a chart with its best weight.
-    fn cost(&mut self, at: [usize; 4]) -> f64 {
+    fn cost(&mut self, at: [usize; 5]) -> f64 {
         if let Some((_, known)) = self.known.get(&at) {
             return known.cost;
         }
         let observed = Observed::new(self.energies.net, &self.chart(at), self.cells);
-        let Ok(rough) = self.energies.of(ANISOTROPIES[at[1]]) else { return f64::INFINITY };
+        let Ok(rough) = self.energies.of(Self::metric(at)) else { return f64::INFINITY };
         let (best, trials) = weighed(&observed, rough, self.exponent, self.least);
         self.trials += trials;
         let Some((exponent, found)) = best else { return f64::INFINITY };
@@ -121,11 +128,11 @@ impl Search<'_, '_> {
     }
 
     /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid.
-    fn descent(&mut self, mut at: [usize; 4], beside: usize) -> Option<[usize; 4]> {
+    fn descent(&mut self, mut at: [usize; 5], beside: usize) -> Option<[usize; 5]> {
         for _ in 0..ROUNDS {
             let before = at;
-            for k in [1, 0, 2, 3] {
-                let count = [KEELS.len(), ANISOTROPIES.len(), ENDS.len(), ENDS.len()][k];
+            for k in [1, 4, 0, 2, 3] {
+                let count = [KEELS.len(), ANISOTROPIES.len(), ENDS.len(), ENDS.len(), MIXED.len()][k];
                 let last = count.min(at[k].saturating_add(beside).saturating_add(1));
                 let tried = (at[k].saturating_sub(beside)..last).map(|q| {
                     let mut place = at;
@@ -194,12 +201,12 @@ pub fn choose(
     let at = ends.into_iter().min_by(|a, b| search.cost(*a).total_cmp(&search.cost(*b)))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
-    Some(Chosen { chart, anisotropy: ANISOTROPIES[at[1]], exponent, field, trials: search.trials })
+    Some(Chosen { chart, metric: Search::metric(at), exponent, field, trials: search.trials })
 }
 
 /// Where a choice stands in the grids.
-fn place(chosen: &Chosen) -> [usize; 4] {
+fn place(chosen: &Chosen) -> [usize; 5] {
     let of = |grid: &[f64], value: f64| grid.iter().position(|other| (other - value).abs() < 1e-12).unwrap_or(0);
-    let Shape { keel, ends } = chosen.chart.shape;
-    [of(&KEELS, keel), of(&ANISOTROPIES, chosen.anisotropy), of(&ENDS, ends[0]), of(&ENDS, ends[1])]
+    let (Shape { keel, ends }, Metric { anisotropy, mixed }) = (chosen.chart.shape, chosen.metric);
+    [of(&KEELS, keel), of(&ANISOTROPIES, anisotropy), of(&ENDS, ends[0]), of(&ENDS, ends[1]), of(&MIXED, mixed)]
 }

@@ -11,7 +11,7 @@
 //! ```
 
 use super::chart::Chart;
-use super::net::{KERNEL, Net, ORDER};
+use super::net::{KERNEL, Metric, Net, ORDER};
 use crate::numeric::{SingularMatrix, SymmetricBand};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -150,7 +150,7 @@ pub struct Smoothed {
     pub cost: f64,
 }
 
-/// The energy of one anisotropy.
+/// The energy of one metric.
 #[derive(Debug, Clone)]
 pub struct Roughness {
     /// P.
@@ -160,12 +160,12 @@ pub struct Roughness {
 }
 
 impl Roughness {
-    /// Of a net and an anisotropy.
+    /// Of a net and a metric.
     ///
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite.
-    pub fn new(net: &Net, anisotropy: f64) -> Result<Self, SingularMatrix> {
-        let matrix = net.energy(anisotropy);
+    pub fn new(net: &Net, metric: Metric) -> Result<Self, SingularMatrix> {
+        let matrix = net.energy(metric);
         Ok(Self { log_determinant: net.log_determinant(&matrix)?, matrix })
     }
 }

@@ -83,6 +83,24 @@ fn broken_knots(spans: usize, breaks: &[Break]) -> Result<KnotVector, SplineErro
     KnotVector::from_breakpoints(DEGREE, &places, &times[1..times.len() - 1])
 }
 
+/// What the derivatives of order 4 weigh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metric {
+    /// Anisotropy a.
+    pub anisotropy: f64,
+    /// Factor g of the mixed derivatives.
+    pub mixed: f64,
+}
+
+impl Metric {
+    /// a^(1-2k), times g where both parameters are derived by.
+    #[must_use]
+    pub fn factor(self, k: usize) -> f64 {
+        let mixed = if (1..ORDER).contains(&k) { self.mixed } else { 1.0 };
+        mixed * self.anisotropy.powi(1 - 2 * k as i32)
+    }
+}
+
 /// A tensor-product net over the unit square, numbered v fastest, with the parts of its energy.
 #[derive(Debug, Clone)]
 pub struct Net {
@@ -201,10 +219,10 @@ impl Net {
 
     /// P(a).
     #[must_use]
-    pub fn energy(&self, anisotropy: f64) -> SymmetricBand {
+    pub fn energy(&self, metric: Metric) -> SymmetricBand {
         let mut all = SymmetricBand::zeros(self.size(), self.parts[0].width());
         for (k, part) in self.parts.iter().enumerate() {
-            all = all.plus(anisotropy.powi(1 - 2 * k as i32), part);
+            all = all.plus(metric.factor(k), part);
         }
         match &self.charges {
             Some(charges) => all.plus(1.0, charges),

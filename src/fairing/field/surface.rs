@@ -5,7 +5,7 @@ use super::breaks::{FoundBreak, broken};
 use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies, choose};
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
-use super::net::{Break, CLOSE, DEGREE, Net};
+use super::net::{Break, CLOSE, DEGREE, Metric, Net};
 use super::observed::{EXACT, End, Observations};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
@@ -110,7 +110,7 @@ impl LevelField {
             if cells.len() == count {
                 break;
             }
-            let rough = Roughness::new(&net, chosen.anisotropy).map_err(|_| FieldError::Undetermined)?;
+            let rough = Roughness::new(&net, chosen.metric).map_err(|_| FieldError::Undetermined)?;
             let observed = Observed::new(&net, &chosen.chart, &cells);
             chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
                 .map_err(|_| FieldError::Undetermined)?;
@@ -126,7 +126,7 @@ impl LevelField {
 /// A first smooth field, for the slopes of the hull.
 fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
     let observed = Observed::new(energies.net, &chart, cells);
-    let rough = energies.of(1.0).ok()?;
+    let rough = energies.of(Metric { anisotropy: 1.0, mixed: 1.0 }).ok()?;
     let tried = (-6..=0).filter_map(|e| smoothed(&observed, rough, 10f64.powi(e), least).ok());
     tried.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }

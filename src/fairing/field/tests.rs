@@ -3,7 +3,7 @@
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
 use super::likelihood::{Cell, Observed, Roughness, smoothed};
-use super::net::{Break, KERNEL, Net};
+use super::net::{Break, KERNEL, Metric, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
 use super::surface::LevelField;
@@ -11,6 +11,8 @@ use crate::hull::{self, OffsetTable, StationOffsets};
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineCurve, KnotVector, binomial};
 use nalgebra::{DMatrix, SymmetricEigen};
+
+const METRIC: Metric = Metric { anisotropy: 1.4, mixed: 0.3 };
 
 fn chart() -> Chart {
     Chart { length: [0.0, 100.0], height: [0.0, 10.0], shape: Shape { keel: 0.1, ends: [0.25, 0.5] } }
@@ -61,8 +63,8 @@ fn the_chart_inverts_itself() {
 #[test]
 fn the_grounded_determinant_is_the_pseudo_determinant() {
     let net = Net::uniform([6, 5], [5.0, 4.0]).unwrap();
-    let difference = |anisotropy: f64| {
-        let energy = net.energy(anisotropy);
+    let difference = |anisotropy: f64, mixed: f64| {
+        let energy = net.energy(Metric { anisotropy, mixed });
         let n = energy.size();
         let dense = DMatrix::from_fn(n, n, |i, j| energy.get(i, j));
         let mut eigenvalues: Vec<f64> = SymmetricEigen::new(dense).eigenvalues.iter().copied().collect();
@@ -71,9 +73,9 @@ fn the_grounded_determinant_is_the_pseudo_determinant() {
         let product: f64 = eigenvalues[KERNEL..].iter().map(|e| e.ln()).sum();
         product - net.log_determinant(&energy).unwrap()
     };
-    let first = difference(1.0);
-    for anisotropy in [0.35, 2.8] {
-        assert!((difference(anisotropy) - first).abs() < 1e-6, "{anisotropy}");
+    let first = difference(1.0, 1.0);
+    for (anisotropy, mixed) in [(0.35, 1.0), (2.8, 1.0), (1.4, 0.03)] {
+        assert!((difference(anisotropy, mixed) - first).abs() < 1e-6, "{anisotropy} {mixed}");
     }
 }
 
@@ -91,7 +93,7 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
             }
         })
         .collect();
-    let rough = Roughness::new(net, 1.4).unwrap();
+    let rough = Roughness::new(net, METRIC).unwrap();
     let observed = Observed::new(net, &chart, &cells);
     let n = cells.len();
     let rows = DMatrix::from_fn(n, net.size(), |i, j| {
@@ -135,7 +137,7 @@ fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
             .for_each(|(k, value)| *value += 0.01 * ((k % columns) * (k % columns) % 7) as f64);
         let bent = straight(&net);
         assert!(bent.bend.is_straight());
-        let (own, of_net) = (quadratic(&bent.energy(&net, 1.4), &values), quadratic(&net.energy(1.4), &values));
+        let (own, of_net) = (quadratic(&bent.energy(&net, METRIC), &values), quadratic(&net.energy(METRIC), &values));
         assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
     }
 }
@@ -185,6 +187,7 @@ fn the_upper_end_of_a_bilge_is_found() {
 /// A bent chart holds the field to its resolution, and its energy is that of the field within the hull, by a midpoint rule.
 #[test]
 fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
+    let metric = Metric { mixed: 1.0, ..METRIC };
     let (net, values) = wavy();
     let chart = chart();
     let field = Field::new(chart, &net, &values).unwrap();
@@ -194,7 +197,7 @@ fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
     let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
     let bent = Bent { chart, bend, knots, corners: Vec::new(), breaks: Vec::new(), closed, keel_closed: false };
     let y = bent.half_breadths(&field).unwrap();
-    let energy = quadratic(&bent.energy(&net, 1.4), &y);
+    let energy = quadratic(&bent.energy(&net, metric), &y);
     let (mut sum, [rows, columns]) = (0.0, [600, 300]);
     for j in 0..columns {
         let v = (f64::from(j) + 0.5) / f64::from(columns);
@@ -215,7 +218,7 @@ fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
                         value += along[4 - k][r] * up[k][s] * values[at];
                     }
                 }
-                let factor = binomial(4, k) * 1.4f64.powi(1 - 2 * k as i32);
+                let factor = binomial(4, k) * metric.factor(k);
                 let counts = 11f64.powi(1 - 2 * (4 - k as i32)) * 7f64.powi(1 - 2 * k as i32);
                 sum += factor * counts * value * value / f64::from(rows * columns);
             }
