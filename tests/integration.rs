@@ -19,6 +19,7 @@ mod fair_curve;
 mod fair_locks;
 mod fair_rules;
 mod fair_sections;
+mod fair_strength;
 mod families;
 mod fit;
 mod fit_features;

@@ -57,6 +57,10 @@ pub(super) struct Arguments {
     /// Design draught: what is held holds there [default: of the table]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
+    /// How strongly the table is faired, from 0, the surface through it, to 10; or raw (0), light (3), fair (5), smooth (8)
+    /// [default: 5]
+    #[arg(long, value_name = "GRADE", allow_hyphen_values = true, conflicts_with_all = ["weight", "inflection_cost"])]
+    fairness: Option<String>,
     /// Greatest move of an offset [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
     /// as rough, at least twice the resolution of the table]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
@@ -106,8 +110,8 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-By default displacement, LCB and CM are held at the values of the table: of the smoothed table where no other target, \
-lock, rule or line is asked for, else of the surface through it. A given target replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
+By default displacement, LCB and CM are held at the values of the table: of the smoothed table, or of the surface \
+through it where the job has rules or lines or a tolerance below half the noise. A given target replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
 [shape], [energy], [suspects], [inflections]: `loftsman schema job`.
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
@@ -137,6 +141,7 @@ impl Arguments {
             ("--wetted-surface", "hold.wetted_surface", &self.wetted_surface),
             ("--draught", "dimensions.T", &self.draught),
             ("--tolerance", "tolerance.table", &self.tolerance),
+            ("--fairness", "fairness", &self.fairness),
             ("--order", "energy.order", &self.order),
             ("--anisotropy", "energy.anisotropy", &self.anisotropy),
             ("--weight", "energy.weight", &self.weight),

@@ -25,7 +25,7 @@ pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::RENAMED;
 pub use location::Location;
-use ranges::{anisotropy, density, positive, price, weight};
+use ranges::{anisotropy, density, fairness, positive, price, weight};
 pub use shape::RuleEntry;
 pub use table_ref::{TableItem, TableRef};
 
@@ -35,6 +35,7 @@ use super::keys::Kind;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::job::{Holding, Job};
 use crate::fairing::proposals::Accepted;
+use crate::fairing::strength::Fairness;
 use crate::hull::{OffsetTable, StatedParticulars};
 
 /// What a job file says; what it does not say is none.
@@ -46,6 +47,8 @@ pub struct JobFile {
     pub stated: StatedParticulars,
     /// Density of the water \[t/m^3\].
     pub density: Option<f64>,
+    /// How strongly the table is faired.
+    pub fairness: Option<Fairness>,
     /// Order of the energy.
     pub order: Option<usize>,
     /// Weight of bending along the ship.
@@ -169,6 +172,7 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
             depth: positive(document, "dimensions.D", "length"),
         },
         density: density(document),
+        fairness: fairness(document),
         order: document.integer("energy.order").map(|order| order as usize),
         anisotropy: anisotropy(document),
         weight: weight(document),
@@ -216,6 +220,7 @@ impl JobFile {
             accepted: other.accepted.or(self.accepted),
             density: other.density.or(self.density),
             gravity: other.gravity.or(self.gravity),
+            fairness: other.fairness.or(self.fairness),
             order: other.order.or(self.order),
             anisotropy: other.anisotropy.or(self.anisotropy),
             weight: other.weight.or(self.weight),
@@ -236,7 +241,7 @@ impl JobFile {
     /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG; all of
     /// them.
     pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
-        let mut job = Job::default();
+        let mut job = Job { fairness: self.fairness.unwrap_or_default(), ..Job::default() };
         job.energy.order = self.order;
         job.energy.anisotropy = self.anisotropy.unwrap_or(job.energy.anisotropy);
         job.weight = self.weight.flatten();
@@ -249,7 +254,7 @@ impl JobFile {
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);
-        let mut problems = Vec::new();
+        let mut problems = self.two_strengths();
         let mut named: Vec<(TableItem, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
             let found = mark.find(table);
@@ -315,6 +320,17 @@ impl JobFile {
         job.locked.sort_unstable();
         job.locked.dedup();
         if problems.is_empty() { Ok(job) } else { Err(problems) }
+    }
+
+    /// Keys that say how strongly a table is faired beside the one that does.
+    fn two_strengths(&self) -> Vec<Diagnostic> {
+        let given = [("energy.weight", self.weight.flatten().is_some()), ("inflections.cost", self.price.is_some())];
+        let others = given.iter().filter(|(_, given)| self.fairness.is_some() && *given);
+        let problem = |(key, _): &(&str, bool)| {
+            let text = format!("fairness and {key} both say how strongly the table is faired");
+            Some(self.place(key)?.problem("E170", &text, "Give one of them."))
+        };
+        others.filter_map(problem).collect()
     }
 
     /// Where a key stands, by its path.

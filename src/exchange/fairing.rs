@@ -343,7 +343,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "energies": bent.energies.iter().map(|value| number(*value)).collect::<Vec<_>>(), "promised": number(bent.promised),
         })),
         "smoothing": {
-            "weight": number(faired.lambda), "readings": faired.smoother.count(), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
+            "fairness": number(outcome.fairness.grade()), "weight": number(faired.lambda), "readings": faired.smoother.count(), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
             "energy": number(faired.chosen.energy), "trials": trials,
         },
         "suspects": suspects,

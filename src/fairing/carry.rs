@@ -7,10 +7,10 @@
 //! sum w_k (a_k d)^2 + mu d'E d   subject to the constraints, the tolerances and the rules for r + d
 //! ```
 //!
-//! where the sum over the readings is d'Q d on a field ([`super::move_metric`]), which has nothing else to hold it between its
-//! waterlines, and with a weight mu far above the one that smooths the noise: a displacement that is several percent away comes by a
-//! hull that is fuller, and not by one that swells between offsets which hold it where they are. A Series 60 with 5 %
-//! more displacement and tolerances of 500 mm had 442 inflections for the 119 of its table and 114 times its energy,
+//! On a field, which has nothing else to hold it between its waterlines, the sum over the readings is d'Q d
+//! ([`super::move_metric`]). The weight mu is far above the one that smooths the noise: a displacement that is several
+//! percent away comes by a hull that is fuller, and not by one that swells between offsets which hold it where they are. A
+//! Series 60 with 5 % more displacement and tolerances of 500 mm had 442 inflections for the 119 of its table and 114 times its energy,
 //! and has 108 and 3.5 times; with LCB 1 % of L further aft, 305 and 8.5 times, and now 83 and 0.7 times. With mu = 1e2
 //! instead of 1e4 it is 114 and 96 inflections, with 1e6 108 and 87, and moves are larger. The tolerances go on being
 //! counted from the table.
@@ -72,7 +72,7 @@ impl Basic<'_> {
                 Some(moved) => &Carried::new(self.model, self.smoother, self.lambda, moved)?.smoother,
                 None => self.smoother,
             };
-            carry.without.push((k, carried.smoother.linear_less(smoother)));
+            carry.without.push((k, carried.smoother.linear_less(self.lambda, smoother)));
         }
         carry.carried = Some(carried);
         Ok(carry)

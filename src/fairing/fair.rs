@@ -50,6 +50,10 @@ pub struct FairSettings {
     pub others: Vec<bool>,
     /// Rules for lines and regions.
     pub rules: Vec<Rule>,
+    /// Factor on the weight of the search.
+    pub strength: f64,
+    /// How far an offset may be from the surface through the table, where that is asked for \[m\].
+    pub through: Option<f64>,
     /// Smoothing weight; none: that of the search.
     pub weight: Option<f64>,
     /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
@@ -193,6 +197,8 @@ pub struct Prepared {
     pub lambda: f64,
     /// The net for it.
     pub smoothed: Smoothed,
+    /// The net for the weight of the search.
+    pub likely: Smoothed,
     /// Noise of a reading \[m\].
     pub sigma: f64,
     /// What a search for the weight takes of it for errors \[m\].
@@ -255,7 +261,16 @@ impl Prepared {
             }
         }
         let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
-        let local = surface.is_field.then(|| local_noise(surface, &smoothed, sigma));
+        let likely = smoothed;
+        let local = surface.is_field.then(|| local_noise(surface, &likely, sigma));
+        // Digits that the table does not have are not followed.
+        let graded = if settings.strength < 1.0 {
+            smoother.through(lambda, settings.least_noise).max(lambda * settings.strength)
+        } else {
+            lambda * settings.strength
+        };
+        let smoothed = if graded.total_cmp(&lambda).is_eq() { likely.clone() } else { smoother.at(graded)? };
+        let lambda = graded;
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
             let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };
@@ -263,11 +278,12 @@ impl Prepared {
             let sigma = local.as_ref().map_or(sigma, |local| local[k]);
             let free = levels.map(|levels| (levels * sigma / weight.sqrt()).max(settings.least_tolerance));
             let own = settings.tolerances.get(k).copied().flatten();
-            reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
+            let through = settings.through.map(|through| own.map_or(through, |own| own.min(through)));
+            reading.tolerance = if place.locked { Some(0.0) } else { through.or(own).or(free) };
         }
         let guarded = settings.signs && !surface.own;
         let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
-        Ok(Self { smoother, lambda, smoothed, sigma, errors: settings.errors(sigma), trials, lines })
+        Ok(Self { smoother, lambda, smoothed, likely, sigma, errors: settings.errors(sigma), trials, lines })
     }
 }
 
@@ -384,7 +400,7 @@ pub fn fair_prepared(
         let of_field = || humps::Question {
             model,
             smoother,
-            smoothed,
+            likely: &prepared.likely,
             lambda,
             sigma,
             wishes: &wishes,
@@ -436,7 +452,7 @@ pub fn fair_prepared(
     }
     let mut bent = None;
     if settings.bending && diagnosis.is_none() && solved.is_optimal() {
-        let charged = final_lambda * final_smoother.unit * surface.model.energy_of(&solved.net);
+        let charged = final_lambda * final_smoother.unit * surface.model.quadratic_of(&solved.net);
         if let Some(found) = least_bending_of(surface, &final_smoother, charged, &mut program, &mut solved, settings)? {
             programs += found.programs;
             iterations += found.iterations;

@@ -103,7 +103,9 @@ impl FairSurface {
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
         let moves = move_metric(hull.surface(), readings.len(), scale);
-        let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), moves });
+        let applied = field.net.energy(field.chosen.metric).apply(&field.chosen.field.values);
+        let own = applied.iter().zip(&field.chosen.field.values).map(|(p, c)| p * c).sum();
+        let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let mut found = Self::over(hull, model, places, start, field.chosen.metric.anisotropy);
         found.breaks = field.lines;
@@ -129,8 +131,10 @@ impl FairSurface {
             return None;
         }
         self.hull = self.hull_of(&solved.net).ok()?;
+        let energy = self.model.energy_of(&solved.net);
         if let Some(stationary) = &mut self.model.stationary {
             stationary.net.clone_from(&solved.net);
+            stationary.energy = energy;
         }
         self.start = solved.net;
         Some(self)

@@ -10,9 +10,11 @@
 //! removing the hump costs t^2 sigma^2 of the objective at least. Humps below the price of an inflection are removed,
 //! the least of a line first, each into its neighbours. One convex program has the signs that remain; what a hump costs
 //! there is at most the sum of multiplier times violation over its places. Humps above the price are given back, and the
-//! program is solved again. Where targets move the whole hull, the humps that the field did not have before are no clearer
-//! than the move: they are candidates, for the price of its mean square in the place of sigma^2. A line whose answer has more inflections than it was asked for has the signs without the room
+//! program is solved again. A line whose answer has more inflections than it was asked for has the signs without the room
 //! about its inflections in the next program.
+//!
+//! Where targets move the whole hull, the humps that the field did not have before are no clearer than the move. They are
+//! candidates for the price of its mean square in the place of sigma^2.
 
 use super::bends::{Bend, changes, dead, departure};
 use super::choice::{trial, worth_it};
@@ -45,7 +47,8 @@ const SHARE: f64 = 0.5;
 pub(super) struct Question<'a> {
     pub(super) model: &'a Model,
     pub(super) smoother: &'a Smoother,
-    pub(super) smoothed: &'a Smoothed,
+    /// The field at the weight of the likelihood.
+    pub(super) likely: &'a Smoothed,
     pub(super) lambda: f64,
     /// Noise of a reading of weight 1 \[m\].
     pub(super) sigma: f64,
@@ -98,7 +101,7 @@ struct Asked {
 impl Question<'_> {
     /// Solves for the least inflections that are worth their price; `free` is the answer without signs.
     pub(super) fn run(&self, free: &Solved) -> Result<Guarded, ProblemError> {
-        let inverse = self.smoothed.factor.inverse_band();
+        let inverse = self.likely.factor.inverse_band();
         let mut asked: Vec<Asked> = self.lines.iter().map(|line| self.line(line, &free.net, &inverse)).collect();
         let mut found = Guarded::told(self.lines);
         let mut choices = 0;

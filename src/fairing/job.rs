@@ -5,6 +5,7 @@ use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, PRICE};
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;
+use super::strength::Fairness;
 use super::surface::{EnergySettings, FairSurface, Origin};
 pub use super::unbroken::RunsOn;
 use crate::hull::{FitError, Hull, HullError, OffsetTable};
@@ -126,6 +127,8 @@ pub struct Tolerance {
 pub struct Job {
     /// Order and direction of the energy.
     pub energy: EnergySettings,
+    /// How strongly the table is faired.
+    pub fairness: Fairness,
     /// Smoothing weight; none: by cross-validation on a net of its own, for the errors of the table on that of a fit.
     pub weight: Option<f64>,
     /// What is held.
@@ -186,6 +189,7 @@ impl Default for Job {
     fn default() -> Self {
         Self {
             energy: EnergySettings::default(),
+            fairness: Fairness::default(),
             weight: None,
             holding: Holding::Table,
             rules: Vec::new(),

@@ -45,6 +45,7 @@ mod rules;
 mod run;
 pub mod smoothing;
 mod start;
+pub mod strength;
 pub mod surface;
 mod suspects;
 mod told;

@@ -63,7 +63,9 @@ pub struct Stationary {
     pub weight: f64,
     /// The control values \[m\].
     pub net: Vec<f64>,
-    /// What a move of the whole hull costs, d'Q d ([`super::move_metric`]).
+    /// Their energy, that of the field over its whole rectangle.
+    pub energy: f64,
+    /// What a move of the whole hull costs, d'Q d: its mean square and its bending.
     pub moves: SymmetricBand,
 }
 
@@ -87,7 +89,7 @@ pub struct Reduced {
     /// Free control values to stay near.
     pub start: Option<Vec<f64>>,
     /// Weight and free control values of the answer where nothing is asked for.
-    pub stationary: Option<(f64, Vec<f64>)>,
+    pub stationary: Option<(f64, Vec<f64>, f64)>,
     /// Q over the free values.
     pub moves: Option<SymmetricBand>,
     /// d_k less what the known values contribute.
@@ -105,8 +107,20 @@ impl Model {
 
     /// c'E c.
     #[must_use]
-    pub fn energy_of(&self, c: &[f64]) -> f64 {
+    pub fn quadratic_of(&self, c: &[f64]) -> f64 {
         self.energy.apply(c).iter().zip(c).map(|(e, c)| e * c).sum()
+    }
+
+    /// The energy of control values: c'E c, or that of the field F and what a move d from it adds, 2 g'd + d'E d. F is
+    /// stationary for its weight w, so that g = A'W (y - A F) / w, where c'E c has what E is on the ends of the hull.
+    #[must_use]
+    pub fn energy_of(&self, c: &[f64]) -> f64 {
+        let Some(field) = &self.stationary else { return self.quadratic_of(c) };
+        let moves: Vec<f64> = c.iter().zip(&field.net).map(|(c, f)| c - f).collect();
+        let readings = self.readings.iter();
+        let along =
+            readings.map(|k| k.weight * (k.value - value(&k.row, &field.net)) * value(&k.row, &moves)).sum::<f64>();
+        field.energy + 2.0 * along / field.weight + self.quadratic_of(&moves)
     }
 
     /// Residuals a_k c - d_k \[m\].
@@ -176,7 +190,7 @@ impl Model {
             stationary: self
                 .stationary
                 .as_ref()
-                .map(|known| (known.weight, free.iter().map(|&i| known.net[i] + carried(i)).collect())),
+                .map(|known| (known.weight, free.iter().map(|&i| known.net[i] + carried(i)).collect(), known.energy)),
             moves: self.stationary.as_ref().map(|known| reduce(&known.moves)),
             free,
             place,

@@ -6,6 +6,7 @@ use super::inspect::{PolygonSigns, kind};
 use super::proposals::Proposal;
 use super::record::moves;
 use super::repeated::excess;
+use super::strength::Fairness;
 use super::surface::Origin;
 use super::suspects::Suspect;
 use crate::hull::{Cut, Hull, OffsetTable};
@@ -98,6 +99,8 @@ pub struct Outcome {
     pub suspects: Vec<Suspect>,
     /// The program, its certificate, its noise level and its pattern.
     pub faired: Faired,
+    /// How strongly the table was faired.
+    pub fairness: Fairness,
     /// Order of the energy.
     pub order: usize,
     /// Energy of the start net, which on a net of its own has the half-breadths of the surface through the table for
@@ -194,13 +197,15 @@ impl Outcome {
         lines.map(|turns| turns.minimum.map(|(least, _)| least)).sum()
     }
 
-    /// Whether stations and waterlines have more changes of sign than before, or as many where they are far above the
-    /// least.
+    /// Whether stations and waterlines have more changes of sign than before, or from the default grade of fairness on as
+    /// many where they are far above the least. Of the surface through the table nobody asks for less.
     #[must_use]
     pub fn is_no_fairer(&self) -> bool {
         let [before, after] = self.changes_of_sign();
         let far = |least: usize| after as f64 > FAR_ABOVE[0] * least as f64 + FAR_ABOVE[1];
-        after > before || after == before && self.least_changes_of_sign().is_some_and(far)
+        let promised = self.fairness.promises_a_fairer_hull();
+        !self.fairness.is_raw()
+            && (after > before || promised && after == before && self.least_changes_of_sign().is_some_and(far))
     }
 
     /// How many targets the surface through the table is off by more than a part of their scale.

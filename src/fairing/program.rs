@@ -306,7 +306,8 @@ impl Program {
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let misfit = model.misfit(&net, smoother.weights());
-        let objective = misfit + lambda * smoother.unit * model.energy_of(&net) - smoother.tilted(&solution.x);
+        let objective =
+            misfit + lambda * smoother.unit * model.quadratic_of(&net) - smoother.tilted(lambda, &solution.x);
         Ok(Solved { solution, certificate, net, objective })
     }
 }

@@ -67,8 +67,8 @@ pub(super) fn refresh(
     };
     let misfit = |net: &[f64]| model.misfit(net, smoother.weights());
     let mut next = frozen(&solved.net)?;
-    let charged = lambda * smoother.unit * model.energy_of(&solved.net);
-    let first = next.energy_of(&solved.net);
+    let charged = lambda * smoother.unit * model.quadratic_of(&solved.net);
+    let first = next.quadratic_of(&solved.net);
     if first <= 0.0 || charged <= 0.0 {
         return Ok(None);
     }
@@ -87,7 +87,7 @@ pub(super) fn refresh(
             break;
         }
         let metric = frozen(&answer.net)?;
-        let value = misfit(&answer.net) + mu * metric.energy_of(&answer.net);
+        let value = misfit(&answer.net) + mu * metric.quadratic_of(&answer.net);
         let last = functional[functional.len() - 1];
         if value.is_nan() || value >= last * (1.0 - FALL) {
             break;

@@ -38,6 +38,9 @@ const ALARM: f64 = 3.0;
 /// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
 const BREADTH: f64 = 1e-6;
 
+/// How far offsets without a resolution may be from the surface through them, over the breadth.
+const LEAST_THROUGH: f64 = 1e-6;
+
 /// Most that tolerances of the noise are widened where they contradict each other, and the room beyond the least that
 /// has an answer.
 const MOST_WIDENING: f64 = 3.0;
@@ -186,6 +189,8 @@ impl<'a> Run<'a> {
             others: asked.iter().map(|c| c.missed(c.value(base), base) > another).collect(),
             constraints: asked.clone(),
             rules: wished.clone(),
+            strength: job.fairness.on_the_weight(),
+            through: job.fairness.is_raw().then(|| (0.5 * quantum).max(LEAST_THROUGH * before.particulars().breadth)),
             weight: job.weight,
             // Whoever names a tolerance for the table says how noisy it is.
             table_noise: Some(job.tolerance.table.map_or(known, |named| known.min(named / 3.0))),
@@ -196,7 +201,7 @@ impl<'a> Run<'a> {
             least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
             tolerances: job.tolerances(&surface),
             signs: job.signs,
-            price: job.price,
+            price: job.price * job.fairness.on_the_price(),
             true_curvature: job.true_curvature,
             bending: job.bending,
             lines: stations.chain(waterlines).collect(),
@@ -319,6 +324,7 @@ impl<'a> Run<'a> {
             predicted,
             jump: surface.greatest_jump(&after),
             beyond,
+            fairness: self.job.fairness,
             before,
             after,
             changes,
@@ -525,6 +531,7 @@ impl<'a> Run<'a> {
             self.noise > ALARM * self.quantum && self.proposals.iter().any(left_alone),
             "the noise is far above the rounding of the table, and lines are proposed that it does not declare",
         );
+        self.notes.extend(surface.out_of_reach(&faired.net));
         self.notes.append(&mut self.assumed);
         let off = |held: &Held| held.constraint.missed(held.before, &self.before) > ON_TARGET;
         let asks = held.iter().any(off) || !job.rules.is_empty() || !job.locked.is_empty();

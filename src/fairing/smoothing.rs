@@ -49,7 +49,7 @@ pub struct Smoother {
     pull: Vec<f64>,
     weights: Vec<f64>,
     /// What the right-hand side has besides the readings.
-    tilt: Option<Vec<f64>>,
+    tilt: Option<(f64, Vec<f64>)>,
     /// What lambda = 1 stands for: multiplies E.
     pub unit: f64,
     count: usize,
@@ -66,6 +66,9 @@ pub fn end_of_search(lambda: f64, trials: &[Trial]) -> &'static str {
         _ => "",
     }
 }
+
+/// Powers of ten below a weight that are tried for the surface through a table.
+const LEAST_POWER: i32 = 12;
 
 /// A smoothed net.
 #[derive(Debug, Clone)]
@@ -202,19 +205,36 @@ impl Smoother {
         smoother
     }
 
-    /// Gives the problem the linear term by which the stationary control values are the answer for their weight.
+    /// Gives the problem the linear term by which the stationary control values are the answer for their weight. What the
+    /// energy has beyond the hull is in it: it grows with the weight.
     fn stand(&mut self) {
-        let Some((weight, free)) = &self.reduced.stationary else { return };
+        let Some((weight, free, _)) = self.reduced.stationary.clone() else { return };
         let (matrix, right) = self.normal(weight / self.unit);
-        let tilt: Vec<f64> = matrix.apply(free).iter().zip(&right).map(|(a, b)| a - b).collect();
-        self.right.iter_mut().zip(&tilt).for_each(|(b, t)| *b += t);
-        self.tilt = Some(tilt);
+        let tilt: Vec<f64> = matrix.apply(&free).iter().zip(&right).map(|(a, b)| a - b).collect();
+        self.tilt = Some((weight / self.unit, tilt));
     }
 
-    /// Twice the linear term at free control values \[m^2\].
+    /// Twice the linear term of a weight at free control values \[m^2\].
     #[must_use]
-    pub fn tilted(&self, free: &[f64]) -> f64 {
-        self.tilt.as_ref().map_or(0.0, |tilt| 2.0 * tilt.iter().zip(free).map(|(t, c)| t * c).sum::<f64>())
+    pub fn tilted(&self, lambda: f64, free: &[f64]) -> f64 {
+        let Some((own, tilt)) = &self.tilt else { return 0.0 };
+        2.0 * lambda / own * tilt.iter().zip(free).map(|(t, c)| t * c).sum::<f64>()
+    }
+
+    /// The largest weight, in powers of ten below `lambda`, whose residuals are `rms` at most \[m\]; the least that makes a
+    /// net where none does.
+    #[must_use]
+    pub fn through(&self, lambda: f64, rms: f64) -> f64 {
+        let mut best = lambda;
+        for power in 0..=2 * LEAST_POWER {
+            let weight = lambda * 0.1f64.powf(0.5 * f64::from(power));
+            let Some(trial) = self.trial(weight) else { break };
+            best = weight;
+            if trial.rms <= rms {
+                break;
+            }
+        }
+        best
     }
 
     /// The same problem with other weights of the readings.
@@ -235,11 +255,19 @@ impl Smoother {
         &self.weights
     }
 
+    /// The right-hand side for a weight.
+    fn right(&self, lambda: f64) -> Vec<f64> {
+        let mut right: Vec<f64> = self.right.iter().zip(&self.pull).map(|(b, e)| b - lambda * e).collect();
+        if let Some((own, tilt)) = &self.tilt {
+            right.iter_mut().zip(tilt).for_each(|(b, t)| *b += lambda / own * t);
+        }
+        right
+    }
+
     /// N = A'WA + lambda E and its right-hand side, for a quadratic program over the free values.
     #[must_use]
     pub fn normal(&self, lambda: f64) -> (SymmetricBand, Vec<f64>) {
-        let right = self.right.iter().zip(&self.pull).map(|(b, e)| b - lambda * e).collect();
-        (self.normal.plus(lambda, &self.energy), right)
+        (self.normal.plus(lambda, &self.energy), self.right(lambda))
     }
 
     /// What a move of the control values costs where it is to be one of the whole hull, with this weight of its energy: over
@@ -262,8 +290,8 @@ impl Smoother {
 
     /// What the linear part -2 b of a program has more without what these readings have and those of `other` have not.
     #[must_use]
-    pub fn linear_less(&self, other: &Self) -> Vec<f64> {
-        self.right.iter().zip(&other.right).map(|(own, other)| 2.0 * (own - other)).collect()
+    pub fn linear_less(&self, lambda: f64, other: &Self) -> Vec<f64> {
+        self.right(lambda).iter().zip(&other.right(lambda)).map(|(own, other)| 2.0 * (own - other)).collect()
     }
 
     /// The free control values for one weight, with the factor of N.
@@ -301,8 +329,16 @@ impl Smoother {
         Ok(Smoothed { lambda, free, residuals, leverages, edf, rss, energy, factor })
     }
 
-    /// c'E c, unscaled, of free control values.
+    /// The energy, unscaled, of free control values ([`super::model::Model::energy_of`]).
     fn energy_of(&self, free: &[f64]) -> f64 {
+        if let Some((weight, own, energy)) = &self.reduced.stationary {
+            let moves: Vec<f64> = free.iter().zip(own).map(|(c, f)| c - f).collect();
+            let data = &self.reduced.data;
+            let left = |k: usize| self.weights[k] * (self.reduced.values[k] - data.dot(k, own)) * data.dot(k, &moves);
+            let along = (0..self.weights.len()).map(left).sum::<f64>();
+            let bent = self.reduced.energy.apply(&moves);
+            return energy + 2.0 * along / weight + bent.iter().zip(&moves).map(|(e, d)| e * d).sum::<f64>();
+        }
         let curved = self.reduced.energy.apply(free);
         let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
         energy + self.reduced.constant

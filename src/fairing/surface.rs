@@ -20,7 +20,7 @@ use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
 use super::metric::{Metric, true_energy};
-use super::model::{Model, Reading};
+use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
@@ -418,6 +418,25 @@ impl FairSurface {
             is_field: true,
             breaks: Vec::new(),
         }
+    }
+
+    /// Offsets of known control values alone that are further off than their tolerances, in words.
+    pub(super) fn out_of_reach(&self, net: &[f64]) -> Vec<String> {
+        let named = |(reading, place): (&Reading, &Place)| {
+            let is_known = reading.row.iter().all(|&(k, b)| b.abs() < 1e-12 || self.model.known[k].is_some());
+            let (off, tolerance) = ((value(&reading.row, net) - reading.value).abs(), reading.tolerance?);
+            (is_known && off > tolerance * 1.001).then(|| {
+                format!(
+                    "the offset at x = {:.3} m, z = {:.3} m is on the end of the hull, which does not move for it: it is {:.0} mm off, \
+                     for a tolerance of {:.0} mm",
+                    place.x,
+                    place.z,
+                    1e3 * off,
+                    1e3 * tolerance
+                )
+            })
+        };
+        self.model.readings.iter().zip(&self.places).filter_map(named).collect()
     }
 
     /// Waterlines across which the curvature of a field breaks, in words.

@@ -4,7 +4,7 @@
 use super::constraint::Rule;
 use super::flats::shown_flat;
 use super::infeasible::Diagnosis;
-use super::job::{Job, JobError};
+use super::job::{Holding, Job, JobError};
 use super::outcome::Outcome;
 use super::relinearise::ON_TARGET;
 use super::run::{Progress, Way};
@@ -85,9 +85,29 @@ impl Job {
     /// # Errors
     /// As [`Job::run`].
     pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
+        if self.fairness.is_raw() {
+            return self.through().run_within_ways(table, progress);
+        }
+        self.run_within_ways(table, progress)
+    }
+
+    /// The job of the surface through the table: it has the displacement and the humps that it has.
+    fn through(&self) -> Self {
+        let given = match &self.holding {
+            Holding::Table => Vec::new(),
+            Holding::Given(given) | Holding::Both { given, .. } => given.clone(),
+        };
+        Self { signs: false, holding: Holding::Given(given), ..self.clone() }
+    }
+
+    /// The table faired in the way that suits it.
+    fn run_within_ways(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
         let way = Way { own: true, another: ANOTHER, followed: self.followed(table)?, progress };
         let mut outcome = self.run_within(table, way)?;
-        if outcome.is_field || !self.signs || !outcome.is_proved_on_the_fit() {
+        if outcome.is_field {
+            return self.or_without_the_field(table, progress, outcome);
+        }
+        if !self.signs || !outcome.is_proved_on_the_fit() {
             return Ok(outcome);
         }
         // What is near enough to be an error of the table may be a wish all the same.
@@ -114,6 +134,28 @@ impl Job {
             better,
             "the smoothing weight is a hundredth of that for the errors of the table, with which lines bent more often than \
              before",
+        ))
+    }
+
+    /// A field whose tolerances have no room for the move to its targets bends for them. The net of the fit, which
+    /// goes through the offsets as they are, may be nearer to them.
+    fn or_without_the_field(
+        &self,
+        table: &OffsetTable,
+        progress: Progress<'_>,
+        outcome: Outcome,
+    ) -> Result<Outcome, JobError> {
+        let bent = outcome.faired.carried.is_some_and(|factor| factor > 1.0);
+        if !bent || outcome.status != Status::Optimal || !outcome.is_no_fairer() {
+            return Ok(outcome);
+        }
+        progress("the field bends more often for its targets: again, on the net of the surface through the table");
+        let other = Self { field: false, ..self.clone() }.run_within_ways(table, progress)?;
+        let better = other.status == Status::Optimal && other.changes_of_sign()[1] < outcome.changes_of_sign()[1];
+        Ok(outcome.or(
+            other,
+            better,
+            "a field bends more often to meet the targets within the tolerances: the net of the surface through the table was faired",
         ))
     }
 

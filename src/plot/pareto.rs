@@ -61,7 +61,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             (1.0 + MARK) * end,
             nice_step(end, 12.0),
         ),
-        left: Axis::powers("energy / that of the surface through the table", low - room, high + room, 8),
+        left: Axis::powers("energy / that of the start", low - room, high + room, 8),
         top: None,
         right: None,
         text_size: 2.8,

@@ -342,6 +342,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
 fn headline(outcome: &Outcome) -> String {
     let [before, after] = outcome.changes_of_sign();
     let verdict = match outcome.status {
+        Status::Optimal if outcome.fairness.is_raw() => "Through the table",
         Status::Optimal if outcome.is_no_fairer() => "No fairer",
         Status::Optimal if after == before => "Fair as before",
         Status::Optimal => "Fairer",
@@ -383,14 +384,19 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let energy = outcome.energy[1] / outcome.energy[0];
     let proof = format!(
         "Proof: duality gap {:.0e}, stationarity {:.0e}, largest violation of a row {:.0e}, computed without the solver. Energy \
-         of order {}: {} of that {}. Smoothing weight {:.2e}{}, {:.1} degrees of freedom; {}, {} iterations.",
+         of order {}: {} of that {}. Fairness {}, smoothing weight {:.2e}{}, {:.1} degrees of freedom; {}, {} iterations.",
         certificate.gap.abs(),
         certificate.stationarity,
         certificate.max_violation.max(0.0),
         outcome.order,
         if energy >= 1e-3 { format!("{energy:.4}") } else { format!("{energy:.1e}") },
         // Its own net takes the half-breadths of that surface for control values, which evens them out.
-        if outcome.own { "of its net laid evenly through the surface before" } else { "before" },
+        match outcome {
+            _ if outcome.is_field => "of the likeliest field",
+            _ if outcome.own => "of its net laid evenly through the surface before",
+            _ => "before",
+        },
+        outcome.fairness,
         faired.lambda,
         end_of_search(faired.lambda, &faired.trials),
         faired.edf,

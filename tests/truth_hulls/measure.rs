@@ -265,18 +265,8 @@ pub(crate) fn page(seeds: u64) -> String {
          `cargo bench --bench truth` prints the same rows, with 30. What the hulls and errors are: head of `tests/truth_hulls/mod.rs`. \
          a/b: median and worst case; changes of sign: truth, before, after (median/worst); before: the surface through the table; \
          displacement and LCB of the truth are given to the job; CPU time is that of the machine that made the page.\n\n\
-         Wigley, S-shaped, middle body and bilge come back with three fifths of the interpolation's error or less in the median at every error, and their \
-         straight parts (parallel body, floor, side) are found by the program. Series 60 and S-175 are surfaces through published \
-         tables, which are rough by 9 mm and 19 mm themselves (the noise that the program finds in the tables without errors): \
-         smaller errors cannot be told from that, and there fairing, which takes a part of the truth's own roughness out (waterlines \
-         of the S-175: 71 changes of sign in the truth), is up to 5.0 mm further from the truth than interpolation in the median, and 13 mm on one table of which \
-         a right offset was left out. Column \"worse\" counts them. Of the \
-         same hulls made fair first, fairing is nearer than interpolation in the median, for changes of sign that come down to those of the truth; but for the \
-         S-175 rounded to eighths: 0.2 mm further away; with 2 mm it is nearer on 18 tables of 30. Where the user says how noisy the table is (rows \"tolerance named\": three standard deviations) it is nearer on 29 tables of 30, and within 10 % of interpolation on the published surfaces, which interpolation has no bias on: they are its own. Price 2 (`signs.price`) keeps more of their changes of sign. Swapped digits are not all found on every table of \
-         the middle body and of the bilge: their worst cases. \
-         The bilge of the bulk carrier lies between its lowest waterlines, which is the error that remains. Container ship and frigate, \
-         fair hulls with raked ends whose turns the offsets do not resolve, are nowhere further off than by interpolation in the mean; with 48 mm of noise the offsets of seven frigates of thirty contradict each \
-         other beyond three times their tolerances, which the program says.\n\n"
+         Series 60 and S-175 are surfaces through published tables, which are rough by 9 mm and 19 mm themselves. Smaller errors cannot be told from that, \
+         and fairing takes a part of the truth's own roughness out. Column \"worse\" counts the tables on which it is further off than interpolation.\n\n"
     );
     text.push_str(Summary::head());
     text.push('\n');

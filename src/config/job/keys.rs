@@ -1,6 +1,7 @@
 //! The keys of the job file.
 
 use super::super::keys::{Key, Kind, key};
+use crate::fairing::strength::Fairness;
 
 pub(super) const HOLD: [&str; 2] = ["table", "free"];
 const AUTO: [&str; 1] = ["auto"];
@@ -16,6 +17,13 @@ const fn shape(name: &'static str, description: &'static str) -> Key {
 /// Every key of the job file.
 pub const JOB_KEYS: &[Key] = &[
     key("", "schema", Kind::Integer(1, 1), &[], "Version of the keys: 1."),
+    key(
+        "",
+        "fairness",
+        Kind::NumberOrWord(&Fairness::NAMES),
+        &[],
+        "How strongly the table is faired, from 0, the surface through the table, to 10; or \"raw\" (0), \"light\" (3), \"fair\" (5), \"smooth\" (8). Default: 5.",
+    ),
     key(
         "table",
         "file",

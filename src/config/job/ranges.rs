@@ -2,6 +2,7 @@
 
 use super::super::document::Document;
 use super::super::value::Scalar;
+use crate::fairing::strength::Fairness;
 use crate::hydrostatics::DENSITIES;
 
 /// A value where it is allowed; otherwise the message names what was expected.
@@ -53,6 +54,18 @@ pub(super) fn price(document: &mut Document<'_>) -> Option<f64> {
     let value = document.number("inflections.cost")?;
     let expected = format!("a positive number, {MOST_PRICE:.0e} at most");
     allowed(document, "inflections.cost", value, value > 0.0 && value <= MOST_PRICE, &expected)
+}
+
+/// A grade of fairness, by number or name.
+pub(super) fn fairness(document: &mut Document<'_>) -> Option<Fairness> {
+    match document.number_or_word("fairness")? {
+        Scalar::Measure(measure) => {
+            let grade = Fairness::new(measure.value);
+            allowed(document, "fairness", measure.value, grade.is_some(), "a number from 0 to 10")?;
+            grade
+        }
+        Scalar::Word(name) => Fairness::named(name),
+    }
 }
 
 /// Greatest smoothing weight: nothing but the energy is left well below it.

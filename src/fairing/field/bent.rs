@@ -188,10 +188,7 @@ impl Bent {
         let [n, m] = net.intervals;
         // sum_k C(4, k) (n m) g a^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
         let factors: [f64; ORDER + 1] = std::array::from_fn(|k| {
-            binomial(ORDER, k)
-                * metric.factor(k)
-                * n.powi(1 - 2 * (ORDER - k) as i32)
-                * m.powi(1 - 2 * k as i32)
+            binomial(ORDER, k) * metric.factor(k) * n.powi(1 - 2 * (ORDER - k) as i32) * m.powi(1 - 2 * k as i32)
         });
         let breaks = [self.knots[0].breakpoints(), self.knots[1].breakpoints()];
         for across in breaks[1].windows(2) {

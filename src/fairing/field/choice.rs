@@ -29,7 +29,7 @@ const STARTS: [[usize; 5]; 2] = [[1, 3, 0, 0, 0], [5, 3, 0, 0, 0]];
 const ROUNDS: usize = 3;
 
 /// Decimal logarithms of the least and of the greatest weight.
-const WEIGHTS: [f64; 2] = [-10.0, 8.0];
+const WEIGHTS: [f64; 2] = [-10.0, 5.0];
 
 /// Decimal logarithms of the weight that is tried first and of the first and the least step from it.
 const FIRST: f64 = -4.0;

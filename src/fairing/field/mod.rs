@@ -3,12 +3,13 @@
 //! The field y(u, v) is the quintic spline over the rectangle of the table with the least sum of squares and energy.
 //!
 //! ```text
-//! sum_i ((y(u_i, v_i) - y_i) / s_i)^2 + w int int sum_k C(4, k) (d^4 y / ds^(4-k) dt^k)^2 ds dt
+//! sum_i ((y(u_i, v_i) - y_i) / s_i)^2 + w int int sum_k g_k C(4, k) (d^4 y / ds^(4-k) dt^k)^2 ds dt
 //! ```
 //!
-//! Here s and t are the parameters counted in intervals of the table, t over the anisotropy a ([`net`]). The chart
-//! x(u), z(v) has three numbers ([`chart`]). These, a, w and the noise maximise the restricted likelihood of the table
-//! ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba 1985).
+//! Here s and t are the parameters counted in intervals of the table, t over the anisotropy a ([`net`]). g_k is 1 for k =
+//! 0 and 4, and g for the mixed derivatives. The chart x(u), z(v) has three numbers ([`chart`]). These, a, g, w and the
+//! noise maximise the restricted likelihood of the table ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba
+//! 1985).
 //!
 //! [`observed`] has what the table says of ends, [`region`] where the hull is within its rectangle. [`bent`] is the net
 //! of the hull with the same energy.

@@ -3,10 +3,12 @@
 //! The energy is of order n = 4, over parameters counted in intervals of the table, s = N u and t = M v.
 //!
 //! ```text
-//! E = int int sum_k C(n, k) a^(1-2k) (d^n y / ds^(n-k) dt^k)^2 ds dt = c'P(a) c
+//! E = int int sum_k g_k C(n, k) a^(1-2k) (d^n y / ds^(n-k) dt^k)^2 ds dt = c'P(a, g) c
 //! ```
 //!
-//! Here a is the anisotropy. The kernel of E are the polynomials in u and v of total degree n - 1.
+//! Here a is the anisotropy; g_k is 1 for k = 0 and n, and g for the mixed derivatives. The kernel of E are the polynomials
+//! in u and v of total degree n - 1. A hull whose half-breadth is a product, as Wigley's, has mixed derivatives alone: a
+//! small g leaves it nearly free.
 //!
 //! Across a break v = constant the derivatives by v from some order r on may jump. The energy has their jumps J_k.
 //!
@@ -217,7 +219,7 @@ impl Net {
         self.parts[0].width()
     }
 
-    /// P(a).
+    /// P(a, g).
     #[must_use]
     pub fn energy(&self, metric: Metric) -> SymmetricBand {
         let mut all = SymmetricBand::zeros(self.size(), self.parts[0].width());
