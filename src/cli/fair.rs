@@ -61,8 +61,8 @@ pub(super) struct Arguments {
     /// [default: 5]
     #[arg(long, value_name = "GRADE", allow_hyphen_values = true, conflicts_with_all = ["weight", "inflection_cost"])]
     fairness: Option<String>,
-    /// Greatest move of an offset [default: three noise levels, at most B/1000 or 15 mm unless the table is three times
-    /// as rough, at least twice the resolution of the table]
+    /// Greatest move of an offset [default: three times the noise about it, at least twice the resolution of the table; on
+    /// the net of the surface through the table at most B/1000 or 15 mm, unless that is three times as rough]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     tolerance: Option<String>,
     /// What must not move: a cell "station@waterline", "station 5", "waterline 2.0", or a line between the offsets too:

@@ -62,7 +62,7 @@ pub const JOB_KEYS: &[Key] = &[
         "table",
         Kind::Length,
         &[],
-        "Greatest move of an offset. Default: three noise levels, at most B/1000 or 15 mm unless the table is three times as rough, at least twice the resolution of the table.",
+        "Greatest move of an offset. Default: three times the noise about it, at least twice the resolution of the table; on the net of the surface through the table at most B/1000 or 15 mm, unless that is three times as rough.",
     ),
     key("tolerance", "stations", Kind::NamedLengths, &[], "Tolerances of single stations, { \"10\" = \"1 mm\" }."),
     key(
