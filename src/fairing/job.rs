@@ -152,7 +152,7 @@ pub struct Job {
     pub tolerance: Tolerance,
     /// Cells that must not move: (station, waterline).
     pub locked: Vec<(usize, usize)>,
-    /// Whether a level table without targets, locks and rules is smoothed as a fair field ([`super::field`]), where that
+    /// Whether a level table without locks, rules and lines is smoothed as a fair field ([`super::field`]), where that
     /// follows it.
     pub field: bool,
     /// Whether suspects are left out.
@@ -178,6 +178,7 @@ impl Job {
             && self.energy == kept.energy
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
             && self.rules.is_empty()
+            && self.locked.is_empty()
             && self.lines.is_empty()
             && self.accepted == kept.accepted
             && !self.bending
