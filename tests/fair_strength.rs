@@ -1,20 +1,15 @@
 //! The dial of fairness: from the surface through the table to the smoothest within its tolerances.
 
-use loftsman::exchange::read_table;
 use loftsman::fairing::job::Job;
 use loftsman::fairing::outcome::{Change, Outcome};
 use loftsman::fairing::strength::Fairness;
 use loftsman::hull::OffsetTable;
 use loftsman::qp::Status;
 
-use crate::support::{carried, folder, json, program, read_text, stderr, stdout};
+use crate::support::{carried, folder, json, program, read_text, stderr, stdout, table_of};
 
 const SERIES_60: &str = "tests/data/series60_cb060/offsets.csv";
 const S_175: &str = "tests/data/s175/offsets.csv";
-
-fn table(path: &str) -> OffsetTable {
-    read_table(path, read_text(carried(path)).as_bytes()).unwrap().table
-}
 
 fn graded(table: &OffsetTable, grade: f64) -> Outcome {
     let outcome = Job { fairness: Fairness::new(grade).unwrap(), ..Job::default() }.run(table).unwrap();
@@ -27,7 +22,7 @@ fn graded(table: &OffsetTable, grade: f64) -> Outcome {
 #[test]
 fn raw_is_the_surface_through_the_table() {
     for path in [SERIES_60, S_175] {
-        let table = table(path);
+        let table = table_of(carried(path));
         let half = 0.5 * table.form.quantum().unwrap();
         let outcome = graded(&table, 0.0);
         // One offset of the S-175 is on the end of the hull: it is named.
@@ -45,7 +40,7 @@ fn raw_is_the_surface_through_the_table() {
 /// A higher grade moves more and bends less, and from light on leaves no more changes of sign.
 #[test]
 fn a_higher_grade_is_fairer_and_moves_more() {
-    let table = table(SERIES_60);
+    let table = table_of(carried(SERIES_60));
     let outcomes = [0.0, 3.0, 5.0, 8.0].map(|grade| graded(&table, grade));
     for pair in outcomes.windows(2) {
         let [low, high] = [&pair[0], &pair[1]];

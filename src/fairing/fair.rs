@@ -197,8 +197,8 @@ pub struct Prepared {
     pub lambda: f64,
     /// The net for it.
     pub smoothed: Smoothed,
-    /// The net for the weight of the search.
-    pub likely: Smoothed,
+    /// The net for the weight of the search, where that is another.
+    pub likely: Option<Smoothed>,
     /// Noise of a reading \[m\].
     pub sigma: f64,
     /// What a search for the weight takes of it for errors \[m\].
@@ -261,16 +261,18 @@ impl Prepared {
             }
         }
         let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
-        let likely = smoothed;
-        let local = surface.is_field.then(|| local_noise(surface, &likely, sigma));
+        let local = surface.is_field.then(|| local_noise(surface, &smoothed, sigma));
         // Digits that the table does not have are not followed.
         let graded = if settings.strength < 1.0 {
             smoother.through(lambda, settings.least_noise).max(lambda * settings.strength)
         } else {
             lambda * settings.strength
         };
-        let smoothed = if graded.total_cmp(&lambda).is_eq() { likely.clone() } else { smoother.at(graded)? };
-        let lambda = graded;
+        let mut likely = None;
+        if graded.total_cmp(&lambda).is_ne() {
+            likely = Some(std::mem::replace(&mut smoothed, smoother.at(graded)?));
+            lambda = graded;
+        }
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
             let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };
@@ -400,7 +402,7 @@ pub fn fair_prepared(
         let of_field = || humps::Question {
             model,
             smoother,
-            likely: &prepared.likely,
+            likely: prepared.likely.as_ref().unwrap_or(&prepared.smoothed),
             lambda,
             sigma,
             wishes: &wishes,

@@ -103,8 +103,7 @@ impl FairSurface {
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
         let moves = move_metric(hull.surface(), readings.len(), scale);
-        let applied = field.net.energy(field.chosen.metric).apply(&field.chosen.field.values);
-        let own = applied.iter().zip(&field.chosen.field.values).map(|(p, c)| p * c).sum();
+        let own = field.net.energy(field.chosen.metric).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let mut found = Self::over(hull, model, places, start, field.chosen.metric.anisotropy);

@@ -240,7 +240,7 @@ fn inflections(humps: &[Hump]) -> usize {
 fn mark_new(humps: &mut [Hump], before: &[Hump]) {
     for hump in humps {
         let same = |old: &&Hump| old.seen && old.sign == hump.sign && old.from < hump.to && hump.from < old.to;
-        if before.iter().find(same).is_none() {
+        if !before.iter().any(|old| same(&old)) {
             (hump.new, hump.clear) = (true, 0.0);
         }
     }

@@ -69,6 +69,35 @@ pub struct Stationary {
     pub moves: SymmetricBand,
 }
 
+/// A field F, stationary for its weight w. The energy of control values is that of F and what the move d = c - F adds,
+///
+/// ```text
+/// 2 g'd + d'E d,   g = A'W (y - A F) / w.
+/// ```
+///
+/// For c'E c itself g would be E F, which has what E is on the ends of the hull.
+#[derive(Debug, Clone)]
+pub struct Standing {
+    /// w.
+    pub weight: f64,
+    /// F \[m\].
+    pub net: Vec<f64>,
+    /// The energy of F.
+    energy: f64,
+    /// g.
+    slope: Vec<f64>,
+}
+
+impl Standing {
+    /// The energy of control values, for the matrix E.
+    #[must_use]
+    pub fn energy_of(&self, matrix: &SymmetricBand, c: &[f64]) -> f64 {
+        let moves: Vec<f64> = c.iter().zip(&self.net).map(|(c, f)| c - f).collect();
+        let along: f64 = self.slope.iter().zip(&moves).map(|(g, d)| g * d).sum();
+        self.energy + 2.0 * along + matrix.quadratic(&moves)
+    }
+}
+
 /// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
 #[derive(Debug, Clone)]
 pub struct Reduced {
@@ -88,8 +117,8 @@ pub struct Reduced {
     pub straight: Option<SymmetricBand>,
     /// Free control values to stay near.
     pub start: Option<Vec<f64>>,
-    /// Weight and free control values of the answer where nothing is asked for.
-    pub stationary: Option<(f64, Vec<f64>, f64)>,
+    /// The field over its free control values.
+    pub standing: Option<Standing>,
     /// Q over the free values.
     pub moves: Option<SymmetricBand>,
     /// d_k less what the known values contribute.
@@ -108,19 +137,24 @@ impl Model {
     /// c'E c.
     #[must_use]
     pub fn quadratic_of(&self, c: &[f64]) -> f64 {
-        self.energy.apply(c).iter().zip(c).map(|(e, c)| e * c).sum()
+        self.energy.quadratic(c)
     }
 
-    /// The energy of control values: c'E c, or that of the field F and what a move d from it adds, 2 g'd + d'E d. F is
-    /// stationary for its weight w, so that g = A'W (y - A F) / w, where c'E c has what E is on the ends of the hull.
+    /// The energy of control values: c'E c, or on a field that of [`Standing`].
     #[must_use]
     pub fn energy_of(&self, c: &[f64]) -> f64 {
-        let Some(field) = &self.stationary else { return self.quadratic_of(c) };
-        let moves: Vec<f64> = c.iter().zip(&field.net).map(|(c, f)| c - f).collect();
-        let readings = self.readings.iter();
-        let along =
-            readings.map(|k| k.weight * (k.value - value(&k.row, &field.net)) * value(&k.row, &moves)).sum::<f64>();
-        field.energy + 2.0 * along / field.weight + self.quadratic_of(&moves)
+        self.standing().map_or_else(|| self.quadratic_of(c), |field| field.energy_of(&self.energy, c))
+    }
+
+    /// The field, over all control values.
+    fn standing(&self) -> Option<Standing> {
+        let field = self.stationary.as_ref()?;
+        let mut slope = vec![0.0; field.net.len()];
+        for reading in &self.readings {
+            let left = reading.weight * (reading.value - value(&reading.row, &field.net));
+            reading.row.iter().for_each(|&(i, a)| slope[i] += left * a / field.weight);
+        }
+        Some(Standing { weight: field.weight, net: field.net.clone(), energy: field.energy, slope })
     }
 
     /// Residuals a_k c - d_k \[m\].
@@ -187,10 +221,11 @@ impl Model {
             pull: free.iter().map(|&i| product[i]).collect(),
             constant: product.iter().zip(&base).map(|(e, c)| e * c).sum(),
             start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i] + carried(i)).collect()),
-            stationary: self
-                .stationary
-                .as_ref()
-                .map(|known| (known.weight, free.iter().map(|&i| known.net[i] + carried(i)).collect(), known.energy)),
+            standing: self.standing().map(|field| Standing {
+                net: free.iter().map(|&i| field.net[i] + carried(i)).collect(),
+                slope: free.iter().map(|&i| field.slope[i]).collect(),
+                ..field
+            }),
             moves: self.stationary.as_ref().map(|known| reduce(&known.moves)),
             free,
             place,

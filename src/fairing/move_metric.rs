@@ -10,6 +10,7 @@
 //! 0.6 % of L further forward has 63 changes of sign for the 53 of its table, a Series 60 43 for 43; with it 40 and 27.
 //! Any b from 1e-4 to 1e-2 does.
 
+use super::cells::add_square;
 use crate::numeric::{SymmetricBand, gauss_legendre};
 use crate::spline::{BsplineSurface, KnotVector, basis_row};
 
@@ -22,12 +23,14 @@ const BENDING: f64 = 1e-3;
 /// The matrix Q of a net for so many offsets; `scale` is the factor of errors at (x, z).
 pub(super) fn move_metric(surface: &BsplineSurface<3>, count: usize, scale: impl Fn(f64, f64) -> f64) -> SymmetricBand {
     let [rows, columns] = surface.shape();
-    let (along, up) = (surface.u().degree(), surface.v().degree());
-    let mut matrix = SymmetricBand::zeros(rows * columns, along.min(rows - 1) * columns + up.min(columns - 1));
+    let degrees = [surface.u().degree().min(rows - 1), surface.v().degree().min(columns - 1)];
+    let none = SymmetricBand::zeros(rows * columns, degrees[0] * columns + degrees[1]);
+    let (mut square, mut bending) = (none.clone(), none.clone());
     let rule = gauss_legendre(NODES);
     let nodes = |knots: &KnotVector| -> Vec<(f64, f64)> {
         knots.breakpoints().windows(2).flat_map(|span| rule.on(span[0], span[1])).collect()
     };
+    let sides = [surface.u(), surface.v()].map(|knots| knots.domain().1 - knots.domain().0);
     let (ahead, above) = (nodes(surface.u()), nodes(surface.v()));
     let mut area = 0.0;
     for &(u, share) in &ahead {
@@ -36,32 +39,16 @@ pub(super) fn move_metric(surface: &BsplineSurface<3>, count: usize, scale: impl
             let s = scale(point[0], point[2]);
             let measure = share * weight * (by_u[0] * by_v[2] - by_u[2] * by_v[0]).abs() / (s * s);
             area += measure;
-            add_square(&mut matrix, &basis_row(surface, [u, v], [0, 0]), measure);
-        }
-    }
-    let none = SymmetricBand::zeros(rows * columns, matrix.width());
-    let mut matrix = none.plus(if area > 0.0 { count as f64 / area } else { 0.0 }, &matrix);
-    let sides = [surface.u(), surface.v()].map(|knots| knots.domain().1 - knots.domain().0);
-    let along = |order: usize| sides[0].powi(2 * order as i32 - 1);
-    let up = |order: usize| sides[1].powi(2 * order as i32 - 1);
-    for &(u, share) in &ahead {
-        for &(v, weight) in &above {
+            add_square(&mut square, measure, &basis_row(surface, [u, v], [0, 0]));
             for (orders, times) in [([2, 0], 1.0), ([1, 1], 2.0), ([0, 2], 1.0)] {
-                let measure = BENDING * count as f64 * times * share * weight * along(orders[0]) * up(orders[1]);
-                add_square(&mut matrix, &basis_row(surface, [u, v], orders), measure);
+                let unit = [0, 1].map(|k| sides[k].powi(2 * orders[k] as i32 - 1));
+                let measure = times * share * weight * unit[0] * unit[1];
+                add_square(&mut bending, measure, &basis_row(surface, [u, v], orders));
             }
         }
     }
-    matrix
-}
-
-/// Adds weight (a c)^2.
-fn add_square(matrix: &mut SymmetricBand, row: &[(usize, f64)], weight: f64) {
-    for (a, &(i, x)) in row.iter().enumerate() {
-        for &(j, y) in &row[..=a] {
-            matrix.add(i, j, weight * x * y);
-        }
-    }
+    let count = count as f64;
+    none.plus(if area > 0.0 { count / area } else { 0.0 }, &square).plus(BENDING * count, &bending)
 }
 
 #[cfg(test)]

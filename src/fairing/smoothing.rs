@@ -36,6 +36,9 @@ const PRIOR: f64 = 0.3;
 /// Steps of the scan.
 const STEPS: usize = 18;
 
+/// Steps of half a power of ten below a weight that are tried for the surface through a table.
+const BELOW: i32 = 24;
+
 /// The smoothing problem, ready for any weight.
 #[derive(Debug, Clone)]
 pub struct Smoother {
@@ -48,7 +51,7 @@ pub struct Smoother {
     right: Vec<f64>,
     pull: Vec<f64>,
     weights: Vec<f64>,
-    /// What the right-hand side has besides the readings.
+    /// What the right-hand side has besides the readings for a weight, and in proportion to it for others.
     tilt: Option<(f64, Vec<f64>)>,
     /// What lambda = 1 stands for: multiplies E.
     pub unit: f64,
@@ -66,9 +69,6 @@ pub fn end_of_search(lambda: f64, trials: &[Trial]) -> &'static str {
         _ => "",
     }
 }
-
-/// Powers of ten below a weight that are tried for the surface through a table.
-const LEAST_POWER: i32 = 12;
 
 /// A smoothed net.
 #[derive(Debug, Clone)]
@@ -185,19 +185,11 @@ impl Smoother {
         }
         let (trace, size) = (reduced.energy.trace(), normal.trace());
         if let Some(straight) = &reduced.straight {
-            for i in 0..n {
-                for j in i.saturating_sub(straight.width())..=i {
-                    normal.add(i, j, size * straight.get(i, j));
-                }
-            }
+            normal.add_band(size, straight);
         }
         let unit = if trace > 0.0 { size / trace } else { 1.0 };
         let mut energy = SymmetricBand::zeros(n, width);
-        for i in 0..n {
-            for j in i.saturating_sub(reduced.energy.width())..=i {
-                energy.add(i, j, unit * reduced.energy.get(i, j));
-            }
-        }
+        energy.add_band(unit, &reduced.energy);
         let pull = reduced.pull.iter().map(|e| unit * e).collect();
         let count = weights.iter().filter(|&&weight| weight > 0.0).count();
         let mut smoother = Self { reduced, normal, told, energy, right, pull, weights, tilt: None, unit, count };
@@ -208,10 +200,11 @@ impl Smoother {
     /// Gives the problem the linear term by which the stationary control values are the answer for their weight. What the
     /// energy has beyond the hull is in it: it grows with the weight.
     fn stand(&mut self) {
-        let Some((weight, free, _)) = self.reduced.stationary.clone() else { return };
-        let (matrix, right) = self.normal(weight / self.unit);
-        let tilt: Vec<f64> = matrix.apply(&free).iter().zip(&right).map(|(a, b)| a - b).collect();
-        self.tilt = Some((weight / self.unit, tilt));
+        let Some(field) = &self.reduced.standing else { return };
+        let lambda = field.weight / self.unit;
+        let (matrix, right) = self.normal(lambda);
+        let tilt: Vec<f64> = matrix.apply(&field.net).iter().zip(&right).map(|(a, b)| a - b).collect();
+        self.tilt = Some((lambda, tilt));
     }
 
     /// Twice the linear term of a weight at free control values \[m^2\].
@@ -221,16 +214,16 @@ impl Smoother {
         2.0 * lambda / own * tilt.iter().zip(free).map(|(t, c)| t * c).sum::<f64>()
     }
 
-    /// The largest weight, in powers of ten below `lambda`, whose residuals are `rms` at most \[m\]; the least that makes a
+    /// The largest weight, in half powers of ten below `lambda`, whose residuals are `rms` at most \[m\]; the least that makes a
     /// net where none does.
     #[must_use]
     pub fn through(&self, lambda: f64, rms: f64) -> f64 {
         let mut best = lambda;
-        for power in 0..=2 * LEAST_POWER {
+        for power in 0..=BELOW {
             let weight = lambda * 0.1f64.powf(0.5 * f64::from(power));
-            let Some(trial) = self.trial(weight) else { break };
+            let Ok((free, _)) = self.solved(weight) else { break };
             best = weight;
-            if trial.rms <= rms {
+            if (self.rss(&free) / self.count.max(1) as f64).sqrt() <= rms {
                 break;
             }
         }
@@ -277,11 +270,7 @@ impl Smoother {
         match &self.reduced.moves {
             Some(moves) => {
                 let mut all = SymmetricBand::zeros(moves.size(), self.energy.width());
-                for i in 0..moves.size() {
-                    for j in i.saturating_sub(moves.width())..=i {
-                        all.add(i, j, moves.get(i, j));
-                    }
-                }
+                all.add_band(1.0, moves);
                 all.plus(weight, &self.energy)
             }
             None => self.normal(weight).0,
@@ -331,13 +320,8 @@ impl Smoother {
 
     /// The energy, unscaled, of free control values ([`super::model::Model::energy_of`]).
     fn energy_of(&self, free: &[f64]) -> f64 {
-        if let Some((weight, own, energy)) = &self.reduced.stationary {
-            let moves: Vec<f64> = free.iter().zip(own).map(|(c, f)| c - f).collect();
-            let data = &self.reduced.data;
-            let left = |k: usize| self.weights[k] * (self.reduced.values[k] - data.dot(k, own)) * data.dot(k, &moves);
-            let along = (0..self.weights.len()).map(left).sum::<f64>();
-            let bent = self.reduced.energy.apply(&moves);
-            return energy + 2.0 * along / weight + bent.iter().zip(&moves).map(|(e, d)| e * d).sum::<f64>();
+        if let Some(field) = &self.reduced.standing {
+            return field.energy_of(&self.reduced.energy, free);
         }
         let curved = self.reduced.energy.apply(free);
         let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
@@ -349,10 +333,14 @@ impl Smoother {
     pub(super) fn trial(&self, lambda: f64) -> Option<Trial> {
         let (free, factor) = self.solved(lambda).ok()?;
         let edf = self.told.trace_of_product(&factor.inverse_band());
+        Some(Trial::new(self.count, lambda, [self.rss(&free), edf], self.energy_of(&free)))
+    }
+
+    /// Weighted sum of squared residuals of free control values \[m^2\].
+    fn rss(&self, free: &[f64]) -> f64 {
         let data = &self.reduced.data;
         let told = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
-        let rss = told.map(|(k, weight)| weight * (data.dot(k, &free) - self.reduced.values[k]).powi(2)).sum::<f64>();
-        Some(Trial::new(self.count, lambda, [rss, edf], self.energy_of(&free)))
+        told.map(|(k, weight)| weight * (data.dot(k, free) - self.reduced.values[k]).powi(2)).sum()
     }
 
     /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half

@@ -21,7 +21,7 @@ const PRICE: f64 = 0.6;
 const NAMED: [(&str, f64); 4] = [("raw", 0.0), ("light", 3.0), ("fair", 5.0), ("smooth", 8.0)];
 
 /// A grade of the dial, from 0 to 10.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Fairness(f64);
 
 impl Fairness {
@@ -75,12 +75,6 @@ impl Fairness {
 impl Default for Fairness {
     fn default() -> Self {
         Self(5.0)
-    }
-}
-
-impl PartialOrd for Fairness {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        self.0.partial_cmp(&other.0)
     }
 }
 

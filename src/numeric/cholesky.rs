@@ -69,6 +69,15 @@ impl SymmetricBand {
         Self { rows, ..*self }
     }
 
+    /// Adds factor * other, whose band is no wider.
+    pub fn add_band(&mut self, factor: f64, other: &Self) {
+        for i in 0..other.size {
+            for j in i.saturating_sub(other.width)..=i {
+                self.add(i, j, factor * other.get(i, j));
+            }
+        }
+    }
+
     /// Sum of the diagonal.
     #[must_use]
     pub fn trace(&self) -> f64 {
@@ -97,6 +106,12 @@ impl SymmetricBand {
             product[i] += row[i - first] * x[i];
         }
         product
+    }
+
+    /// x'M x.
+    #[must_use]
+    pub fn quadratic(&self, x: &[f64]) -> f64 {
+        self.apply(x).iter().zip(x).map(|(m, x)| m * x).sum()
     }
 
     /// a'M a for a row a of rising columns, all within the band of each other.
@@ -369,7 +384,7 @@ mod tests {
         let form = matrix.quadratic_form([(3, 1.0), (5, -2.0), (8, 0.5)].into_iter());
         let spread: Vec<f64> =
             (0..40).map(|i| [(3, 1.0), (5, -2.0), (8, 0.5)].iter().find(|e| e.0 == i).map_or(0.0, |e| e.1)).collect();
-        let product: f64 = matrix.apply(&spread).iter().zip(&spread).map(|(m, a)| m * a).sum();
+        let product = matrix.quadratic(&spread);
         assert!((form - product).abs() < 1e-14);
         let trace: f64 = (0..40).map(|j| (0..40).map(|i| matrix.get(i, j) * matrix.get(j, i)).sum::<f64>()).sum();
         assert!((matrix.trace_of_product(&matrix) / trace - 1.0).abs() < 1e-14);
@@ -378,7 +393,7 @@ mod tests {
         let long = example(40, 12);
         let mut spread = vec![0.0; 40];
         columns.iter().for_each(|&k| spread[k] = (k as f64).cos());
-        let product: f64 = long.apply(&spread).iter().zip(&spread).map(|(m, a)| m * a).sum();
+        let product = long.quadratic(&spread);
         assert!((long.quadratic_form(columns.iter().map(|&k| (k, spread[k]))) - product).abs() < 1e-14);
     }
 

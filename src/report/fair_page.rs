@@ -391,10 +391,12 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         outcome.order,
         if energy >= 1e-3 { format!("{energy:.4}") } else { format!("{energy:.1e}") },
         // Its own net takes the half-breadths of that surface for control values, which evens them out.
-        match outcome {
-            _ if outcome.is_field => "of the likeliest field",
-            _ if outcome.own => "of its net laid evenly through the surface before",
-            _ => "before",
+        if outcome.is_field {
+            "of the likeliest field"
+        } else if outcome.own {
+            "of its net laid evenly through the surface before"
+        } else {
+            "before"
         },
         outcome.fairness,
         faired.lambda,

@@ -190,9 +190,7 @@ pub fn smoothed(
         .zip(&observed.values)
         .map(|(row, y)| (row.iter().map(|(j, b)| b * values[*j]).sum::<f64>() - y).powi(2))
         .sum();
-    let applied = roughness.matrix.apply(&values);
-    let energy: f64 = applied.iter().zip(&values).map(|(p, c)| p * c).sum();
-    let left = misfit + weight * energy.max(0.0);
+    let left = misfit + weight * roughness.matrix.quadratic(&values).max(0.0);
     let freedom = observed.count().saturating_sub(KERNEL).max(1) as f64;
     let variance = (left / freedom).max(least * least);
     let rank = (values.len() - KERNEL) as f64;

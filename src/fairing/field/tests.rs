@@ -8,7 +8,6 @@ use super::observed::{End, Observations};
 use super::region::{Bend, Field};
 use super::surface::LevelField;
 use crate::hull::{self, OffsetTable, StationOffsets};
-use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineCurve, KnotVector, binomial};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -16,10 +15,6 @@ const METRIC: Metric = Metric { anisotropy: 1.4, mixed: 0.3 };
 
 fn chart() -> Chart {
     Chart { length: [0.0, 100.0], height: [0.0, 10.0], shape: Shape { keel: 0.1, ends: [0.25, 0.5] } }
-}
-
-fn quadratic(matrix: &SymmetricBand, c: &[f64]) -> f64 {
-    matrix.apply(c).iter().zip(c).map(|(a, b)| a * b).sum()
 }
 
 /// A tangent line, and a knuckle beside a line of the net.
@@ -137,7 +132,7 @@ fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
             .for_each(|(k, value)| *value += 0.01 * ((k % columns) * (k % columns) % 7) as f64);
         let bent = straight(&net);
         assert!(bent.bend.is_straight());
-        let (own, of_net) = (quadratic(&bent.energy(&net, METRIC), &values), quadratic(&net.energy(METRIC), &values));
+        let (own, of_net) = (bent.energy(&net, METRIC).quadratic(&values), net.energy(METRIC).quadratic(&values));
         assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
     }
 }
@@ -197,7 +192,7 @@ fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
     let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
     let bent = Bent { chart, bend, knots, corners: Vec::new(), breaks: Vec::new(), closed, keel_closed: false };
     let y = bent.half_breadths(&field).unwrap();
-    let energy = quadratic(&bent.energy(&net, metric), &y);
+    let energy = bent.energy(&net, metric).quadratic(&y);
     let (mut sum, [rows, columns]) = (0.0, [600, 300]);
     for j in 0..columns {
         let v = (f64::from(j) + 0.5) / f64::from(columns);
