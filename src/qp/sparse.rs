@@ -106,9 +106,20 @@ impl SparseRows {
         &self.values
     }
 
-    /// Every value, to be changed in place.
-    pub fn values_mut(&mut self) -> &mut [f64] {
-        &mut self.values
+    /// Gives every place another value, that of its row, its column and its number in the order of [`SparseRows::values`].
+    pub(super) fn refill(&mut self, value: impl Fn(usize, usize, usize) -> f64) {
+        for row in 0..self.row_count() {
+            for place in self.starts[row]..self.starts[row + 1] {
+                self.values[place] = value(row, self.indices[place], place);
+            }
+        }
+    }
+
+    /// Multiplies each row by its factor.
+    pub(super) fn scale_rows(&mut self, factors: &[f64]) {
+        for (row, factor) in factors.iter().enumerate() {
+            self.values[self.starts[row]..self.starts[row + 1]].iter_mut().for_each(|value| *value *= factor);
+        }
     }
 
     /// One row times x.

@@ -1,5 +1,5 @@
-//! The problem as the iteration sees it: variables in elimination order, rows of unit size, an objective of unit
-//! curvature.
+//! The problem as the iteration sees it: variables in elimination order and of unit curvature each (Jacobi scaling: a
+//! net has control values whose energy is 1e11 times that of others), rows of unit size, an objective of unit curvature.
 
 use super::super::problem::Problem;
 use super::super::sparse::SparseRows;
@@ -7,6 +7,9 @@ use super::normal::elimination_order;
 
 /// A row longer than this, and than an eighth of the unknowns, stays outside the normal matrix.
 const DENSE: usize = 100;
+/// The nearer limit of a row over its largest entry at most: what rows of stiff variables leave of their limits is lost in
+/// rounding.
+const FARTHEST: f64 = 1e3;
 /// Limits closer than this, relative to their size, are an equality.
 const CLOSED: f64 = 1e-13;
 
@@ -27,6 +30,8 @@ pub(super) struct Scaled {
     /// Objective of the iteration over that of the problem.
     pub(super) objective_scale: f64,
     row_scale: Vec<f64>,
+    /// A variable of the problem over that of the iteration, in elimination order: powers of two, which round nothing.
+    column_scale: Vec<f64>,
     order: Vec<usize>,
     quadratic_origins: Vec<usize>,
     row_origins: Vec<usize>,
@@ -61,6 +66,7 @@ impl Scaled {
             outside,
             objective_scale: 1.0,
             row_scale: vec![1.0; m],
+            column_scale: order.iter().map(|&index| unit_curvature(diagonal(&problem.quadratic, index))).collect(),
             order,
             quadratic_origins,
             row_origins,
@@ -72,21 +78,29 @@ impl Scaled {
     /// Takes the values of a problem of the same pattern.
     pub(super) fn load(&mut self, problem: &Problem) {
         let n = self.linear.len();
-        let trace: f64 = (0..n).map(|row| diagonal(&problem.quadratic, row)).sum();
-        let largest = problem.linear.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let columns = &self.column_scale;
+        let (mut trace, mut largest) = (0.0, 0.0_f64);
+        for (&index, scale) in self.order.iter().zip(columns) {
+            trace += scale * scale * diagonal(&problem.quadratic, index);
+            largest = largest.max((scale * problem.linear[index]).abs());
+        }
         let size = if trace > 0.0 { trace / n as f64 } else { largest };
         self.objective_scale = if size > 0.0 { 1.0 / size } else { 1.0 };
-        for (value, &origin) in self.quadratic.values_mut().iter_mut().zip(&self.quadratic_origins) {
-            *value = problem.quadratic.values()[origin] * self.objective_scale;
+        let factors: Vec<f64> = columns.iter().map(|scale| scale * self.objective_scale).collect();
+        let (values, origins) = (problem.quadratic.values(), &self.quadratic_origins);
+        self.quadratic.refill(|row, column, place| values[origins[place]] * factors[row] * columns[column]);
+        for ((value, &index), factor) in self.linear.iter_mut().zip(&self.order).zip(&factors) {
+            *value = problem.linear[index] * factor;
         }
-        for (value, &index) in self.linear.iter_mut().zip(&self.order) {
-            *value = problem.linear[index] * self.objective_scale;
-        }
+        let (values, origins) = (problem.rows.values(), &self.row_origins);
+        self.rows.refill(|_, column, place| values[origins[place]] * columns[column]);
         for row in 0..self.row_scale.len() {
-            let size = problem.rows.row_size(row);
+            let (lower, upper) = (problem.lower[row], problem.upper[row]);
+            let limits = [lower, upper].into_iter().map(f64::abs).filter(|limit| limit.is_finite());
+            let nearest = limits.reduce(f64::min).unwrap_or(0.0);
+            let size = self.rows.row_size(row).max(nearest / FARTHEST);
             let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
             self.row_scale[row] = scale;
-            let (lower, upper) = (problem.lower[row], problem.upper[row]);
             let width = upper - lower;
             self.equal[row] = width.is_finite() && width <= CLOSED * upper.abs().max(lower.abs());
             if self.equal[row] {
@@ -96,20 +110,14 @@ impl Scaled {
                 (self.lower[row], self.upper[row]) = (lower * scale, upper * scale);
             }
         }
-        let mut place = 0;
-        for row in 0..self.row_scale.len() {
-            for _ in 0..problem.rows.row(row).0.len() {
-                self.rows.values_mut()[place] = problem.rows.values()[self.row_origins[place]] * self.row_scale[row];
-                place += 1;
-            }
-        }
+        self.rows.scale_rows(&self.row_scale);
     }
 
     /// x in the order of the problem.
     pub(super) fn variables(&self, x: &[f64]) -> Vec<f64> {
         let mut result = vec![0.0; x.len()];
-        for (value, &index) in x.iter().zip(&self.order) {
-            result[index] = *value;
+        for ((value, &index), scale) in x.iter().zip(&self.order).zip(&self.column_scale) {
+            result[index] = value * scale;
         }
         result
     }
@@ -118,6 +126,11 @@ impl Scaled {
     pub(super) fn multipliers(&self, z: &[f64]) -> Vec<f64> {
         z.iter().zip(&self.row_scale).map(|(z, scale)| z * scale / self.objective_scale).collect()
     }
+}
+
+/// The power of two next to 1 / sqrt(p) for the curvature p of a variable; 1 where it has none.
+fn unit_curvature(p: f64) -> f64 {
+    if p > 0.0 && p.is_finite() { (-0.5 * p.log2()).round().exp2() } else { 1.0 }
 }
 
 fn diagonal(matrix: &SparseRows, row: usize) -> f64 {
