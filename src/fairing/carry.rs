@@ -103,7 +103,7 @@ impl Basic<'_> {
         programs: &mut usize,
     ) -> Result<Option<Vec<f64>>, FairError> {
         let solver = Settings { proof: false, ..self.solver.clone() };
-        let reference: Vec<f64> = self.smoother.reduced.free.iter().map(|&i| self.reference[i]).collect();
+        let reference = self.smoother.reduced.unknowns_of(&self.reference);
         let metric = self.smoother.metric_of_moves(SMOOTH);
         let stays = metric.apply(&reference);
         for _ in 0..LIMIT_ROUNDS {
@@ -114,7 +114,7 @@ impl Basic<'_> {
             }
             program.problem.quadratic = symmetric(&metric, 2.0);
             program.problem.linear = stays.iter().map(|value| -2.0 * value).collect();
-            let solved = program.solve(self.model, self.smoother, SMOOTH, &solver)?;
+            let solved = program.solve(self.smoother, SMOOTH, &solver)?;
             *programs += 1;
             if !solved.is_optimal() {
                 break;

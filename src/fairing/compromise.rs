@@ -136,7 +136,7 @@ impl<'a> Basic<'a> {
             Self { surface, model, smoother, lambda, constraints, others, reference, room, greatest, solver };
         if others.contains(&true) {
             let free = Wishes { constraints: Vec::new(), ..wishes.clone() };
-            let free = basic.program(&free, 1.0).solve(model, smoother, lambda, solver)?;
+            let free = basic.program(&free, 1.0).solve(smoother, lambda, solver)?;
             if free.is_optimal() {
                 basic.reference = free.net;
                 basic.room = [LEVELS_BETWEEN * tolerances.last().copied().unwrap_or(f64::INFINITY), 0.0];
@@ -183,7 +183,7 @@ impl<'a> Basic<'a> {
         let (program, solved) = loop {
             let factor = wider.as_ref().map_or(1.0, Widening::factor);
             let program = self.program(wishes, factor);
-            let mut solved = program.solve(self.model, self.smoother, self.lambda, &solver)?;
+            let mut solved = program.solve(self.smoother, self.lambda, &solver)?;
             programs += 1;
             iterations += solved.solution.iterations;
             if solved.is_optimal() {
@@ -221,7 +221,7 @@ impl<'a> Basic<'a> {
             if wider.is_none() {
                 // Nothing solves: what the solver left is no hull. The surface as it was is one, and claims nothing.
                 solved.net.clone_from(&self.surface.start);
-                solved.solution.x = self.smoother.reduced.free.iter().map(|&i| self.surface.start[i]).collect();
+                solved.solution.x = self.smoother.reduced.unknowns_of(&self.surface.start);
                 break (program, solved);
             }
         };
@@ -274,7 +274,7 @@ impl<'a> Basic<'a> {
             let mut some = wishes.clone();
             some.rules.retain(|(rule, _)| kept.contains(rule));
             programs += 1;
-            let solved = self.program(&some, 1.0).solve(self.model, self.smoother, self.lambda, &solver);
+            let solved = self.program(&some, 1.0).solve(self.smoother, self.lambda, &solver);
             solved.map(|solved| solved.is_optimal())
         };
         let mut kept = Vec::new();

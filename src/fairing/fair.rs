@@ -352,7 +352,7 @@ pub fn fair_prepared(
         && let Some(found) = turned(surface, &settings.rules, &prepared.lines, &solved.net, |rules| {
             let asked = Wishes { rules: wishes.rules.iter().chain(rules).cloned().collect(), ..wishes.clone() };
             let program = Program::new(model, smoother, lambda, &asked, None);
-            let solved = program.solve(model, smoother, lambda, &settings.solver)?;
+            let solved = program.solve(smoother, lambda, &settings.solver)?;
             programs += 1;
             iterations += solved.solution.iterations;
             Ok((program, solved))
@@ -374,7 +374,7 @@ pub fn fair_prepared(
         let mut found = [0, 1].map(|k| pattern(&forms[k], smoother, smoothed, sigma));
         for round in 0..ROUNDS {
             let candidate = Program::new(model, smoother, lambda, &wishes, Some((&forms, &found)));
-            let answer = candidate.solve_after(model, smoother, lambda, solver)?;
+            let answer = candidate.solve_after(smoother, lambda, solver)?;
             programs += 1;
             iterations += answer.solution.iterations;
             let feasible = answer.solution.status != Status::Infeasible;
@@ -463,9 +463,9 @@ pub fn fair_prepared(
     }
     let mut settled = None;
     if diagnosis.is_none() && solved.is_optimal() {
-        let (smoother, lambda, model) = (&final_smoother, final_lambda, &surface.model);
+        let (smoother, lambda) = (&final_smoother, final_lambda);
         let constraints = &settings.constraints;
-        let settling = Settling { surface, constraints, model, smoother, lambda, solver: &settings.solver };
+        let settling = Settling { surface, constraints, smoother, lambda, solver: &settings.solver };
         if let Some(found) = settling.run(&program, &solved)? {
             programs += found.programs;
             iterations += found.iterations;

@@ -125,7 +125,7 @@ impl FairSurface {
         let lambda = likely.weight / smoother.unit;
         let wishes = Wishes { breadths: limits, widening: 1.0, ..Wishes::default() };
         let program = Program::new(&self.model, &smoother, lambda, &wishes, None);
-        let solved = program.solve(&self.model, &smoother, lambda, &Settings::default()).ok()?;
+        let solved = program.solve(&smoother, lambda, &Settings::default()).ok()?;
         if !solved.is_optimal() {
             return None;
         }

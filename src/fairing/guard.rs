@@ -341,7 +341,7 @@ impl Question<'_> {
 
     fn solve(&self, asked: &[Asked], guarded: &mut Guarded) -> Result<(Program, Solved), ProblemError> {
         let program = self.program(asked.iter());
-        let solved = program.solve(self.model, self.smoother, self.lambda, &trial(self.solver))?;
+        let solved = program.solve(self.smoother, self.lambda, &trial(self.solver))?;
         guarded.programs += 1;
         guarded.iterations += solved.solution.iterations;
         Ok((program, solved))

@@ -145,7 +145,7 @@ impl Faired {
             return 0.0;
         }
         let without = self.program.without(these);
-        let solved = without.solve(model, &self.smoother, self.lambda, solver);
+        let solved = without.solve(&self.smoother, self.lambda, solver);
         solved
             .ok()
             .filter(Solved::is_optimal)

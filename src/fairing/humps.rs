@@ -165,7 +165,7 @@ impl Question<'_> {
         let owners: Vec<Place> = parts.iter().flat_map(|(&owner, limits)| limits.iter().map(move |_| owner)).collect();
         let wishes = Wishes { bends, ..self.wishes.clone() };
         let program = Program::new(self.model, self.smoother, self.lambda, &wishes, None);
-        let solved = program.solve(self.model, self.smoother, self.lambda, &trial(self.solver))?;
+        let solved = program.solve(self.smoother, self.lambda, &trial(self.solver))?;
         let mut charges = Charges::new();
         for (name, z) in program.names.iter().zip(&solved.solution.multipliers) {
             let RowName::Bend(row) = *name else { continue };

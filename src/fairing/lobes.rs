@@ -135,7 +135,7 @@ impl Lobes<'_> {
         let Faired { program, smoother, lambda, sigma, net, solved: before, .. } = &best.faired;
         let all: Vec<Limit> = group.iter().flat_map(|lobe| lobe.limits.iter().cloned()).collect();
         let (program, first) = program.with_bends(&all, &smoother.reduced);
-        let solved = program.solve(&self.surface.model, smoother, *lambda, &trial(&self.settings.solver))?;
+        let solved = program.solve(smoother, *lambda, &trial(&self.settings.solver))?;
         let unit = sigma * sigma;
         let limits: Vec<&[Limit]> = group.iter().map(|lobe| lobe.limits.as_slice()).collect();
         let charges = charges((&program, &solved), &limits, first, net).into_iter().map(|charge| charge / unit);

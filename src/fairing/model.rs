@@ -69,36 +69,22 @@ pub struct Stationary {
     pub moves: SymmetricBand,
 }
 
-/// A field F, stationary for its weight w. The energy of control values is that of F and what the move d = c - F adds,
+/// What the energy of a field F that is stationary for its weight w adds for a move d = c - F,
 ///
 /// ```text
-/// 2 g'd + d'E d,   g = A'W (y - A F) / w.
+/// E(c) - E(F) = 2 g'd + d'E d,   g = A'W (y - A F) / w.
 /// ```
 ///
 /// For c'E c itself g would be E F, which has what E is on the ends of the hull.
-#[derive(Debug, Clone)]
-pub struct Standing {
-    /// w.
-    pub weight: f64,
-    /// F \[m\].
-    pub net: Vec<f64>,
-    /// The energy of F.
-    energy: f64,
+struct Standing<'a> {
+    field: &'a Stationary,
     /// g.
     slope: Vec<f64>,
 }
 
-impl Standing {
-    /// The energy of control values, for the matrix E.
-    #[must_use]
-    pub fn energy_of(&self, matrix: &SymmetricBand, c: &[f64]) -> f64 {
-        let moves: Vec<f64> = c.iter().zip(&self.net).map(|(c, f)| c - f).collect();
-        let along: f64 = self.slope.iter().zip(&moves).map(|(g, d)| g * d).sum();
-        self.energy + 2.0 * along + matrix.quadratic(&moves)
-    }
-}
-
-/// The model without its known control values: min sum w_k (a_k c - d_k)^2 + lambda (c'E c + 2 e'c) over the free ones.
+/// The model over its free unknowns x: minimise sum w_k (a_k x - d_k)^2 + lambda (x'E x + 2 e'x). The control values are
+/// those of the origin and x: known values are their own origin, a field with what is carried is that of the free ones,
+/// and elsewhere it is 0. Moves of millimetres are not lost in the breadth of a ship.
 #[derive(Debug, Clone)]
 pub struct Reduced {
     /// Indices of the free control values in the whole.
@@ -107,24 +93,22 @@ pub struct Reduced {
     pub place: Vec<Option<usize>>,
     /// E over the free values.
     pub energy: SymmetricBand,
-    /// e = E_fk c_k.
+    /// e: E_fk c_k of known values c_k; g of a field ([`Model::energy_of`]).
     pub pull: Vec<f64>,
-    /// c_k'E_kk c_k.
+    /// The energy of the origin.
     pub constant: f64,
     /// Rows a_k over the free values.
     pub data: SparseRows,
     /// S over the free values.
     pub straight: Option<SymmetricBand>,
-    /// Free control values to stay near.
+    /// Free unknowns to stay near.
     pub start: Option<Vec<f64>>,
-    /// The field over its free control values.
-    pub standing: Option<Standing>,
     /// Q over the free values.
     pub moves: Option<SymmetricBand>,
-    /// d_k less what the known values contribute.
+    /// d_k less what the origin contributes.
     pub values: Vec<f64>,
-    /// Known values, 0 for free ones.
-    base: Vec<f64>,
+    /// The control values for x = 0 \[m\].
+    origin: Vec<f64>,
 }
 
 impl Model {
@@ -140,21 +124,25 @@ impl Model {
         self.energy.quadratic(c)
     }
 
-    /// The energy of control values: c'E c, or on a field that of [`Standing`].
+    /// The energy of control values: c'E c; on a field F stationary for its weight w that of F and what the move
+    /// d = c - F adds, 2 g'd + d'E d with g = A'W (y - A F) / w.
     #[must_use]
     pub fn energy_of(&self, c: &[f64]) -> f64 {
-        self.standing().map_or_else(|| self.quadratic_of(c), |field| field.energy_of(&self.energy, c))
+        let Some(Standing { field, slope }) = self.standing() else { return self.quadratic_of(c) };
+        let moves: Vec<f64> = c.iter().zip(&field.net).map(|(c, f)| c - f).collect();
+        let along: f64 = slope.iter().zip(&moves).map(|(g, d)| g * d).sum();
+        field.energy + 2.0 * along + self.energy.quadratic(&moves)
     }
 
     /// The field, over all control values.
-    fn standing(&self) -> Option<Standing> {
+    fn standing(&self) -> Option<Standing<'_>> {
         let field = self.stationary.as_ref()?;
         let mut slope = vec![0.0; field.net.len()];
         for reading in &self.readings {
             let left = reading.weight * (reading.value - value(&reading.row, &field.net));
             reading.row.iter().for_each(|&(i, a)| slope[i] += left * a / field.weight);
         }
-        Some(Standing { weight: field.weight, net: field.net.clone(), energy: field.energy, slope })
+        Some(Standing { field, slope })
     }
 
     /// Residuals a_k c - d_k \[m\].
@@ -191,7 +179,11 @@ impl Model {
         let free: Vec<usize> = (0..n).filter(|&i| self.known[i].is_none()).collect();
         let mut place = vec![None; n];
         free.iter().enumerate().for_each(|(k, &i)| place[i] = Some(k));
-        let base: Vec<f64> = self.known.iter().map(|known| known.unwrap_or(0.0)).collect();
+        let carried = |i: usize| self.carried.as_ref().map_or(0.0, |carried| carried[i]);
+        let standing = self.standing();
+        let field = |i: usize| standing.as_ref().map_or(0.0, |standing| standing.field.net[i] + carried(i));
+        let known = |(i, known): (usize, &Option<f64>)| known.unwrap_or_else(|| field(i));
+        let origin: Vec<f64> = self.known.iter().enumerate().map(known).collect();
         let reduce = |band: &SymmetricBand| {
             let w = band.width();
             let mut reduced = SymmetricBand::zeros(free.len(), w.min(free.len().saturating_sub(1)));
@@ -208,24 +200,25 @@ impl Model {
             reduced
         };
         let (energy, straight) = (reduce(&self.energy), self.straight.as_ref().map(reduce));
-        let product = self.energy.apply(&base);
-        let carried = |i: usize| self.carried.as_ref().map_or(0.0, |carried| carried[i]);
         let mut data = SparseRows::new(free.len());
         let mut values = Vec::with_capacity(self.readings.len());
         for reading in &self.readings {
-            let (row, offset) = split(&reading.row, &place, &base);
+            let (row, offset) = split(&reading.row, &place, &origin);
             data.push(row);
             values.push(self.wished(reading) - offset);
         }
+        let (pull, constant) = match &standing {
+            Some(Standing { field, slope }) => (slope.clone(), field.energy),
+            None => {
+                let product = self.energy.apply(&origin);
+                let constant = product.iter().zip(&origin).map(|(e, c)| e * c).sum();
+                (product, constant)
+            }
+        };
         Reduced {
-            pull: free.iter().map(|&i| product[i]).collect(),
-            constant: product.iter().zip(&base).map(|(e, c)| e * c).sum(),
-            start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i] + carried(i)).collect()),
-            standing: self.standing().map(|field| Standing {
-                net: free.iter().map(|&i| field.net[i] + carried(i)).collect(),
-                slope: free.iter().map(|&i| field.slope[i]).collect(),
-                ..field
-            }),
+            pull: free.iter().map(|&i| pull[i]).collect(),
+            constant,
+            start: self.start.as_ref().map(|start| free.iter().map(|&i| start[i] + carried(i) - origin[i]).collect()),
             moves: self.stationary.as_ref().map(|known| reduce(&known.moves)),
             free,
             place,
@@ -233,34 +226,40 @@ impl Model {
             straight,
             data,
             values,
-            base,
+            origin,
         }
     }
 }
 
 impl Reduced {
-    /// All control values from the free ones.
+    /// All control values for unknowns x.
     #[must_use]
-    pub fn expand(&self, free: &[f64]) -> Vec<f64> {
-        let mut all = self.base.clone();
-        self.free.iter().zip(free).for_each(|(&i, &value)| all[i] = value);
+    pub fn expand(&self, x: &[f64]) -> Vec<f64> {
+        let mut all = self.origin.clone();
+        self.free.iter().zip(x).for_each(|(&i, &value)| all[i] += value);
         all
     }
 
-    /// A row over the free values, and what the known ones contribute.
+    /// The unknowns x of control values.
+    #[must_use]
+    pub fn unknowns_of(&self, net: &[f64]) -> Vec<f64> {
+        self.free.iter().map(|&i| net[i] - self.origin[i]).collect()
+    }
+
+    /// A row over the unknowns, and what the origin contributes.
     #[must_use]
     pub fn row(&self, row: &[(usize, f64)]) -> (Row, f64) {
-        split(row, &self.place, &self.base)
+        split(row, &self.place, &self.origin)
     }
 }
 
-fn split(row: &[(usize, f64)], place: &[Option<usize>], base: &[f64]) -> (Row, f64) {
+fn split(row: &[(usize, f64)], place: &[Option<usize>], origin: &[f64]) -> (Row, f64) {
     let mut offset = 0.0;
     let mut kept = Row::with_capacity(row.len());
     for &(column, value) in row {
-        match place[column] {
-            Some(k) => kept.push((k, value)),
-            None => offset += value * base[column],
+        offset += value * origin[column];
+        if let Some(k) = place[column] {
+            kept.push((k, value));
         }
     }
     (kept, offset)

@@ -281,14 +281,8 @@ impl Program {
     ///
     /// # Errors
     /// [`ProblemError`] when the numbers make no problem.
-    pub fn solve(
-        &self,
-        model: &Model,
-        smoother: &Smoother,
-        lambda: f64,
-        settings: &Settings,
-    ) -> Result<Solved, ProblemError> {
-        self.solve_after(model, smoother, lambda, &mut RepeatedSolver::new(settings))
+    pub fn solve(&self, smoother: &Smoother, lambda: f64, settings: &Settings) -> Result<Solved, ProblemError> {
+        self.solve_after(smoother, lambda, &mut RepeatedSolver::new(settings))
     }
 
     /// The same after the program that `solver` solved last.
@@ -297,7 +291,6 @@ impl Program {
     /// [`ProblemError`] when the numbers make no problem.
     pub fn solve_after(
         &self,
-        model: &Model,
         smoother: &Smoother,
         lambda: f64,
         solver: &mut RepeatedSolver<'_>,
@@ -305,9 +298,7 @@ impl Program {
         let solution = solver.solve(&self.problem)?;
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
-        let misfit = model.misfit(&net, smoother.weights());
-        let objective =
-            misfit + lambda * smoother.unit * model.quadratic_of(&net) - smoother.tilted(lambda, &solution.x);
+        let objective = smoother.objective(lambda, &solution.x);
         Ok(Solved { solution, certificate, net, objective })
     }
 }

@@ -80,7 +80,7 @@ pub(super) fn refresh(
         let smoother = Smoother::new(&next).reweighted(smoother.weights());
         let lambda = mu / smoother.unit;
         let candidate = program.with_objective(&smoother, lambda);
-        let answer = candidate.solve(&next, &smoother, lambda, solver)?;
+        let answer = candidate.solve(&smoother, lambda, solver)?;
         programs += 1;
         iterations += answer.solution.iterations;
         if !answer.is_optimal() {

@@ -11,7 +11,7 @@
 //! problem.
 
 use super::constraint::Constraint;
-use super::model::{Limit, Model};
+use super::model::Limit;
 use super::program::{Program, RowName, Solved};
 use super::refresh::RefreshError;
 use super::smoothing::Smoother;
@@ -51,7 +51,6 @@ pub(super) struct Settled {
 pub(super) struct Settling<'a> {
     pub(super) surface: &'a FairSurface,
     pub(super) constraints: &'a [Constraint],
-    pub(super) model: &'a Model,
     pub(super) smoother: &'a Smoother,
     pub(super) lambda: f64,
     pub(super) solver: &'a Settings,
@@ -138,7 +137,7 @@ impl Settling<'_> {
                 rows = self.curved().map(|(k, constraint)| (RowName::Constraint(k), constraint.limit(&hull))).collect();
             }
             let candidate = settled.program.with_rows(&rows, &self.smoother.reduced);
-            let answer = candidate.solve(self.model, self.smoother, self.lambda, self.solver)?;
+            let answer = candidate.solve(self.smoother, self.lambda, self.solver)?;
             settled.programs += 1;
             settled.iterations += answer.solution.iterations;
             if !answer.is_optimal() {

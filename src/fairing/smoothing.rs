@@ -51,8 +51,6 @@ pub struct Smoother {
     right: Vec<f64>,
     pull: Vec<f64>,
     weights: Vec<f64>,
-    /// What the right-hand side has besides the readings for a weight, and in proportion to it for others.
-    tilt: Option<(f64, Vec<f64>)>,
     /// What lambda = 1 stands for: multiplies E.
     pub unit: f64,
     count: usize,
@@ -192,26 +190,7 @@ impl Smoother {
         energy.add_band(unit, &reduced.energy);
         let pull = reduced.pull.iter().map(|e| unit * e).collect();
         let count = weights.iter().filter(|&&weight| weight > 0.0).count();
-        let mut smoother = Self { reduced, normal, told, energy, right, pull, weights, tilt: None, unit, count };
-        smoother.stand();
-        smoother
-    }
-
-    /// Gives the problem the linear term by which the stationary control values are the answer for their weight. What the
-    /// energy has beyond the hull is in it: it grows with the weight.
-    fn stand(&mut self) {
-        let Some(field) = &self.reduced.standing else { return };
-        let lambda = field.weight / self.unit;
-        let (matrix, right) = self.normal(lambda);
-        let tilt: Vec<f64> = matrix.apply(&field.net).iter().zip(&right).map(|(a, b)| a - b).collect();
-        self.tilt = Some((lambda, tilt));
-    }
-
-    /// Twice the linear term of a weight at free control values \[m^2\].
-    #[must_use]
-    pub fn tilted(&self, lambda: f64, free: &[f64]) -> f64 {
-        let Some((own, tilt)) = &self.tilt else { return 0.0 };
-        2.0 * lambda / own * tilt.iter().zip(free).map(|(t, c)| t * c).sum::<f64>()
+        Self { reduced, normal, told, energy, right, pull, weights, unit, count }
     }
 
     /// The largest weight, in half powers of ten below `lambda`, whose residuals are `rms` at most \[m\]; the least that makes a
@@ -250,11 +229,7 @@ impl Smoother {
 
     /// The right-hand side for a weight.
     fn right(&self, lambda: f64) -> Vec<f64> {
-        let mut right: Vec<f64> = self.right.iter().zip(&self.pull).map(|(b, e)| b - lambda * e).collect();
-        if let Some((own, tilt)) = &self.tilt {
-            right.iter_mut().zip(tilt).for_each(|(b, t)| *b += lambda / own * t);
-        }
-        right
+        self.right.iter().zip(&self.pull).map(|(b, e)| b - lambda * e).collect()
     }
 
     /// N = A'WA + lambda E and its right-hand side, for a quadratic program over the free values.
@@ -277,10 +252,13 @@ impl Smoother {
         }
     }
 
-    /// What the linear part -2 b of a program has more without what these readings have and those of `other` have not.
+    /// What the linear part of a program over these unknowns has more with the readings and the origin of `other`.
     #[must_use]
     pub fn linear_less(&self, lambda: f64, other: &Self) -> Vec<f64> {
-        self.right(lambda).iter().zip(&other.right(lambda)).map(|(own, other)| 2.0 * (own - other)).collect()
+        let (matrix, own) = self.normal(lambda);
+        let apart = matrix.apply(&other.reduced.unknowns_of(&self.reduced.expand(&vec![0.0; own.len()])));
+        let right = other.right(lambda);
+        (0..own.len()).map(|i| 2.0 * (apart[i] + own[i] - right[i])).collect()
     }
 
     /// The free control values for one weight, with the factor of N.
@@ -320,9 +298,6 @@ impl Smoother {
 
     /// The energy, unscaled, of free control values ([`super::model::Model::energy_of`]).
     fn energy_of(&self, free: &[f64]) -> f64 {
-        if let Some(field) = &self.reduced.standing {
-            return field.energy_of(&self.reduced.energy, free);
-        }
         let curved = self.reduced.energy.apply(free);
         let energy = (0..free.len()).map(|i| free[i] * (curved[i] + 2.0 * self.reduced.pull[i])).sum::<f64>();
         energy + self.reduced.constant
@@ -334,6 +309,12 @@ impl Smoother {
         let (free, factor) = self.solved(lambda).ok()?;
         let edf = self.told.trace_of_product(&factor.inverse_band());
         Some(Trial::new(self.count, lambda, [self.rss(&free), edf], self.energy_of(&free)))
+    }
+
+    /// sum w_k r_k^2 + lambda E of unknowns \[m^2\].
+    #[must_use]
+    pub fn objective(&self, lambda: f64, x: &[f64]) -> f64 {
+        self.rss(x) + lambda * self.unit * self.energy_of(x)
     }
 
     /// Weighted sum of squared residuals of free control values \[m^2\].

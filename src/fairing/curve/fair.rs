@@ -58,7 +58,7 @@ impl Job<'_> {
 
     pub(super) fn solve(&mut self, wishes: &Wishes, pattern: Option<&Pattern>) -> Result<Solved, CurveError> {
         let program = self.program(wishes, pattern);
-        let solved = program.solve(&self.model, &self.smoother, self.lambda, &self.settings.solver)?;
+        let solved = program.solve(&self.smoother, self.lambda, &self.settings.solver)?;
         self.programs += 1;
         self.iterations += solved.solution.iterations;
         Ok(solved)
