@@ -125,15 +125,18 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     for key in ["primal", "dual", "gap", "stationarity", "max_violation"] {
         number(&certificate["certificate"][key]);
     }
-    assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-6);
+    assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-9);
     let kinds: Vec<&str> =
         certificate["constraints"].as_array().unwrap().iter().map(|c| c["kind"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["displacement", "lcb", "midship_coefficient"]);
-    // Displacement of the hull that was written is the target: that of the smoothed table, near that of the surface through it.
+    // Nobody stated the displacement: that of the hull that was written is within two standard errors of the field's.
     let written = read_source(&out.join("hull.json")).unwrap().hull;
     let held = &certificate["constraints"][0];
     let volume = loftsman::hull::Functional::Volume.value(&written, written.particulars().draught);
-    assert!((volume / number(&held["target"]) - 1.0).abs() < 1e-10, "{volume} {held}");
+    let [low, high] = ["low", "high"].map(|key| number(&held[key]));
+    assert!((low..=high).contains(&volume) && low < number(&held["target"]), "{volume} {held}");
+    assert!((5e-5..1e-3).contains(&(high / low - 1.0)) && number(&held["residual"]).abs() < 1e-12, "{held}");
+    assert!((volume / number(&held["after"]) - 1.0).abs() < 1e-10, "{volume} {held}");
     assert!((number(&held["after"]) / number(&held["before"]) - 1.0).abs() < 2e-3, "{held}");
     // The same bytes once more; what is there is not overwritten unasked.
     let again = path.join("again");
@@ -535,21 +538,23 @@ fn a_sectional_area_curve_is_held() {
     let areas = || -> Vec<[f64; 4]> {
         let all = certificate()["constraints"].as_array().unwrap().clone();
         let own = all.iter().filter(|c| c["kind"] == "section_area");
-        own.map(|c| ["x", "band", "target", "after"].map(|key| c[key].as_f64().unwrap())).collect()
+        let number = |c: &Value, key: &str| c[key].as_f64().unwrap();
+        let band = |c: &Value| 0.5 * (number(c, "high") - number(c, "low"));
+        own.map(|c| [number(c, "x"), band(c), number(c, "target"), number(c, "after")]).collect()
     };
     let (code, said, page) = run("section_areas = \"table\"");
     assert_eq!(code, Some(0), "{said}");
     assert!(page.contains("Section areas at 25 places: off target by "), "{page}");
     let exact = areas();
     assert_eq!(exact.len(), 25);
-    assert!(exact.iter().all(|[_, band, target, after]| band.abs() < 1e-15 && (after / target - 1.0).abs() < 1e-10));
+    assert!(exact.iter().all(|[_, band, target, after]| band.abs() < 1e-12 && (after / target - 1.0).abs() < 1e-10));
     let (code, said, _) = run("section_areas = \"table\"\nsection_area_band = 0.01");
     assert_eq!(code, Some(0), "{said}");
     let within = areas();
     assert!(
         within
             .iter()
-            .all(|[_, band, target, after]| (band - 0.01).abs() < 1e-15 && (after - target).abs() < 0.01 + 1e-9)
+            .all(|[_, band, target, after]| (band - 0.01).abs() < 1e-12 && (after - target).abs() < 0.01 + 1e-9)
     );
     assert!(within.iter().any(|[_, _, target, after]| (after - target).abs() > 1e-4));
     let [x, _, area, _] = exact[12];
@@ -559,7 +564,7 @@ fn a_sectional_area_curve_is_held() {
     assert!(page.contains("section area at x = 20.000 m"), "{page}");
     let mut bands: Vec<f64> = areas().iter().map(|area| area[1]).collect();
     bands.sort_by(f64::total_cmp);
-    assert!(bands.len() == 2 && (bands[0] - 0.02).abs() < 1e-15 && (bands[1] - 0.05).abs() < 1e-15, "{bands:?}");
+    assert!(bands.len() == 2 && (bands[0] - 0.02).abs() < 1e-12 && (bands[1] - 0.05).abs() < 1e-12, "{bands:?}");
     fs::write(folder.join("areas.csv"), "x,area\n20,54.8\n30,x\n").unwrap();
     let (code, said, _) = run("section_areas = \"areas.csv\"");
     assert!(code == Some(3) && said.contains("E340") && said.contains("areas.csv:3"), "{code:?} {said}");

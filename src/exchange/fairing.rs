@@ -242,19 +242,18 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         .held
         .iter()
         .map(|held| {
-            let target = held.constraint.target();
+            let [low, high] = held.interval();
             let had = !outcome.nearest || held.is_had();
             let at = if had { "" } else { " at no more than what was reached" };
             let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
-                "target": number(target), "before": number(held.before), "after": number(held.after),
-                "residual": number(held.after - target), "multiplier": number(held.multiplier),
+                "target": number(held.constraint.target()), "low": number(low), "high": number(high), "before": number(held.before), "after": number(held.after),
+                "residual": number(held.missed()), "multiplier": number(held.multiplier),
                 "price": number(held.price), "words": priced(&(held.constraint.words() + at), held.price),
                 "satisfied": had,
             });
-            if let Constraint::SectionArea { x, band, .. } = held.constraint {
+            if let Constraint::SectionArea { x, .. } = held.constraint {
                 member["x"] = number(x);
-                member["band"] = number(band);
             }
             member
         })

@@ -59,6 +59,8 @@ pub(super) struct Basic<'a> {
     pub(super) lambda: f64,
     /// What the constraints of the wishes are.
     pub(super) constraints: &'a [Constraint],
+    /// Room of each beyond its own band ([`super::fair::FairSettings::rooms`]).
+    pub(super) rooms: &'a [f64],
     /// Which of them ask for something else than the surface through the table has.
     pub(super) others: &'a [bool],
     /// The net from which the surface must not move far between the offsets.
@@ -121,7 +123,7 @@ impl<'a> Basic<'a> {
         surface: &'a FairSurface,
         model: &'a Model,
         (smoother, lambda): (&'a Smoother, f64),
-        (constraints, others): (&'a [Constraint], &'a [bool]),
+        (constraints, rooms, others): (&'a [Constraint], &'a [f64], &'a [bool]),
         wishes: &Wishes,
         (smoothed, greatest): (&[f64], f64),
         solver: &'a Settings,
@@ -133,7 +135,7 @@ impl<'a> Basic<'a> {
         let median = tolerances.get(tolerances.len() / 2).copied().unwrap_or(f64::INFINITY);
         let room = [median, ROOM_BETWEEN * greatest];
         let mut basic =
-            Self { surface, model, smoother, lambda, constraints, others, reference, room, greatest, solver };
+            Self { surface, model, smoother, lambda, constraints, rooms, others, reference, room, greatest, solver };
         if others.contains(&true) {
             let free = Wishes { constraints: Vec::new(), ..wishes.clone() };
             let free = basic.program(&free, 1.0).solve(smoother, lambda, solver)?;
@@ -156,8 +158,8 @@ impl<'a> Basic<'a> {
     /// What the constraints ask for.
     fn targets(&self) -> Vec<Target> {
         let hull = &self.surface.hull;
-        let target = |constraint: &Constraint| {
-            let ([target, band], scale) = ([constraint.target(), constraint.band()], constraint.scale(hull));
+        let target = |(constraint, room): (&Constraint, &f64)| {
+            let ([target, band], scale) = ([constraint.target(), constraint.band() + room], constraint.scale(hull));
             // A row that is relative to the value at the start grows by one where the quantity grows by that.
             let here = constraint.with_target(constraint.value(hull));
             let size = here.scale(hull);
@@ -165,7 +167,7 @@ impl<'a> Basic<'a> {
             let row = row.into_iter().map(|(i, value)| (i, value * size)).collect();
             Target { limits: [target - band, target + band], scale, row }
         };
-        self.constraints.iter().map(target).collect()
+        self.constraints.iter().zip(self.rooms).map(target).collect()
     }
 
     /// Solves it, or the best compromise.

@@ -46,6 +46,8 @@ const ROUNDS: usize = 8;
 pub struct FairSettings {
     /// Constraints of the whole hull.
     pub constraints: Vec<Constraint>,
+    /// Room of each beyond its own band, in its unit: what nobody stated is known to two standard errors.
+    pub rooms: Vec<f64>,
     /// Which of them ask for something else than the surface through the table has.
     pub others: Vec<bool>,
     /// Rules for lines and regions.
@@ -316,7 +318,8 @@ pub fn fair_prepared(
     // A field knows no greatest half-breadth: B is known or assumed, and its offsets may be off.
     let greatest = widest.max(0.5 * hull.particulars().breadth) * if surface.is_field { 2.0 } else { 1.0 };
     let first = smoother.reduced.expand(&smoothed.free);
-    let constraints: Vec<Limit> = settings.constraints.iter().map(|constraint| constraint.limit(hull)).collect();
+    let constraints: Vec<Limit> =
+        settings.constraints.iter().zip(&settings.rooms).map(|(wish, &room)| wish.limit_within(hull, room)).collect();
     let mut wishes = Wishes {
         constraints,
         breadths: breadths(hull, &first, greatest, 2.0 * sigma),
@@ -336,7 +339,7 @@ pub fn fair_prepared(
     let forms = sign_forms(surface);
     let model = &surface.model.clone();
     let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
-    let asked = (settings.constraints.as_slice(), settings.others.as_slice());
+    let asked = (settings.constraints.as_slice(), settings.rooms.as_slice(), settings.others.as_slice());
     let mut basic = Basic::new(surface, model, weighed, asked, &wishes, first, &settings.solver)?;
     let carry = basic.carried(&wishes)?;
     let (model, smoother, smoothed) = match &carry.carried {

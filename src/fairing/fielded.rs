@@ -216,6 +216,31 @@ impl Prepared {
     }
 }
 
+impl Prepared {
+    /// Two standard errors of linear quantities of a field, each in its unit: 2 sigma sqrt(l'N^-1 l) for the row l of a
+    /// quantity and N = A'WA + w E of the likelihood. That of a centre is less by the part by which the size may differ.
+    pub(super) fn twice_the_errors(&self, surface: &FairSurface, quantities: &[Constraint]) -> Vec<f64> {
+        let factor = &self.likely.as_ref().unwrap_or(&self.smoothed).factor;
+        let hull = &surface.hull;
+        let error = |quantity: &Constraint| {
+            let mut row = vec![0.0; self.smoother.reduced.free.len()];
+            for (i, value) in self.smoother.reduced.row(&quantity.limit(hull).row).0 {
+                row[i] += value;
+            }
+            let mut solved = row.clone();
+            factor.solve(&mut solved);
+            let square: f64 = row.iter().zip(&solved).map(|(l, x)| l * x).sum();
+            2.0 * self.sigma * square.max(0.0).sqrt()
+        };
+        let volume = error(&Constraint::Displacement(Constraint::Displacement(0.0).value(hull)));
+        let narrower = |quantity: &Constraint| match quantity {
+            Constraint::CentreOfBuoyancy(_) => (1.0 - volume).max(0.0),
+            _ => 1.0,
+        };
+        quantities.iter().map(|quantity| error(quantity) * quantity.scale(hull) * narrower(quantity)).collect()
+    }
+}
+
 /// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) over the readings at most
 /// [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more.
 pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {

@@ -17,6 +17,8 @@ const BINDING: f64 = 1e-9;
 pub struct Held {
     /// The constraint with its target.
     pub constraint: Constraint,
+    /// How far the quantity may be from its target, in its unit: 0 for exactly.
+    pub band: f64,
     /// Its quantity before, for the surface through the table.
     pub before: f64,
     /// Its quantity after.
@@ -36,8 +38,21 @@ impl Held {
     /// Whether its target is had, within its band.
     #[must_use]
     pub fn is_had(&self) -> bool {
+        self.missed().abs() <= HAD * self.constraint.target().abs()
+    }
+
+    /// From where to where the quantity may be, in its unit.
+    #[must_use]
+    pub fn interval(&self) -> [f64; 2] {
         let target = self.constraint.target();
-        (self.after - target).abs() <= self.constraint.band() + HAD * target.abs()
+        [target - self.band, target + self.band]
+    }
+
+    /// By how much the quantity is above its interval (> 0) or below it, in its unit.
+    #[must_use]
+    pub fn missed(&self) -> f64 {
+        let [low, high] = self.interval();
+        self.after - self.after.clamp(low, high)
     }
 }
 
@@ -106,7 +121,8 @@ pub(super) fn constraints(
         let multiplier = faired.rows(row).map(|at| faired.solved.solution.multipliers[at]).sum();
         let [before_value, after_value] = [before, after].map(|hull| constraint.value(hull));
         let scale = constraint.scale(before);
-        Held { constraint, before: before_value, after: after_value, scale, multiplier, price }
+        let band = constraint.band() + settings.rooms[k];
+        Held { constraint, band, before: before_value, after: after_value, scale, multiplier, price }
     })
     .collect()
 }

@@ -9,7 +9,7 @@ use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, net_signs};
-use super::job::{Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
+use super::job::{Holding, Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
 use super::least_bending::LeastBending;
 use super::lobes::Lobes;
@@ -188,6 +188,7 @@ impl<'a> Run<'a> {
         let mut settings = FairSettings {
             others: asked.iter().map(|c| c.missed(c.value(base), base) > another).collect(),
             constraints: asked.clone(),
+            rooms: vec![0.0; asked.len()],
             rules: wished.clone(),
             strength: job.fairness.on_the_weight(),
             through: job.fairness.is_raw().then(|| (0.5 * quantum).max(LEAST_THROUGH * before.particulars().breadth)),
@@ -222,6 +223,9 @@ impl<'a> Run<'a> {
             }
             _ => Prepared::new(&mut surface, &settings)?,
         };
+        if surface.is_field && job.holding == Holding::Table {
+            settings.rooms = prepared.twice_the_errors(&surface, &asked);
+        }
         settings.seen = if surface.is_field {
             bump(before.particulars().length_between_perpendiculars, quantum)
         } else {

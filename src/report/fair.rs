@@ -19,7 +19,8 @@ use crate::exchange::{
 use crate::fairing::Progress;
 use crate::fairing::ProposedLine;
 use crate::fairing::fair::FairError;
-use crate::fairing::job::{Job, JobError};
+use crate::fairing::held::Held;
+use crate::fairing::job::{Holding, Job, JobError};
 use crate::fairing::outcome::Outcome;
 use crate::fairing::record::FairRecord;
 use crate::hull::{FitError, Functional, Hull, HullError, OffsetTable, TableLayout};
@@ -413,14 +414,18 @@ pub fn fair_outputs_with_progress(
 
 /// Contents of `summary.json`.
 fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding: &RoundingEffect) -> Value {
+    let of_the_table = |held: &Held| match &job.job.holding {
+        Holding::Table => true,
+        Holding::Given(_) => false,
+        Holding::Both { own, .. } => own.iter().any(|own| own.words() == held.constraint.words()),
+    };
     let targets: Vec<Value> = outcome
         .held
         .iter()
         .map(|held| {
-            let target = held.constraint.target();
             json!({
-                "key": held.constraint.key(), "requested": target, "achieved": held.after,
-                "error": held.after - target, "origin": if (held.before - target).abs() > 0.0 { "given" } else { "table" },
+                "key": held.constraint.key(), "requested": held.constraint.target(), "achieved": held.after,
+                "error": held.missed(), "origin": if of_the_table(held) { "table" } else { "given" },
             })
         })
         .collect();

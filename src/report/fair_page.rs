@@ -196,19 +196,17 @@ fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
     };
     let words = held.constraint.words();
     let missed = nearest && !held.is_had();
-    let off = match held.after - target {
+    let [low, high] = held.interval();
+    let off = match held.missed() {
         _ if missed => {
             format!(
                 "{} were asked for and are out of reach: this is the nearest found that leaves a fair hull",
                 fixed(target, decimals) + unit
             )
         }
-        off if off.abs() > 0.0 && held.constraint.band() > 0.0 => {
-            format!(
-                "{} from the middle of its band of {}",
-                fixed_sign(off, decimals, unit),
-                fixed(held.constraint.band(), decimals) + unit
-            )
+        off if held.band > 0.0 => {
+            let place = if off.abs() > 0.0 { format!("{off:.0e}{unit} outside") } else { "within".to_owned() };
+            format!("{place} {} to {}", fixed(low, decimals), fixed(high, decimals) + unit)
         }
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),
@@ -296,10 +294,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         }
     }
     if whole {
-        let off = areas.iter().map(|held| {
-            let missed = (held.after - held.constraint.target()).abs() - held.constraint.band();
-            missed.max(0.0) / held.scale
-        });
+        let off = areas.iter().map(|held| held.missed().abs() / held.scale);
         let price = areas.iter().map(|held| held.price).fold(0.0, f64::max);
         let moved = areas.iter().map(|held| (held.after - held.before).abs()).fold(0.0, f64::max);
         let line = format!(

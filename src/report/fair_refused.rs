@@ -201,7 +201,7 @@ impl Refused<'_> {
         let cheapest = found.cheapest();
         let each = found.reaches.iter().filter_map(|reach| {
             let held = self.outputs.outcome.held.get(reach.constraint)?;
-            let off = (held.after - held.constraint.target()).abs() > held.constraint.band() + NEAR * held.scale;
+            let off = held.missed().abs() > NEAR * held.scale;
             let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
             let told = cheapest == Some(reach);
             ((off && cheapest.is_none() || always) && !told).then_some(())?;

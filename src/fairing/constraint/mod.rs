@@ -224,6 +224,13 @@ impl Constraint {
         !matches!(self, Self::Metacentre { .. } | Self::WettedSurface(_))
     }
 
+    /// [`Constraint::limit`] with `room` more to both sides, in the unit of the quantity.
+    #[must_use]
+    pub fn limit_within(&self, hull: &Hull, room: f64) -> Limit {
+        let (limit, room) = (self.limit(hull), room / self.scale(hull));
+        Limit { lower: limit.lower - room, upper: limit.upper + room, row: limit.row }
+    }
+
     /// The row and its limits over the net of a hull; rows are scaled so that a relative error of the quantity (for
     /// centres: an error over L_PP or T) is an error of the row.
     #[must_use]
