@@ -19,7 +19,7 @@ fn summary(name: &str, errors: Errors) -> Summary {
     println!("{summary}");
     assert_eq!(summary.failed, 0, "{summary}");
     assert!(summary.volume <= 1e-12 && summary.lcb <= 1e-12, "{summary}");
-    assert!(summary.gap <= 1e-6, "{summary}");
+    assert!(summary.gap <= 1e-8, "{summary}");
     assert!(summary.worse[0] == 0, "{summary}");
     summary
 }
@@ -62,7 +62,7 @@ fn a_parallel_middle_body_loses_its_noise() {
 /// The lower tangent line of a bilge is found by the program itself. Stations ring about it.
 #[test]
 fn a_bilge_keeps_its_lower_tangent_line() {
-    for (errors, limit, ringing) in [(0.002, 0.0026, 17.0), (0.01, 0.0064, 23.0), (0.04, 0.02, 30.0)] {
+    for (errors, limit, ringing) in [(0.002, 0.0018, 8.0), (0.01, 0.0064, 23.0), (0.04, 0.0175, 27.0)] {
         let summary = summary("bilge", Errors::Normal(errors));
         assert!(summary.rms[1][1] <= limit, "{summary}");
         let [waterlines, stations, _] = changes(&summary);
@@ -70,13 +70,16 @@ fn a_bilge_keeps_its_lower_tangent_line() {
     }
 }
 
-/// A hull with a bilge that its offsets do not resolve: nearer than interpolation. Series 60 with 41 mm of noise and its true
-/// displacement is further off on its field (40 mm for 33 mm).
+/// Hulls with features that their offsets do not resolve: nearer than interpolation, and by a fifth where the noise is much.
 #[test]
-#[ignore = "takes 60 s"]
-fn a_bilge_between_waterlines_is_no_further_off() {
-    let summary = summary("bulk carrier", Errors::Normal(0.002));
-    assert!(summary.rms[1][0] <= 0.95 * summary.rms[0][0], "{summary}");
+#[ignore = "takes 100 s"]
+fn features_between_the_offsets_are_kept() {
+    for (name, errors, part) in
+        [("bulk carrier", 0.002, 0.95), ("Series 60", 0.0406, 0.8), ("S-175", 0.0635, 0.8), ("Series 60", 0.01, 1.1)]
+    {
+        let summary = summary(name, Errors::Normal(errors));
+        assert!(summary.rms[1][0] <= part * summary.rms[0][0], "{summary}");
+    }
 }
 
 /// Two wrong cells side by side on a station, and one whose neighbours look worse than it.

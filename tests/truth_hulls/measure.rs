@@ -265,8 +265,7 @@ pub(crate) fn page(seeds: u64) -> String {
          `cargo bench --bench truth` prints the same rows, with 30. What the hulls and errors are: head of `tests/truth_hulls/mod.rs`. \
          a/b: median and worst case; changes of sign: truth, before, after (median/worst); before: the surface through the table; \
          displacement and LCB of the truth are given to the job; CPU time is that of the machine that made the page.\n\n\
-         Series 60 and S-175 are surfaces through published tables, which are rough by 9 mm and 19 mm themselves. Smaller errors cannot be told from that, \
-         and fairing takes a part of the truth's own roughness out. Column \"worse\" counts the tables on which it is further off than interpolation.\n\n"
+         Column \"worse\" counts the tables on which it is further off than interpolation.\n\n"
     );
     text.push_str(Summary::head());
     text.push('\n');
