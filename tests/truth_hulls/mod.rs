@@ -25,7 +25,7 @@ use loftsman::fairing::constraint::Constraint;
 use loftsman::fairing::fair::PRICE;
 use loftsman::fairing::job::{Holding, Job};
 use loftsman::hull::{
-    Cell, Entry, FitMethod, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
+    Cell, Entry, Hull, Marks, OffsetStation, OffsetTable, StatedParticulars, StationOffsets, Written,
 };
 use loftsman::parametric::ShipType;
 use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
