@@ -299,6 +299,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "status": status_word(outcome.status),
         "energy": {
             "before": number(outcome.energy[0]), "after": number(outcome.energy[1]), "order": outcome.order,
+            "before_is_of_the_field": outcome.is_field,
         },
         "certificate": {
             "primal": number(certificate.primal), "dual": number(certificate.dual), "gap": number(certificate.gap),

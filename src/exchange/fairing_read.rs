@@ -78,6 +78,8 @@ pub struct FairingFile {
     pub doubts: Vec<Doubt>,
     /// Energy before and after.
     pub energy: [f64; 2],
+    /// Whether the first is that of the likeliest field.
+    pub is_field: bool,
     /// Noise of an offset \[m\].
     pub sigma: f64,
     /// What a search for the smoothing weight takes of it for errors \[m\].
@@ -142,6 +144,8 @@ struct Moves {
 struct Energy {
     before: f64,
     after: f64,
+    #[serde(default)]
+    before_is_of_the_field: bool,
 }
 
 #[derive(Deserialize)]
@@ -265,6 +269,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
         targets: area_targets(&record.constraints),
         doubts,
         energy: [record.energy.before, record.energy.after],
+        is_field: record.energy.before_is_of_the_field,
         lines: TableLines {
             stations,
             waterlines: table.waterlines,

@@ -116,8 +116,10 @@ pub struct FairRecord {
     pub changes: Vec<Change>,
     /// Offsets that are doubted, those that were left out first heard by their neighbours, then by the net.
     pub doubts: Vec<Doubt>,
-    /// Energy of the start net and of the fair net, in the unit of [`Trial::energy`].
+    /// Energy of the start net, or of the likeliest field, and of the fair net, in the unit of [`Trial::energy`].
     pub energy: [f64; 2],
+    /// Whether the first is that of the likeliest field.
+    pub is_field: bool,
     /// Noise level of an offset \[m\].
     pub sigma: f64,
     /// What a search for the smoothing weight takes of it for errors \[m\].
@@ -250,6 +252,7 @@ impl FairRecord {
                 &outcome.changes,
             ),
             energy: outcome.energy,
+            is_field: outcome.is_field,
             sigma: faired.sigma,
             errors: faired.errors,
             readings: faired.smoother.count(),

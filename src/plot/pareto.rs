@@ -1,7 +1,8 @@
 //! Deviation against fairness: what smoothing alone makes of the table, weight by weight, and where the fair hull stands.
 //!
 //! A point of the curve cannot be bettered in both; the hull with all its targets lies above the curve, and how far is
-//! what the targets cost. The surface through the table has no deviation and the energy of all its bumps.
+//! what the targets cost. The surface through the table has no deviation and the energy of all its bumps. The energy of a
+//! field is measured by that of the likeliest one, which is on the front.
 
 use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
@@ -18,6 +19,11 @@ const BEYOND: f64 = 2.5;
 /// Room for half a mark, as a part of an axis.
 const MARK: f64 = 0.02;
 
+/// Name of the axis of energies.
+pub(super) fn energy_axis(record: &FairRecord) -> &'static str {
+    if record.is_field { "energy / that of the likeliest field" } else { "energy / that of the start" }
+}
+
 /// Draws the front; none where the weight was given and nothing was tried.
 ///
 /// # Errors
@@ -27,7 +33,7 @@ pub fn pareto_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
 }
 
 pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> {
-    // Deviation [mm] and power of ten of the energy over that of the surface through the table.
+    // Deviation [mm] and power of ten of the energy over that of the surface through the table, or of the likeliest field.
     let unit = if record.energy[0] > 0.0 { record.energy[0] } else { 1.0 };
     let point = |rms: f64, energy: f64| (rms.is_finite() && energy > 0.0).then(|| [1e3 * rms, (energy / unit).log10()]);
     let mut front: Vec<[f64; 2]> =
@@ -35,7 +41,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     front.dedup();
     let (rms, _, _) = record.moves();
-    let [start, fair] = [point(0.0, record.energy[0]), point(rms, record.energy[1])];
+    let [start, fair] = [point(0.0, record.energy[0]).filter(|_| !record.is_field), point(rms, record.energy[1])];
     let (Some(fair), true) = (fair, front.len() > 2) else { return Ok(None) };
     let chosen = point(record.chosen.rms, record.chosen.energy);
     let reach = BEYOND * chosen.map_or(fair[0], |at| at[0].max(fair[0]));
@@ -61,20 +67,18 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             (1.0 + MARK) * end,
             nice_step(end, 12.0),
         ),
-        left: Axis::powers("energy / that of the start", low - room, high + room, 8),
+        left: Axis::powers(energy_axis(record), low - room, high + room, 8),
         top: None,
         right: None,
         text_size: 2.8,
     };
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
-    let words = match start {
-        Some(start) => format!(
-            "the fair hull has {:.1} % of the energy of the surface through the table, {:.3} mm RMS from its offsets",
-            100.0 * 10f64.powf(fair[1] - start[1]),
-            fair[0]
-        ),
-        None => format!("the fair hull is {:.3} mm RMS from the offsets of the table", fair[0]),
-    };
+    let words = format!(
+        "the fair hull has {:.1} % of the energy of {}, {:.3} mm RMS from the offsets of the table",
+        100.0 * 10f64.powf(fair[1]),
+        if record.is_field { "the likeliest field" } else { "the surface through the table" },
+        fair[0]
+    );
     caption::head(&mut canvas, SHEET[0], "DEVIATION AGAINST FAIRNESS", &record.name, &words);
     let mut placer = LabelPlacer::default();
     let places: Vec<[f64; 2]> = weights.iter().map(|&at| chart.place(at)).collect();

@@ -7,6 +7,7 @@
 use super::canvas::{Anchor, Canvas, Pen, Rectangle, TextStyle};
 use super::chart::{Axis, Chart, Series, colour};
 use super::label::LabelPlacer;
+use super::pareto::energy_axis;
 use super::scale::figures;
 use super::sheet::LEAST_LETTERS;
 use super::{PlotError, Svg, caption};
@@ -28,7 +29,7 @@ fn point(trial: &Trial, unit: f64) -> Option<[f64; 2]> {
 }
 
 /// What decided, and log10 of each weight with log10 of the criterion over its least value; none where the weight that
-/// was taken is the best of neither.
+/// was taken is the best of neither, and of a field, whose likelihood has more numbers than the weight.
 fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
     let count = record.readings as f64;
     let mallows = |trial: &Trial| count * trial.rms * trial.rms + 2.0 * record.errors * record.errors * trial.edf;
@@ -40,6 +41,9 @@ fn criterion(record: &FairRecord) -> Option<(&'static str, Vec<[f64; 2]>)> {
         let points: Vec<[f64; 2]> = points.filter(|point| point.iter().all(|value| value.is_finite())).collect();
         (taken && !points.is_empty()).then_some((name, points))
     };
+    if record.is_field {
+        return None;
+    }
     // Hulls with a quintic net of their own are searched by cross-validation, all others by the noise of their table.
     if record.after.surface().u().degree() > 3 {
         shown("generalised cross-validation / least", &|trial| trial.gcv)
@@ -73,7 +77,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     let chart = Chart {
         frame,
         bottom: Axis::powers("deviation of the offsets, RMS [mm]", low[0], high[0], 10),
-        left: Axis::powers("energy / that of the start", low[1], high[1], 10),
+        left: Axis::powers(energy_axis(record), low[1], high[1], 10),
         top: None,
         right: None,
         text_size: 2.8,

@@ -206,7 +206,9 @@ fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
         }
         off if held.band > 0.0 => {
             let place = if off.abs() > 0.0 { format!("{off:.0e}{unit} outside") } else { "within".to_owned() };
-            format!("{place} {} to {}", fixed(low, decimals), fixed(high, decimals) + unit)
+            // A band that nobody stated is that of the errors of the table.
+            let why = if held.band > held.constraint.band() { ", two standard errors about the likeliest" } else { "" };
+            format!("{place} {} to {}{why}", fixed(low, decimals), fixed(high, decimals) + unit)
         }
         off if off.abs() > 0.0 => format!("off target by {off:.0e}"),
         _ => "on target".to_owned(),

@@ -76,7 +76,9 @@ impl FairOutputs {
     fn bends_more(&self) -> Option<String> {
         let outcome = &self.outcome;
         let [before, after] = outcome.all_inflections();
-        if outcome.status != Status::Optimal || after <= before {
+        // The surface through a table without targets was not asked for fewer.
+        if outcome.status != Status::Optimal || after <= before || outcome.fairness.is_raw() && outcome.held.is_empty()
+        {
             return None;
         }
         let wider = outcome.faired.carried.filter(|factor| *factor > 1.0).map_or(String::new(), |factor| {

@@ -203,7 +203,7 @@ pub(super) fn list(value: &Value) -> impl Iterator<Item = &Value> {
 }
 
 /// What price and multiplier of [`constraints`] are.
-pub(super) const PRICES: &str = "price: RMS of the moves that dropping the target would save; multiplier: what the objective, a sum of squares of moves, falls by for \
+pub(super) const PRICES: &str = "residual: distance outside the interval of the target; price: RMS of the moves that dropping the target would save; multiplier: what the objective, a sum of squares of moves, falls by for \
      each part by which its row is relaxed, of the target (LCB, LCF: of L_PP; KB: of T; C_M: of 1; a section area: of B T; KM, GM: of KM_T)";
 
 pub(super) fn constraints(fairing: &Value) -> Table {
