@@ -1,6 +1,9 @@
 //! Whole jobs of fairing without pictures: tables of 21 stations and 11 waterlines of Wigley's hull with 2 mm and 25 mm
 //! of noise, for which at most 30 ms are wanted: the mean over 30 seeds.
 
+#[allow(dead_code, reason = "the truths of real hulls are nets of a partner")]
+#[path = "../tests/partners/mod.rs"]
+mod partners;
 #[path = "../tests/random/mod.rs"]
 mod random;
 #[allow(dead_code, reason = "one hull of many is timed, nothing is measured")]
