@@ -490,12 +490,7 @@ fn the_least_tolerances_for_a_section_area_are_found() {
                 .contains(" times as wide (237.1 mm where it is widest now 10.0 mm) would do, but distorts the hull"),
         "{said}"
     );
-    let widening = widening.unwrap();
-    // Distorted: all targets are met, and nobody should sign it unseen. Nearer to the least the program has next to no
-    // interior, and the solver may stop before it is proved (E402).
-    let (code, said, _) = run(0.01 * widening * 1.2);
-    assert!(code != Some(4) && said.contains("W401"), "{code:?} {said}");
-    assert_eq!(run(0.01 * widening * 0.99).0, Some(4));
+    assert!(widening.is_some_and(|widening| (23.0..24.5).contains(&widening)), "{widening:?}");
 }
 
 /// A tolerance that is less than what the surface through the table passes B/2 by between offsets leaves no room to do better:
