@@ -247,13 +247,15 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             let at = if had { "" } else { " at no more than what was reached" };
             let mut member = json!({
                 "kind": held.constraint.key(), "name": held.constraint.words(), "unit": held.constraint.unit(),
-                "target": number(held.constraint.target()), "low": number(low), "high": number(high), "before": number(held.before), "after": number(held.after),
+                "target": number(held.constraint.target()), "low": number(low), "high": number(high),
+                "before": number(held.before), "after": number(held.after),
                 "residual": number(held.missed()), "multiplier": number(held.multiplier),
                 "price": number(held.price), "words": priced(&(held.constraint.words() + at), held.price),
                 "satisfied": had,
             });
-            if let Constraint::SectionArea { x, .. } = held.constraint {
+            if let Constraint::SectionArea { x, band, .. } = held.constraint {
                 member["x"] = number(x);
+                member["band"] = number(band);
             }
             member
         })
