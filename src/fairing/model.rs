@@ -52,39 +52,32 @@ pub struct Model {
     /// What is added to every control value of the readings and the start before they are smoothed \[m\]; the
     /// tolerances go on being counted from the readings as they are.
     pub carried: Option<Vec<f64>>,
-    /// The answer where nothing is asked for, which a linear term makes it.
+    /// The answer where nothing is asked for.
     pub stationary: Option<Stationary>,
 }
 
-/// Control values that are the answer for a weight.
-#[derive(Debug, Clone)]
-pub struct Stationary {
-    /// The weight of the energy against the sum of squares.
-    pub weight: f64,
-    /// The control values \[m\].
-    pub net: Vec<f64>,
-    /// Their energy, that of the field over its whole rectangle.
-    pub energy: f64,
-    /// What a move of the whole hull costs, d'Q d: its mean square and its bending.
-    pub moves: SymmetricBand,
-}
-
-/// What the energy of a field F that is stationary for its weight w adds for a move d = c - F,
+/// A field F, stationary for its weight w. Its energy grows with a move d = c - F by
 ///
 /// ```text
 /// E(c) - E(F) = 2 g'd + d'E d,   g = A'W (y - A F) / w.
 /// ```
 ///
 /// For c'E c itself g would be E F, which has what E is on the ends of the hull.
-struct Standing<'a> {
-    field: &'a Stationary,
-    /// g.
-    slope: Vec<f64>,
+#[derive(Debug, Clone)]
+pub struct Stationary {
+    /// w: of the energy against the sum of squares.
+    pub weight: f64,
+    /// F \[m\].
+    pub net: Vec<f64>,
+    /// E(F), over the whole rectangle of the field.
+    pub energy: f64,
+    /// What a move of the whole hull costs, d'Q d: its mean square and its bending.
+    pub moves: SymmetricBand,
 }
 
 /// The model over its free unknowns x: minimise sum w_k (a_k x - d_k)^2 + lambda (x'E x + 2 e'x). The control values are
-/// those of the origin and x: known values are their own origin, a field with what is carried is that of the free ones,
-/// and elsewhere it is 0. Moves of millimetres are not lost in the breadth of a ship.
+/// those of an origin and x. Known values are their own origin. That of the free ones is the field with what is carried,
+/// or 0 without a field. Moves of millimetres are not lost in the breadth of a ship.
 #[derive(Debug, Clone)]
 pub struct Reduced {
     /// Indices of the free control values in the whole.
@@ -93,7 +86,7 @@ pub struct Reduced {
     pub place: Vec<Option<usize>>,
     /// E over the free values.
     pub energy: SymmetricBand,
-    /// e: E_fk c_k of known values c_k; g of a field ([`Model::energy_of`]).
+    /// e: E_fk c_k of known values c_k; g of a field ([`Stationary`]).
     pub pull: Vec<f64>,
     /// The energy of the origin.
     pub constant: f64,
@@ -124,25 +117,23 @@ impl Model {
         self.energy.quadratic(c)
     }
 
-    /// The energy of control values: c'E c; on a field F stationary for its weight w that of F and what the move
-    /// d = c - F adds, 2 g'd + d'E d with g = A'W (y - A F) / w.
+    /// The energy of control values: c'E c, or that of a field and of the move from it ([`Stationary`]).
     #[must_use]
     pub fn energy_of(&self, c: &[f64]) -> f64 {
-        let Some(Standing { field, slope }) = self.standing() else { return self.quadratic_of(c) };
+        let Some(field) = &self.stationary else { return self.quadratic_of(c) };
         let moves: Vec<f64> = c.iter().zip(&field.net).map(|(c, f)| c - f).collect();
-        let along: f64 = slope.iter().zip(&moves).map(|(g, d)| g * d).sum();
+        let along: f64 = self.slope(field).iter().zip(&moves).map(|(g, d)| g * d).sum();
         field.energy + 2.0 * along + self.energy.quadratic(&moves)
     }
 
-    /// The field, over all control values.
-    fn standing(&self) -> Option<Standing<'_>> {
-        let field = self.stationary.as_ref()?;
+    /// g of a field.
+    fn slope(&self, field: &Stationary) -> Vec<f64> {
         let mut slope = vec![0.0; field.net.len()];
         for reading in &self.readings {
             let left = reading.weight * (reading.value - value(&reading.row, &field.net));
             reading.row.iter().for_each(|&(i, a)| slope[i] += left * a / field.weight);
         }
-        Some(Standing { field, slope })
+        slope
     }
 
     /// Residuals a_k c - d_k \[m\].
@@ -180,8 +171,7 @@ impl Model {
         let mut place = vec![None; n];
         free.iter().enumerate().for_each(|(k, &i)| place[i] = Some(k));
         let carried = |i: usize| self.carried.as_ref().map_or(0.0, |carried| carried[i]);
-        let standing = self.standing();
-        let field = |i: usize| standing.as_ref().map_or(0.0, |standing| standing.field.net[i] + carried(i));
+        let field = |i: usize| self.stationary.as_ref().map_or(0.0, |field| field.net[i] + carried(i));
         let known = |(i, known): (usize, &Option<f64>)| known.unwrap_or_else(|| field(i));
         let origin: Vec<f64> = self.known.iter().enumerate().map(known).collect();
         let reduce = |band: &SymmetricBand| {
@@ -207,13 +197,9 @@ impl Model {
             data.push(row);
             values.push(self.wished(reading) - offset);
         }
-        let (pull, constant) = match &standing {
-            Some(Standing { field, slope }) => (slope.clone(), field.energy),
-            None => {
-                let product = self.energy.apply(&origin);
-                let constant = product.iter().zip(&origin).map(|(e, c)| e * c).sum();
-                (product, constant)
-            }
+        let (pull, constant) = match &self.stationary {
+            Some(field) => (self.slope(field), field.energy),
+            None => (self.energy.apply(&origin), self.quadratic_of(&origin)),
         };
         Reduced {
             pull: free.iter().map(|&i| pull[i]).collect(),
