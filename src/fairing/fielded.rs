@@ -214,9 +214,7 @@ impl Prepared {
         let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
         Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
     }
-}
 
-impl Prepared {
     /// Two standard errors of linear quantities of a field, each in its unit: 2 sigma sqrt(l'N^-1 l) for the row l of a
     /// quantity and N = A'WA + w E of the likelihood. That of a centre is less by the part by which the size may differ.
     pub(super) fn twice_the_errors(&self, surface: &FairSurface, quantities: &[Constraint]) -> Vec<f64> {
