@@ -1,6 +1,7 @@
 //! A table that the smoother made fair, as text.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::Table;
@@ -13,6 +14,17 @@ use super::smoother::{CHART, cross_validated};
 pub(crate) struct FairNet(Net);
 
 impl FairNet {
+    /// Where the committed net of a table of `tests/data` lies.
+    pub(crate) fn path(folder: &str) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/truth").join(format!("{folder}.net"))
+    }
+
+    /// The committed net of a table of `tests/data`.
+    pub(crate) fn committed(folder: &str) -> Self {
+        let text = std::fs::read_to_string(Self::path(folder)).unwrap();
+        text.parse().unwrap_or_else(|error| panic!("{folder}: {error}"))
+    }
+
     /// The table made fair by the smoother.
     pub(crate) fn of(table: &Table) -> Self {
         Self(cross_validated(table).0)

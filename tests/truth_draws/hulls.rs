@@ -203,13 +203,12 @@ pub(crate) fn text_of_made_fair(folder: &str) -> String {
 
 /// The carried tables and the files of their nets.
 pub(crate) fn made_fair() -> impl Iterator<Item = (&'static str, std::path::PathBuf)> {
-    CARRIED.into_iter().map(|folder| (folder, of_data(&format!("truth/{folder}.net"))))
+    CARRIED.into_iter().map(|folder| (folder, FairNet::path(folder)))
 }
 
 /// A carried table that was made fair.
 fn carried(folder: &str) -> Truth {
-    let text = std::fs::read_to_string(of_data(&format!("truth/{folder}.net"))).unwrap();
-    let net: FairNet = text.parse().unwrap_or_else(|error| panic!("{folder}: {error}"));
+    let net = FairNet::committed(folder);
     let [ends, heights] = net.extent();
     let breadth = 2.0 * net.value(0.5 * (ends[0] + ends[1]), heights[1]);
     let inside = move |t: f64, [from, to]: [f64; 2]| (from - 1e-3..=to + 1e-3).contains(&t);

@@ -245,12 +245,11 @@ fn surface(hull: Hull, clean: OffsetTable) -> Truth {
 
 /// The block of a published table of `tests/data` in which all offsets are given, as the smoother made it fair
 /// (`tests/truth`): a hull with the features of a real ship and without the roughness of its table.
-fn made_fair(folder: &str) -> Truth {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-    let bytes = std::fs::read(data.join("data").join(folder).join("offsets.csv")).unwrap();
+fn of_net(folder: &str) -> Truth {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(folder).join("offsets.csv");
+    let bytes = std::fs::read(&path).unwrap();
     let table = read_table("offsets.csv", &bytes).unwrap_or_else(|problems| panic!("{folder}: {problems:?}")).table;
-    let text = std::fs::read_to_string(data.join("truth").join(format!("{folder}.net"))).unwrap();
-    let net: FairNet = text.parse().unwrap_or_else(|error| panic!("{folder}: {error}"));
+    let net = FairNet::committed(folder);
     let [ends, heights] = net.extent();
     let inside = |t: f64, [from, to]: [f64; 2]| (from - 1e-3..=to + 1e-3).contains(&t);
     let waterlines: Vec<f64> = table.waterlines.iter().copied().filter(|&z| inside(z, heights)).collect();
@@ -444,11 +443,11 @@ impl Case {
 }
 
 fn series60() -> Truth {
-    made_fair("series60_cb060")
+    of_net("series60_cb060")
 }
 
 fn s175() -> Truth {
-    made_fair("s175")
+    of_net("s175")
 }
 
 /// Every case of the benchmark. The third error is 0.5 % of B/2.
