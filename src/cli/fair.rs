@@ -110,8 +110,8 @@ pub(super) struct Arguments {
 }
 
 const AFTER: &str = "\
-By default displacement, LCB and CM are held at the values of the table: of the smoothed table, or of the surface \
-through it where the job has locks, rules, lines or a tolerance below half the noise. A given target replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
+By default displacement, LCB and CM are held: within two standard errors of the smoothed table, or at the values of the surface \
+through the table where the job has locks, rules, lines or a tolerance below half the noise. A given target replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
 [shape], [energy], [suspects], [inflections]: `loftsman schema job`.
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
