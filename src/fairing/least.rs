@@ -38,8 +38,9 @@ fn bands(surface: &FairSurface, line: Line) -> Option<Bands> {
     let (across, net) = (usize::from(matches!(line, Line::Station(_))), surface.hull.surface());
     let knots = [net.u(), net.v()][across];
     let near = 1e-9 * (knots.domain().1 - knots.domain().0);
-    let breaks: Vec<f64> =
-        knots.breakpoints().into_iter().filter(|&t| knots.multiplicity(t) >= knots.degree()).collect();
+    // A field is smooth across the corners of its chart.
+    let may_break = |&t: &f64| !surface.is_field && knots.multiplicity(t) >= knots.degree();
+    let breaks: Vec<f64> = knots.breakpoints().into_iter().filter(may_break).collect();
     let mut points: Vec<(f64, f64, f64, bool)> = Vec::new();
     let mut on_outline: Vec<([usize; 2], f64)> = Vec::new();
     for (place, reading) in surface.places.iter().zip(&surface.model.readings) {
