@@ -1,10 +1,11 @@
 //! Which humps and hollows of the lines of a field are errors of its table, and the field without them.
 //!
-//! A hump is a part of a station or a waterline with curvature of one sign. The numerator of curvature at a place is a
+//! A hump is a part of a station or a waterline with curvature of one sign, as an inspection counts them: while a part
+//! departs from its chord by less than can be seen, the least goes to its neighbours. The numerator of curvature at a place is a
 //! linear form a c of the control values ([`super::bends`]) with the posterior standard error sigma sqrt(a'N^-1 a). With
 //!
 //! ```text
-//! t = max |a c| / (sigma sqrt(a'N^-1 a))        over the places of a hump,
+//! t = max |a c| / (sigma sqrt(a'N^-1 a))        over the places of a hump with its sign,
 //! ```
 //!
 //! removing the hump costs t^2 sigma^2 of the objective at least. Humps below the price of an inflection are removed,
@@ -27,6 +28,7 @@ use super::smoothing::{Smoothed, Smoother};
 use crate::numeric::SymmetricBand;
 use crate::qp::{ProblemError, Settings};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Most programs.
 const ROUNDS: usize = 8;
@@ -69,8 +71,6 @@ struct Hump {
     to: usize,
     /// Its clearest place, in standard errors.
     clear: f64,
-    /// Whether its departure counts.
-    seen: bool,
     /// Whether the move to the targets made it.
     new: bool,
 }
@@ -230,23 +230,22 @@ fn give_back(asked: &mut [Asked], gone: impl Iterator<Item = Place>) -> bool {
     gone.fold(false, |again, (k, hump)| again | !std::mem::replace(&mut asked[k].back[hump], true))
 }
 
-/// Inflections between the humps that count.
+/// Inflections between humps.
 fn inflections(humps: &[Hump]) -> usize {
-    let signs: Vec<i8> = humps.iter().filter(|hump| hump.seen).map(|hump| hump.sign).collect();
-    changes(&signs)
+    humps.len().saturating_sub(1)
 }
 
 /// Marks the humps that those before have none of the same sign for.
 fn mark_new(humps: &mut [Hump], before: &[Hump]) {
     for hump in humps {
-        let same = |old: &&Hump| old.seen && old.sign == hump.sign && old.from < hump.to && hump.from < old.to;
+        let same = |old: &&Hump| old.sign == hump.sign && old.from < hump.to && hump.from < old.to;
         if !before.iter().any(|old| same(&old)) {
             (hump.new, hump.clear) = (true, 0.0);
         }
     }
 }
 
-/// The humps of a line, seen or not.
+/// The humps of a line that depart from their chords by `seen` \[m\] at least; the whole line where none does.
 fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> Vec<Hump> {
     let values: Vec<f64> = bends.iter().map(|bend| value(&bend.numerator, net) + bend.offset).collect();
     let mut found: Vec<Hump> = Vec::new();
@@ -255,55 +254,57 @@ fn humps(bends: &[Bend], errors: &[f64], net: &[f64], sigma: f64, seen: f64) -> 
         let sign = if *value >= 0.0 { 1 } else { -1 };
         match found.last_mut().filter(|last| last.sign == sign) {
             Some(last) => (last.to, last.clear) = (k + 1, last.clear.max(clear)),
-            None => found.push(Hump { sign, from: k, to: k + 1, clear, seen: false, new: false }),
+            None => found.push(Hump { sign, from: k, to: k + 1, clear, new: false }),
         }
     }
-    for hump in &mut found {
-        hump.seen = departure(bends, [hump.from, hump.to], net) >= seen;
+    let departs = |hump: &Hump| departure(bends, [hump.from, hump.to], net);
+    let mut departures: Vec<f64> = found.iter().map(departs).collect();
+    while found.len() > 1 {
+        let least = (0..found.len()).min_by(|&a, &b| departures[a].total_cmp(&departures[b]));
+        let Some(k) = least.filter(|&k| departures[k] < seen) else { break };
+        let (whole, range) = joined(&found, k);
+        departures.splice(range.clone(), [departs(&whole)]);
+        found.splice(range, [whole]);
     }
     found
 }
 
+/// A hump with those beside it as one of their sign, and which they are.
+fn joined(humps: &[Hump], k: usize) -> (Hump, Range<usize>) {
+    let range = k.saturating_sub(1)..(k + 2).min(humps.len());
+    let beside = || range.clone().filter(|&other| other != k).map(|other| humps[other]);
+    let whole = Hump {
+        sign: -humps[k].sign,
+        from: humps[range.start].from,
+        to: humps[range.end - 1].to,
+        clear: beside().map(|hump| hump.clear).fold(0.0, f64::max),
+        new: beside().all(|hump| hump.new),
+    };
+    (whole, range)
+}
+
 impl Asked {
-    /// Signs of all places once what is below the price is removed; none where nothing that counts is removed.
+    /// Signs of all places once the humps below the price are removed; none where none is.
     fn signs(&self, price: f64) -> Option<Vec<i8>> {
         let least = price.sqrt();
-        let mut parts: Vec<(Hump, bool)> = self.humps.iter().copied().zip(self.back.iter().copied()).collect();
-        let mut removed = false;
+        let (mut parts, mut back) = (self.humps.clone(), self.back.clone());
         while parts.len() > 1 {
-            let free = |(hump, back): &(Hump, bool)| !hump.seen || !back && hump.clear < least;
-            // What does not count goes first, then what is least clear.
-            let key = |hump: &Hump| (hump.seen, hump.clear);
-            let next = (0..parts.len())
-                .filter(|&k| free(&parts[k]))
-                .min_by(|&a, &b| key(&parts[a].0).partial_cmp(&key(&parts[b].0)).unwrap_or(std::cmp::Ordering::Equal));
-            let Some(k) = next else { break };
-            removed |= parts[k].0.seen;
-            let (low, high) = (k.saturating_sub(1), (k + 1).min(parts.len() - 1));
-            let beside = if k > 0 { low } else { high };
-            let mut whole = parts[beside];
-            for part in &parts[low..=high] {
-                whole.0.from = whole.0.from.min(part.0.from);
-                whole.0.to = whole.0.to.max(part.0.to);
-                if part.0.sign == whole.0.sign {
-                    whole.0.clear = whole.0.clear.max(part.0.clear);
-                    whole.0.seen |= part.0.seen;
-                    whole.1 |= part.1;
-                }
-            }
-            parts.splice(low..=high, [whole]);
+            let free = (0..parts.len()).filter(|&k| !back[k] && parts[k].clear < least);
+            let Some(k) = free.min_by(|&a, &b| parts[a].clear.total_cmp(&parts[b].clear)) else { break };
+            let (whole, range) = joined(&parts, k);
+            let kept = range.clone().any(|other| other != k && back[other]);
+            parts.splice(range.clone(), [whole]);
+            back.splice(range, [kept]);
         }
-        if !removed && !self.watched {
+        if parts.len() == self.humps.len() && !self.watched {
             return None;
         }
         let mut signs = vec![0; self.bends.len()];
-        for (part, _) in &parts {
-            signs[part.from..part.to].fill(part.sign);
-        }
+        parts.iter().for_each(|part| signs[part.from..part.to].fill(part.sign));
         Some(signs)
     }
 
-    /// Inflections of the field that count.
+    /// Inflections of the field.
     fn count(&self) -> usize {
         inflections(&self.humps)
     }
@@ -313,8 +314,8 @@ impl Asked {
         inflections(&humps(&self.bends, &vec![0.0; self.bends.len()], net, 1.0, seen))
     }
 
-    /// The limits of the places that have a sign, but for those about an inflection that are not clear. What does not
-    /// count may stay and not grow.
+    /// The limits of the places that have a sign, but for those about an inflection. A place whose curvature has not the
+    /// sign of its hump, which nobody sees, may keep it and not grow.
     fn limits(&self, signs: &[i8], net: &[f64]) -> Vec<(usize, Limit)> {
         let none = ROOM * dead(&self.bends, net);
         let count = signs.len();
@@ -328,7 +329,8 @@ impl Asked {
             for (bend, sign) in places {
                 let Some(scaled) = bend.scaled(net, none) else { continue };
                 let (now, room) = (f64::from(sign) * scaled.at(net), scaled.room);
-                let least = if hump.seen { -room } else { now.min(-room) };
+                let is_own = f64::from(hump.sign) * scaled.at(net) >= 0.0;
+                let least = if is_own { -room } else { now.min(-room) };
                 let range = if sign > 0 { [least, f64::INFINITY] } else { [f64::NEG_INFINITY, -least] };
                 limits.push((index, scaled.limit(range)));
             }
@@ -341,49 +343,69 @@ impl Asked {
 mod tests {
     use super::*;
 
-    /// A line of places one metre apart with humps of these signs, clearness and departure.
-    fn line(list: &[(i8, usize, f64, bool)]) -> Asked {
+    /// A line of places one metre apart with humps of these signs, lengths and clearness.
+    fn line(list: &[(i8, usize, f64)]) -> Asked {
         let mut humps: Vec<Hump> = Vec::new();
-        for &(sign, count, clear, seen) in list {
+        for &(sign, count, clear) in list {
             let from = humps.last().map_or(0, |last| last.to);
-            humps.push(Hump { sign, from, to: from + count, clear, seen, new: false });
+            humps.push(Hump { sign, from, to: from + count, clear, new: false });
         }
-        let places = humps.last().map_or(0, |last| last.to);
+        let back = vec![false; humps.len()];
+        Asked { bends: places(humps.last().map_or(0, |last| last.to)), humps, back, watched: false, around: 1 }
+    }
+
+    /// Places one metre apart whose control values are y''.
+    fn places(count: usize) -> Vec<Bend> {
         let bend =
             |k: usize| Bend { numerator: vec![(k, 1.0)], offset: 0.0, slope: Vec::new(), along: 1.0, at: k as f64 };
-        let back = vec![false; humps.len()];
-        Asked { bends: (0..places).map(bend).collect(), humps, back, watched: false, around: 1 }
+        (0..count).map(bend).collect()
     }
 
     #[test]
     fn humps_below_the_price_take_the_sign_around_them() {
-        let mut inner = line(&[(-1, 4, 30.0, true), (1, 3, 2.0, true), (-1, 4, 40.0, true)]);
+        let mut inner = line(&[(-1, 4, 30.0), (1, 3, 2.0), (-1, 4, 40.0)]);
         assert_eq!(inner.signs(12.0), Some(vec![-1; 11]));
         assert_eq!((inner.count(), inner.signs(3.0)), (2, None));
         inner.back[1] = true;
         assert_eq!(inner.signs(12.0), None);
         // At an end: the sign beside it.
-        let outer = line(&[(1, 2, 1.0, true), (-1, 5, 9.0, true)]);
+        let outer = line(&[(1, 2, 1.0), (-1, 5, 9.0)]);
         assert_eq!(outer.signs(12.0), Some(vec![-1; 7]));
     }
 
+    /// Two arcs of 4 m and a wave of 9 m with y'' of 1e-3 / m: each of its three arcs departs by less than 2 mm, the least
+    /// goes to its neighbours, and what they are together departs by more.
     #[test]
-    fn humps_that_do_not_count_ask_for_nothing() {
-        let small = line(&[(-1, 4, 30.0, true), (1, 3, 20.0, false), (-1, 4, 40.0, true)]);
-        assert_eq!((small.count(), small.signs(12.0)), (0, None));
-        // Beside one that is removed they may stay and not grow.
-        let both = line(&[(-1, 4, 30.0, true), (1, 3, 20.0, false), (-1, 4, 40.0, true), (1, 4, 1.0, true)]);
-        assert_eq!(both.signs(12.0), Some(vec![-1; 15]));
-        let net: Vec<f64> = (0..15).map(|k| if (4..7).contains(&k) { 0.5 } else { -1.0 }).collect();
-        let limits = both.limits(&[-1; 15], &net);
+    fn humps_that_are_seen_together_count_as_one() {
+        let signs = [-1, 1, -1, 1, -1];
+        let second = |lengths: [usize; 5]| -> Vec<f64> {
+            signs.iter().zip(lengths).flat_map(|(&sign, count)| vec![1e-3 * f64::from(sign); count]).collect()
+        };
+        let parts = |net: &[f64], seen: f64| -> Vec<(i8, usize)> {
+            let bends = places(net.len());
+            let found = humps(&bends, &vec![1.0; net.len()], net, 1.0, seen);
+            found.iter().map(|hump| (hump.sign, hump.from)).collect()
+        };
+        let net = second([8, 4, 1, 4, 8]);
+        assert_eq!(parts(&net, 1e-6), [(-1, 0), (1, 8), (-1, 12), (1, 13), (-1, 17)]);
+        assert_eq!(parts(&net, 3e-3), [(-1, 0), (1, 8), (-1, 17)]);
+        // Alone such an arc is none.
+        assert_eq!(parts(&second([8, 4, 0, 0, 8]), 3e-3), [(-1, 0)]);
+    }
+
+    #[test]
+    fn what_nobody_sees_may_stay_and_not_grow() {
+        let wide = line(&[(-1, 12, 30.0), (1, 4, 1.0)]);
+        let net: Vec<f64> = (0..16).map(|k| if (4..7).contains(&k) || k >= 12 { 0.5 } else { -1.0 }).collect();
+        let limits = wide.limits(&[-1; 16], &net);
         let upper = |k: usize| limits.iter().find(|(_, limit)| limit.row[0].0 == k).map(|(_, limit)| limit.upper);
         assert!(upper(5).is_some_and(|upper| (upper - 0.5).abs() < 1e-12));
-        assert!(upper(12).is_some_and(|upper| upper < 0.01));
+        assert!(upper(13).is_some_and(|upper| upper < 0.01));
     }
 
     #[test]
     fn no_sign_is_asked_for_beside_an_inflection() {
-        let changing = line(&[(-1, 6, 30.0, true), (1, 6, 40.0, true)]);
+        let changing = line(&[(-1, 6, 30.0), (1, 6, 40.0)]);
         let signs: Vec<i8> = (0..12).map(|k| if k < 6 { -1 } else { 1 }).collect();
         let limits = changing.limits(&signs, &signs.iter().map(|&sign| f64::from(sign)).collect::<Vec<_>>());
         let rows: Vec<usize> = limits.iter().map(|(_, limit)| limit.row[0].0).collect();
