@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant, SystemTime};
 
-use clap::Args;
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
 use super::run_files::RunFiles;
 use super::stream;
@@ -69,12 +71,6 @@ pub(super) struct Arguments {
     /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
-    /// Order of the derivatives in the energy: 2, 3 or 4 [default: 4 on hulls with vertical ends and level keel, which alone allow it, else 3]
-    #[arg(long, value_name = "N")]
-    order: Option<String>,
-    /// Weight of bending along the ship; that across is its inverse [default: 0.6]
-    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
-    anisotropy: Option<String>,
     /// Smoothing weight, or "auto": by the errors of the table (Mallows) on the net of a fit, by cross-validation on an independent net [default: auto]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     weight: Option<String>,
@@ -85,23 +81,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
     /// Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared [default: 12]
-    #[arg(
-        long,
-        alias = "sign-price",
-        value_name = "NUMBER",
-        allow_hyphen_values = true,
-        conflicts_with = "allow_inflections"
-    )]
+    #[arg(long, alias = "sign-price", value_name = "NUMBER", allow_hyphen_values = true)]
     inflection_cost: Option<String>,
-    /// Do not remove inflections that are noise
-    #[arg(long, alias = "no-signs")]
-    allow_inflections: bool,
-    /// Minimise the energy of true curvature: refresh its metric at the answer while the functional falls
-    #[arg(long)]
-    true_curvature: bool,
-    /// Minimise the exact bending energy of the surface at last: the integral of k1^2 + k2^2 over its area
-    #[arg(long, alias = "bending")]
-    exact_bending_energy: bool,
+    #[command(flatten)]
+    _removed: Removed,
     #[command(flatten)]
     files: RunFiles,
     /// Run again whenever one of the files that were read changes; files of the run before are overwritten
@@ -119,6 +102,53 @@ manifest.json, figures.
 Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit \
 code 5 when they are met and stations and waterlines have no fewer changes of sign of curvature than before.
 Tables of offsets are all that `loftsman fit --help` lists.";
+
+/// Options that were removed, all of which --fairness serves, and whether they took a value.
+pub(super) const REMOVED: [(&str, bool); 7] = [
+    ("order", true),
+    ("anisotropy", true),
+    ("allow-inflections", false),
+    ("no-signs", false),
+    ("true-curvature", false),
+    ("exact-bending-energy", false),
+    ("bending", false),
+];
+
+/// Refuses the options that were removed, and names the one that serves instead.
+#[derive(Debug)]
+struct Removed;
+
+impl Args for Removed {
+    fn augment_args(command: Command) -> Command {
+        command.args(REMOVED.map(|(name, takes_value)| {
+            let argument = Arg::new(name).long(name).hide(true);
+            if takes_value {
+                argument.num_args(0..=1).allow_negative_numbers(true)
+            } else {
+                argument.action(ArgAction::SetTrue)
+            }
+        }))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Removed {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = |(name, _): &&(&str, bool)| matches.value_source(name) == Some(ValueSource::CommandLine);
+        let Some((name, _)) = REMOVED.iter().find(given) else { return Ok(Self) };
+        let text = format!(
+            "--{name} was removed: --fairness serves instead, from 0, the surface through the table, to 10, the smoothest"
+        );
+        Err(clap::Error::raw(ErrorKind::UnknownArgument, text))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        Self::from_arg_matches(matches).map(|_| ())
+    }
+}
 
 /// How often the files are looked at.
 const LOOK: Duration = Duration::from_millis(200);
@@ -142,8 +172,6 @@ impl Arguments {
             ("--draught", "dimensions.T", &self.draught),
             ("--tolerance", "tolerance.table", &self.tolerance),
             ("--fairness", "fairness", &self.fairness),
-            ("--order", "energy.order", &self.order),
-            ("--anisotropy", "energy.anisotropy", &self.anisotropy),
             ("--weight", "energy.weight", &self.weight),
             ("--inflection-cost", "inflections.cost", &self.inflection_cost),
             ("--accept-lines", "lines.accept", &self.accept_lines),
@@ -162,14 +190,8 @@ impl Arguments {
             };
             options.push(("--lock", key, name.trim().to_owned()));
         }
-        let flags = [
-            (self.keep_suspects, "--keep-suspects", "suspects.exclude", "false"),
-            (self.allow_inflections, "--allow-inflections", "inflections.remove", "false"),
-            (self.true_curvature, "--true-curvature", "energy.true_curvature", "true"),
-            (self.exact_bending_energy, "--exact-bending-energy", "energy.exact_bending", "true"),
-        ];
-        for (_, option, key, value) in flags.into_iter().filter(|(flag, ..)| *flag) {
-            options.push((option, key, value.to_owned()));
+        if self.keep_suspects {
+            options.push(("--keep-suspects", "suspects.exclude", "false".to_owned()));
         }
         options
     }
@@ -205,7 +227,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     };
     let seconds = start.elapsed().as_secs_f64();
     progress(format!("faired in {seconds:.2} s"));
-    outputs.warnings().iter().for_each(|warning| stream::message(warning));
+    outputs.warning().iter().for_each(|warning| stream::message(warning));
     let written = destination.write_run(&outputs.files).map(|()| (outputs, seconds));
     (Some(job), written)
 }

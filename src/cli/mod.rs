@@ -178,17 +178,35 @@ mod tests {
 
     #[test]
     fn old_names_of_flags_are_read_and_not_shown() {
-        for line in [
-            "loftsman fair t.csv --sign-price 2 --bending",
-            "loftsman fair t.csv --no-signs",
-            "loftsman export h.json -f gf,ghs --across 4",
-        ] {
+        for line in ["loftsman fair t.csv --sign-price 2", "loftsman export h.json -f gf,ghs --across 4"] {
             assert!(Cli::try_parse_from(line.split(' ')).is_ok(), "{line}");
         }
         let mut command = Cli::command();
         let mut help = |name: &str| command.find_subcommand_mut(name).unwrap().render_long_help().to_string();
         let shown = help("fair") + &help("export");
-        assert!(["--sign-price", "--bending", "--no-signs", "--across", " gf"].iter().all(|old| !shown.contains(old)));
+        assert!(["--sign-price", "--across", " gf"].iter().all(|old| !shown.contains(old)));
         assert!(shown.contains("--inflection-cost") && shown.contains("--divisions-across"));
+    }
+
+    /// With its value or without, before the table or behind it.
+    #[test]
+    fn options_that_were_removed_name_what_serves() {
+        let shown = Cli::command().find_subcommand_mut("fair").unwrap().render_long_help().to_string();
+        for (name, takes_value) in fair::REMOVED {
+            let values: &[&str] = if takes_value { &["", " 3", "=-1"] } else { &[""] };
+            let lines = values.iter().flat_map(|value| {
+                [format!("loftsman fair --{name}{value} -o out t.csv"), format!("loftsman fair t.csv --{name}{value}")]
+            });
+            for line in lines {
+                let error = Cli::try_parse_from(line.split(' ')).unwrap_err();
+                let said = error.to_string();
+                assert!(
+                    error.use_stderr() && said.starts_with(&format!("error: --{name} was removed: --fairness")),
+                    "{line}: {said}"
+                );
+            }
+            assert!(!shown.contains(&format!("--{name}")), "{shown}");
+        }
+        assert!(Cli::try_parse_from(["loftsman", "fair-curve", "c.csv", "--order", "3"]).is_ok());
     }
 }

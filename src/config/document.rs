@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 use super::diagnostic::{Diagnostic, Severity, position};
-use super::job::RENAMED;
+use super::job::{REMOVED, RENAMED};
 use super::keys::{KEYS, Key};
 
 /// Files longer than this are not design files \[bytes\].
@@ -203,6 +203,13 @@ impl<'a> Document<'a> {
     }
 
     fn unknown(&mut self, path: &str, name: &str, full: &str, span: &Range<usize>) {
+        let removed = REMOVED.iter().filter(|(old, _)| old.eq_ignore_ascii_case(full));
+        let mut served = removed.filter_map(|(_, new)| self.keys.iter().find(|key| key.path() == *new));
+        if let Some(key) = served.next() {
+            let help = format!("Give {} instead: {}", key.path(), key.description);
+            self.problem("E121", full, span, format!("{full} was removed"), help);
+            return;
+        }
         let here = self.keys.iter().filter(|k| k.table.to_lowercase() == path).map(|k| k.name);
         let tables = self.keys.iter().flat_map(|k| k.table.split('.')).filter(|word| !word.is_empty());
         let elsewhere = self.keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));

@@ -23,9 +23,9 @@ mod table_ref;
 use hold::{MOST_TARGET, is_area};
 pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
-pub(super) use keys::RENAMED;
+pub(super) use keys::{REMOVED, RENAMED};
 pub use location::Location;
-use ranges::{anisotropy, density, fairness, positive, price, weight};
+use ranges::{density, fairness, positive, price, weight};
 pub use shape::RuleEntry;
 pub use table_ref::{TableItem, TableRef};
 
@@ -49,10 +49,6 @@ pub struct JobFile {
     pub density: Option<f64>,
     /// How strongly the table is faired.
     pub fairness: Option<Fairness>,
-    /// Order of the energy.
-    pub order: Option<usize>,
-    /// Weight of bending along the ship.
-    pub anisotropy: Option<f64>,
     /// Smoothing weight; none for `auto`.
     pub weight: Option<Option<f64>>,
     /// Tolerance of all offsets \[m\].
@@ -81,14 +77,8 @@ pub struct JobFile {
     pub exclude_suspects: Option<bool>,
     /// Whether the flat of side that the table shows is kept.
     pub keep_flat: Option<bool>,
-    /// Whether signs are imposed.
-    pub signs: Option<bool>,
-    /// What each of them may cost at most, in squares of the noise.
+    /// What the removal of an inflection may cost at most, in squares of the noise.
     pub price: Option<f64>,
-    /// Whether the energy is that of true curvature.
-    pub true_curvature: Option<bool>,
-    /// `energy.exact_bending`.
-    pub bending: Option<bool>,
     /// Where the values of the keys stand; of a key that is given twice the last counts.
     places: Vec<Location>,
 }
@@ -173,16 +163,11 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         },
         density: density(document),
         fairness: fairness(document),
-        order: document.integer("energy.order").map(|order| order as usize),
-        anisotropy: anisotropy(document),
         weight: weight(document),
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
         keep_flat: document.switch("flat.keep"),
-        signs: document.switch("inflections.remove"),
         price: price(document),
-        true_curvature: document.switch("energy.true_curvature"),
-        bending: document.switch("energy.exact_bending"),
         places: document.entries.iter().map(|e| Location::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
     };
@@ -221,16 +206,11 @@ impl JobFile {
             density: other.density.or(self.density),
             gravity: other.gravity.or(self.gravity),
             fairness: other.fairness.or(self.fairness),
-            order: other.order.or(self.order),
-            anisotropy: other.anisotropy.or(self.anisotropy),
             weight: other.weight.or(self.weight),
             tolerance: other.tolerance.or(self.tolerance),
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
             keep_flat: other.keep_flat.or(self.keep_flat),
-            signs: other.signs.or(self.signs),
             price: other.price.or(self.price),
-            true_curvature: other.true_curvature.or(self.true_curvature),
-            bending: other.bending.or(self.bending),
             ..self
         }
     }
@@ -242,15 +222,10 @@ impl JobFile {
     /// them.
     pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
         let mut job = Job { fairness: self.fairness.unwrap_or_default(), ..Job::default() };
-        job.energy.order = self.order;
-        job.energy.anisotropy = self.anisotropy.unwrap_or(job.energy.anisotropy);
         job.weight = self.weight.flatten();
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.keep_flat = self.keep_flat.unwrap_or(true);
-        job.signs = self.signs.unwrap_or(true);
         job.price = self.price.unwrap_or(job.price);
-        job.true_curvature = self.true_curvature.unwrap_or(false);
-        job.bending = self.bending.unwrap_or(false);
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);

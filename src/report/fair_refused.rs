@@ -29,14 +29,13 @@ pub(super) fn line_name(cut: &Cut) -> String {
 
 impl FairOutputs {
     /// What was had and is not what was hoped for, in words for the one who reads nothing else: lines that bend more
-    /// often than before, all together or single ones, and an energy of another order.
+    /// often than before, all together or single ones.
     #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let bends = self.bends_more().or_else(|| self.lines_bend_more());
-        bends.into_iter().chain(self.other_order()).collect()
+    pub fn warning(&self) -> Option<String> {
+        self.bends_more().or_else(|| self.lines_bend_more())
     }
 
-    fn warning(&self, code: &'static str, message: String, help: &str) -> String {
+    fn warned(&self, code: &'static str, message: String, help: &str) -> String {
         let told = problem(code, &self.table_file, message, help);
         Diagnostic { severity: Severity::Warning, ..told }.to_string()
     }
@@ -55,21 +54,11 @@ impl FairOutputs {
         }
         let bend = if worse.len() == 1 { "line bends" } else { "lines bend" };
         let message = format!("{} {bend} more often than before: {}", worse.len(), names.join(", "));
-        Some(self.warning(
+        Some(self.warned(
             "W402",
             message,
             "Allow them fewer inflections under shape.inflections, or less smoothing (--weight)",
         ))
-    }
-
-    /// An energy of another order than was asked for.
-    fn other_order(&self) -> Option<String> {
-        let taken = self.outcome.order;
-        let wanted = self.request.order.filter(|wanted| *wanted != taken)?;
-        let message = format!(
-            "the energy is of order {taken}, not {wanted}: one of order {wanted} needs an independent net, which does not follow this table"
-        );
-        Some(self.warning("W403", message, &format!("Ask for order {taken}")))
     }
 
     /// Lines that bend more often all together.
@@ -85,7 +74,7 @@ impl FairOutputs {
             format!(", or tolerances {:.3} times as wide, with which the targets are one smooth move", upward(factor))
         });
         let message = format!("the targets are met by adding inflections: {before} > {after}");
-        Some(self.warning("W401", message, &format!("Ask for nearer targets{wider}")))
+        Some(self.warned("W401", message, &format!("Ask for nearer targets{wider}")))
     }
 
     /// That the hull is no fairer than the surface through the table, and what may help.
@@ -105,7 +94,7 @@ impl FairOutputs {
     /// [`Failure::Infeasible`]; [`Failure::Check`] when they are met and the hull is no fairer for it.
     pub fn verdict(&self) -> Result<(), Failure> {
         let (code, message, help) = match self.outcome.status {
-            Status::Optimal if self.request.signs != Some(false) && self.outcome.is_no_fairer() => {
+            Status::Optimal if self.outcome.is_no_fairer() => {
                 return Err(Failure::Check(format!("E503 {}: {}", self.table_file.display(), self.no_fairer())));
             }
             Status::Optimal => return Ok(()),
@@ -117,12 +106,13 @@ impl FairOutputs {
             Status::Limit if self.outcome.faired.stalled() => (
                 "E403",
                 "what is held of metacentre or wetted surface did not come to its target; what was written is the nearest",
-                "Look at constraints and nonlinear_residuals in fairing.json, widen the tolerance or move the target".to_owned(),
+                "Look at constraints and nonlinear_residuals in fairing.json, widen the tolerance or move the target"
+                    .to_owned(),
             ),
             Status::Unbounded | Status::Limit => (
                 "E402",
                 "the solver stopped before the optimum was proved; what was written is its best point",
-                "Widen the tolerances, relax the targets, or allow inflections (inflections.remove = false); the residuals are in fairing.json".to_owned(),
+                "Widen the tolerances or relax the targets; the residuals are in fairing.json".to_owned(),
             ),
         };
         Err(Failure::Infeasible(vec![problem(code, &self.table_file, message.to_owned(), &help)]))

@@ -38,20 +38,6 @@ pub const JOB_KEYS: &[Key] = &[
     key("water", "density", Kind::Density, &[], "Density of the water. Default: 1.025 t/m3."),
     key(
         "energy",
-        "order",
-        Kind::Integer(2, 4),
-        &[],
-        "Order of the derivatives in the energy: 2, 3 or 4. Default: 4 on hulls with vertical ends and level keel, else 3.",
-    ),
-    key(
-        "energy",
-        "anisotropy",
-        Kind::Number,
-        &[],
-        "Weight of bending along the ship; that across is its inverse. Default: 0.6.",
-    ),
-    key(
-        "energy",
         "weight",
         Kind::NumberOrWord(&AUTO),
         &[],
@@ -168,20 +154,6 @@ pub const JOB_KEYS: &[Key] = &[
         "How far section areas may be off that have no band of their own, m2. Default: 0.",
     ),
     key(
-        "energy",
-        "true_curvature",
-        Kind::Switch,
-        &[],
-        "Whether the energy is that of true curvature: the metric is refreshed while the functional falls. Default: false.",
-    ),
-    key(
-        "energy",
-        "exact_bending",
-        Kind::Switch,
-        &[],
-        "Whether the bending energy of the surface, the integral of k1^2 + k2^2 over its area, is minimised at last. Default: false.",
-    ),
-    key(
         "suspects",
         "exclude",
         Kind::Switch,
@@ -209,7 +181,6 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "The same for lines across which the curvature breaks: edges of flats and of straight parts.",
     ),
-    key("inflections", "remove", Kind::Switch, &[], "Whether inflections that are noise are removed. Default: true."),
     key(
         "inflections",
         "cost",
@@ -220,8 +191,15 @@ pub const JOB_KEYS: &[Key] = &[
 ];
 
 /// Keys that had another name before, old and new; the old one is accepted.
-pub(in crate::config) const RENAMED: [(&str, &str); 3] = [
-    ("signs.impose", "inflections.remove"),
-    ("signs.price", "inflections.cost"),
-    ("energy.bending", "energy.exact_bending"),
+pub(in crate::config) const RENAMED: [(&str, &str); 1] = [("signs.price", "inflections.cost")];
+
+/// Keys that were removed, under all their names, and the key that serves instead.
+pub(in crate::config) const REMOVED: [(&str, &str); 7] = [
+    ("energy.order", "fairness"),
+    ("energy.anisotropy", "fairness"),
+    ("energy.true_curvature", "fairness"),
+    ("energy.exact_bending", "fairness"),
+    ("energy.bending", "fairness"),
+    ("inflections.remove", "fairness"),
+    ("signs.impose", "fairness"),
 ];

@@ -36,16 +36,6 @@ pub(super) fn density(document: &mut Document<'_>) -> Option<f64> {
     allowed(document, "water.density", value, DENSITIES.contains(&value), &expected)
 }
 
-/// Greatest anisotropy and the reciprocal of the least: beyond, one direction is not seen.
-const MOST_ANISOTROPY: f64 = 1e6;
-
-pub(super) fn anisotropy(document: &mut Document<'_>) -> Option<f64> {
-    let value = document.number("energy.anisotropy")?;
-    let sensible = (1.0 / MOST_ANISOTROPY..=MOST_ANISOTROPY).contains(&value);
-    let expected = format!("a number from {:.0e} to {MOST_ANISOTROPY:.0e}", 1.0 / MOST_ANISOTROPY);
-    allowed(document, "energy.anisotropy", value, sensible, &expected)
-}
-
 /// Greatest price of a sign: no sign that the tolerances have is as dear.
 const MOST_PRICE: f64 = 1e6;
 

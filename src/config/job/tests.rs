@@ -28,28 +28,21 @@ fn table() -> OffsetTable {
 
 #[test]
 fn everything_is_read() {
-    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\norder = 4\nanisotropy = 1\nweight = 0.01\ntrue_curvature = true\nexact_bending = true\n\
+    let text = "schema = 1\n[table]\nfile = \"a.csv\"\n[dimensions]\nT = \"4000 mm\"\n[energy]\nweight = 0.01\n\
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
-                [suspects]\nexclude = false\n[flat]\nkeep = false\n[inflections]\nremove = false\ncost = 2.5";
+                [suspects]\nexclude = false\n[flat]\nkeep = false\n[inflections]\ncost = 2.5";
     let file = read_job("j.toml", text).unwrap();
     assert_eq!((file.table.as_deref(), file.stated.draught), (Some("a.csv"), Some(4.0)));
     let job = file.for_table(&table(), 100.0).unwrap();
-    assert_eq!((job.energy.order, job.weight, job.tolerance.table), (Some(4), Some(0.01), Some(0.003)));
+    assert_eq!((job.weight, job.tolerance.table), (Some(0.01), Some(0.003)));
     assert_eq!(job.tolerance.stations.len(), 2);
     assert!(job.tolerance.stations.contains(&(1, 0.001)) && job.tolerance.stations.contains(&(0, 0.002)));
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(
-        !job.exclude_suspects
-            && !job.keep_flat
-            && !job.signs
-            && (job.price - 2.5).abs() < 1e-12
-            && job.true_curvature
-            && job.bending
-    );
+    assert!(!job.exclude_suspects && !job.keep_flat && (job.price - 2.5).abs() < 1e-12);
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
@@ -73,13 +66,22 @@ fn a_price_that_no_program_can_carry_is_refused() {
 
 #[test]
 fn a_key_that_was_renamed_is_read_by_its_old_name() {
-    let old = "[energy]\nbending = true\n[signs]\nimpose = false\nprice = 2.5";
-    let new = "[energy]\nexact_bending = true\n[inflections]\nremove = false\ncost = 2.5";
-    let values = |text: &str| read_job("j.toml", text).map(|job| (job.bending, job.signs, job.price));
-    assert_eq!(values(old), values(new));
-    assert_eq!(values(old).unwrap(), (Some(true), Some(false), Some(2.5)));
-    let codes: Vec<_> = values("[signs]\nother = 1").unwrap_err().iter().map(|problem| problem.code).collect();
+    let price = |text: &str| read_job("j.toml", text).map(|job| job.price);
+    assert_eq!(price("[signs]\nprice = 2.5"), Ok(Some(2.5)));
+    let codes: Vec<_> = price("[signs]\nother = 1").unwrap_err().iter().map(|problem| problem.code).collect();
     assert_eq!(codes, ["E121"]);
+}
+
+#[test]
+fn a_key_that_was_removed_is_refused_with_what_serves() {
+    for (removed, _) in keys::REMOVED {
+        let (table, name) = removed.split_once('.').unwrap();
+        let said = messages(&format!("fairness = 3\n[{table}]\n{name} = 3"));
+        let expected =
+            format!("E121 j.toml:3:1 {removed} was removed. Give fairness instead: How strongly the table is faired");
+        assert!(said.len() == 1 && said[0].starts_with(&expected), "{said:?}");
+    }
+    assert_eq!(read_option("--job", "Energy.Order", "3").unwrap_err()[0].code, "E121");
 }
 
 #[test]
@@ -87,10 +89,7 @@ fn nothing_said_is_the_default() {
     let job = read_job("j.toml", "").unwrap().for_table(&table(), 100.0).unwrap();
     let default = Job::default();
     assert_eq!((job.holding, job.tolerance, job.locked), (default.holding, default.tolerance, default.locked));
-    assert_eq!(
-        (job.energy, job.weight, job.signs, job.price),
-        (default.energy, default.weight, default.signs, default.price)
-    );
+    assert_eq!((job.weight, job.signs, job.price), (default.weight, default.signs, default.price));
 }
 
 #[test]
@@ -111,14 +110,14 @@ fn an_option_stands_over_the_file() {
         .with(option("--cb", "hold.Cb", "0.6"))
         .with(option("--tolerance", "tolerance.table", "2 mm"))
         .with(option("--lock", "lock.cells", "9 1/2@2"))
-        .with(option("--order", "energy.order", "3"))
+        .with(option("--weight", "energy.weight", "0.01"))
         .with(option("--waterplane-area", "hold.waterplane_area", "700"));
     assert_eq!(
         job.hold,
         [(Quantity::BlockCoefficient, Target::Value(0.6)), (Quantity::WaterplaneArea, Target::Value(700.0))]
     );
     let job = job.for_table(&table(), 100.0).unwrap();
-    assert_eq!((job.tolerance.table, job.energy.order), (Some(0.002), Some(3)));
+    assert_eq!((job.tolerance.table, job.weight), (Some(0.002), Some(0.01)));
     assert_eq!(job.locked, [(0, 0), (0, 1), (0, 2), (1, 1)]);
     let problem = read_option("--cb", "hold.Cb", "1.2").unwrap_err();
     assert_eq!(problem[0].to_string(), "E124 --cb hold.Cb is 1.2. Expected a number above 0, at most 1.");
@@ -146,8 +145,8 @@ fn places_without_hull_and_tolerances_of_nothing_are_refused() {
 fn all_problems_of_a_file_at_once() {
     let found = messages(
         "tabel.file = \"a\"\n[tolerance]\ntable = -1\nstations = { \"5\" = \"1 t\" }\ncells = { \"5\" = 1 }\n[lock]\ncells = [\"5\", true]\n\
-         [hold]\ndisplacement = \"frei\"\nCb = 1.2\nLCB = 3\nCm = 0.9\nwaterplane_area = \"5 %\"\nsection_areas = [[1]]\ncm = 0.8\n[inflections]\nremove = 1\n\
-         [energy]\norder = 7\nweight = -1",
+         [hold]\ndisplacement = \"frei\"\nCb = 1.2\nLCB = 3\nCm = 0.9\nwaterplane_area = \"5 %\"\nsection_areas = [[1]]\ncm = 0.8\n[suspects]\nexclude = 1\n\
+         [energy]\nweight = -1",
     );
     let expected = [
         "E121 j.toml:1:1 tabel is not a key of a job. Did you mean table?",
@@ -162,19 +161,16 @@ fn all_problems_of_a_file_at_once() {
         "E123 j.toml:13:19 hold.waterplane_area: \"5 %\" is a percentage, expected an area",
         "E122 j.toml:14:18 hold.section_areas: an item is [1.0]. Expected a list of [x, area]",
         "E126 j.toml:15:1 hold.cm is written a second time",
-        "E122 j.toml:17:10 inflections.remove is 1, expected true or false",
-        "E122 j.toml:19:9 energy.order is 7, expected a whole number from 2 to 4",
-        "E124 j.toml:20:10 energy.weight is -1.",
+        "E122 j.toml:17:11 suspects.exclude is 1, expected true or false",
+        "E124 j.toml:19:10 energy.weight is -1.",
     ];
     assert_eq!(found.len(), expected.len(), "{found:#?}");
     for (found, expected) in found.iter().zip(expected) {
         assert!(found.starts_with(expected), "{found}\n{expected}");
     }
-    let found = messages(
-        "[hold]\nKM = 1e300\nwetted_surface = \"1e10 m2\"\nsection_areas = [[50, 1e155], [50, 20, -1]]\n[energy]\nanisotropy = 1e300",
-    );
+    let found =
+        messages("[hold]\nKM = 1e300\nwetted_surface = \"1e10 m2\"\nsection_areas = [[50, 1e155], [50, 20, -1]]");
     let expected = [
-        "E124 j.toml:6:14 energy.anisotropy is 1e300. Expected a number from 1e-6 to 1e6.",
         "E124 j.toml:2:6 hold.KM is 1e300. Expected a number above 0, at most 1000000000.",
         "E124 j.toml:3:18 hold.wetted_surface is 10000000000. Expected a number above 0, at most 1000000000.",
         "E122 j.toml:4:18 hold.section_areas: an item is [50.0, 1e155]. Expected a list of [x, area]",
