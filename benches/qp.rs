@@ -1,8 +1,7 @@
 //! Time of the fairing programs with displacement and LCB held (336, 2,400 and 10,000 unknowns): the structured
-//! interior point against Clarabel in the same run, a second solve after one lock was moved, and the least bending
-//! energy within the same rows (336 and 2,400 unknowns). `cargo bench --bench qp [-- 336]`. Under each row: seconds of CPU of
-//! both (Linux; Clarabel with one thread), and by what ours misses displacement (relative), LCB (over L) and the bands
-//! \[m\].
+//! interior point against Clarabel in the same run, and a second solve after one lock was moved.
+//! `cargo bench --bench qp [-- 336]`. Under each row: seconds of CPU of both (Linux; Clarabel with one thread), and by
+//! what ours misses displacement (relative), LCB (over L) and the bands \[m\].
 //!
 //! `-- --offsets DIR` takes the readings from `DIR/fair_21x11_24x14.csv`, `fair_81x41_60x40.csv` and
 //! `fair_161x101_125x80.csv` (depths in the first row, stations in the first column). `--partner COMMAND` runs another
@@ -13,9 +12,8 @@
 #[path = "../tests/qp_problems/mod.rs"]
 mod qp_problems;
 
-use loftsman::fairing::least_bending::{LeastBending, least_bending};
 use loftsman::qp::{Problem, Settings, Solution, Solver};
-use qp_problems::{constant_part, fairing_of, readings, second_opinion, unbent};
+use qp_problems::{constant_part, fairing_of, readings, second_opinion};
 use std::process::Command;
 use std::time::Instant;
 
@@ -86,22 +84,6 @@ fn warm(problem: &Problem, lock: usize) -> [f64; 2] {
     solver.update(&problem).unwrap();
     solver.solve();
     [cold, start.elapsed().as_secs_f64()]
-}
-
-/// Seconds from the program of least thin-plate energy to the least bending energy within its rows, shortest of
-/// `rounds`, and the end.
-fn bending(problem: &Problem, net: [usize; 2], rounds: usize) -> (f64, LeastBending) {
-    let mut shortest = f64::INFINITY;
-    let start = problem.solve(&Settings::default()).unwrap().x;
-    let (surface, rest) = unbent(problem, net, &start);
-    let free: Vec<usize> = (0..start.len()).collect();
-    let mut found = None;
-    for _ in 0..rounds {
-        let start = Instant::now();
-        found = least_bending(&surface, &rest, 1.0, &free, true, &Settings::default()).unwrap();
-        shortest = shortest.min(start.elapsed().as_secs_f64());
-    }
-    (shortest, found.unwrap())
 }
 
 /// The half-breadths of a file: the first row and the first column are depths and stations.
@@ -191,16 +173,5 @@ fn main() {
             against(&problem, constant_part(&half_breadths), command, &case);
         }
         last = Some((n as f64, ours.seconds));
-        if n <= 2400 {
-            let (seconds, found) = bending(&problem, net, rounds);
-            println!(
-                "         bending energy {:.6} > {:.6}: {seconds:.4} s, {} programs, {} iterations, {:.1} of one cold program",
-                found.energies[0],
-                found.energies[found.energies.len() - 1],
-                found.programs,
-                found.iterations,
-                seconds / ours.seconds
-            );
-        }
     }
 }

@@ -6,7 +6,6 @@
 
 mod analytic_bodies;
 mod architecture;
-mod bending;
 mod bodies;
 mod charts;
 mod cli;

@@ -337,13 +337,6 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "volume": json_number(rounding.volume), "volume_share": json_number(rounding.volume_share),
         },
         "noise": { "sigma": number(faired.sigma), "errors": number(faired.errors) },
-        // The functional of true curvature at the convex answer and after each refresh of its metric.
-        "refreshes": faired.refreshed.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
-        // The integral of k1^2 + k2^2 over the surface at the convex answer and after each step, and what the last step
-        // still promised.
-        "bending": faired.bent.as_ref().map(|bent| json!({
-            "energies": bent.energies.iter().map(|value| number(*value)).collect::<Vec<_>>(), "promised": number(bent.promised),
-        })),
         "smoothing": {
             "fairness": number(outcome.fairness.grade()), "weight": number(faired.lambda), "readings": faired.smoother.count(), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
             "energy": number(faired.chosen.energy), "trials": trials,

@@ -158,19 +158,6 @@ impl Place<'_> {
         pairs.map(|(factor, point)| factor * point[1]).sum()
     }
 
-    /// The index of every control value with its factors of derivatives of these orders along the ship and up.
-    pub(super) fn factors<const K: usize>(
-        &self,
-        orders: [(usize, usize); K],
-    ) -> impl Iterator<Item = (usize, [f64; K])> {
-        let [u, v] = self.nodes;
-        let pairs = (0..=self.degrees[0]).flat_map(|i| (0..=self.degrees[1]).map(move |j| (i, j)));
-        pairs.map(move |(i, j)| {
-            let index = (self.first[0] + i) * self.columns + self.first[1] + j;
-            (index, orders.map(|(s, t)| u.basis[s][i] * v.basis[t][j]))
-        })
-    }
-
     /// The combination as a form of the control values, written to `row`.
     pub(super) fn form(&self, factors: &Combination, row: &mut Row) {
         let [u, v] = self.nodes;

@@ -9,7 +9,6 @@
 //!    and the program is solved again. On the net of a fit, whose features are no noise: the lines of the table by
 //!    [`super::guard`].
 
-use super::bending::bending_energy;
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
@@ -18,12 +17,10 @@ use super::guard::{Guarded, Question};
 use super::humps;
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
-use super::least_bending::{LeastBending, least_bending};
 use super::model::Limit;
 use super::noise::{Differences, errors, taken};
 use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
-use super::refresh::{RefreshError, refresh};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
@@ -92,11 +89,6 @@ pub struct FairSettings {
     pub seen: f64,
     /// Whether half-breadths may be outside 0 to B/2 as far as those of the surface through the table are.
     pub admits: bool,
-    /// Whether the energy is that of true curvature, by refreshing the metric.
-    pub true_curvature: bool,
-    /// Whether the bending energy of the surface takes the place of the energy at last; what else is charged (straight
-    /// parts, the start between offsets) stays.
-    pub bending: bool,
     /// The solver.
     pub solver: Settings,
 }
@@ -128,9 +120,6 @@ pub enum FairError {
     /// A net with an accepted line makes no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
-    /// No metric for a refresh.
-    #[error(transparent)]
-    Refresh(#[from] RefreshError),
 }
 
 /// What fairing comes to.
@@ -168,10 +157,6 @@ pub struct Faired {
     pub price: f64,
     /// What one less was allowed to cost, in sigma^2.
     pub dearest: f64,
-    /// The functional of true curvature at the convex answer and after each refresh of the metric; none where it stands.
-    pub refreshed: Option<Vec<f64>>,
-    /// The steps to the least bending energy, where it was asked for and the chart does not fold.
-    pub bent: Option<LeastBending>,
     /// The factor on the tolerances from which what targets other than the table's ask for is one smooth move over the
     /// whole hull; none where there are no such targets, or they cannot be had at all.
     pub carried: Option<f64>,
@@ -441,32 +426,8 @@ pub fn fair_prepared(
         guarded = Some(found);
     }
     surface.model.carried.clone_from(&model.carried);
-    let mut refreshed = None;
-    let (mut final_smoother, mut final_lambda) = (smoother.clone(), lambda);
-    if settings.true_curvature
-        && diagnosis.is_none()
-        && solved.is_optimal()
-        && let Some(found) = refresh(surface, smoother, lambda, &program, &solved, &settings.solver)?
-    {
-        programs += found.programs;
-        iterations += found.iterations;
-        (program, solved) = (found.program, found.solved);
-        (final_smoother, final_lambda) = (found.smoother, found.lambda);
-        refreshed = Some(found.functional);
-        surface.model.energy = found.model.energy;
-    }
-    let mut bent = None;
-    if settings.bending && diagnosis.is_none() && solved.is_optimal() {
-        let charged = final_lambda * final_smoother.unit * surface.model.quadratic_of(&solved.net);
-        if let Some(found) = least_bending_of(surface, &final_smoother, charged, &mut program, &mut solved, settings)? {
-            programs += found.programs;
-            iterations += found.iterations;
-            bent = Some(found);
-        }
-    }
     let mut settled = None;
     if diagnosis.is_none() && solved.is_optimal() {
-        let (smoother, lambda) = (&final_smoother, final_lambda);
         let constraints = &settings.constraints;
         let settling = Settling { surface, constraints, smoother, lambda, solver: &settings.solver };
         if let Some(found) = settling.run(&program, &solved)? {
@@ -474,18 +435,11 @@ pub fn fair_prepared(
             iterations += found.iterations;
             (program, solved) = (found.program, found.solved);
             settled = Some(found.errors);
-            // The steps to what is not linear move the net once more.
-            if let (Some(bent), Some(energy)) = (&mut bent, bending_energy(surface.hull_of(&solved.net)?.surface())) {
-                bent.energies.push(energy);
-                bent.net.clone_from(&solved.net);
-            }
         }
     }
     Ok(Faired {
         carried: carry.widening,
         without: carry.without,
-        refreshed,
-        bent,
         rules: wishes.rules,
         settled,
         diagnosis,
@@ -495,7 +449,7 @@ pub fn fair_prepared(
         sigma,
         errors: prepared.errors,
         dearest: settings.price,
-        lambda: final_lambda,
+        lambda,
         trials: prepared.trials.clone(),
         chosen: prepared.smoothed.trial(smoother.count()),
         edf: prepared.smoothed.edf,
@@ -504,43 +458,10 @@ pub fn fair_prepared(
         forms,
         patterns,
         price,
-        smoother: final_smoother,
+        smoother: smoother.clone(),
         programs,
         iterations,
     })
-}
-
-/// The least bending energy from an answer on, weighed so that it costs there what the energy before it did; program
-/// and answer become those of its last step. None where the chart folds.
-fn least_bending_of(
-    surface: &FairSurface,
-    smoother: &Smoother,
-    charged: f64,
-    program: &mut Program,
-    solved: &mut Solved,
-    settings: &FairSettings,
-) -> Result<Option<LeastBending>, FairError> {
-    let start = surface.hull_of(&solved.net)?;
-    let rest = program.with_objective(smoother, 0.0).problem;
-    let Some(first) = bending_energy(start.surface()).filter(|first| *first > 0.0) else { return Ok(None) };
-    let factor = charged / first;
-    if !(factor.is_finite() && factor > 0.0) {
-        return Ok(None);
-    }
-    let free = &smoother.reduced.free;
-    let Some(found) = least_bending(start.surface(), &rest, factor, free, true, &settings.solver)? else {
-        return Ok(None);
-    };
-    program.problem.clone_from(&found.problem);
-    let solution = found.solution.clone();
-    let misfit = surface.model.misfit(&found.net, smoother.weights());
-    *solved = Solved {
-        certificate: program.problem.certificate(&solution.x, &solution.multipliers, 0.0),
-        solution,
-        net: found.net.clone(),
-        objective: misfit + factor * found.energies[found.energies.len() - 1],
-    };
-    Ok(Some(found))
 }
 
 impl Faired {

@@ -198,7 +198,7 @@ impl Faired {
 
     /// Root of the mean weighted square of what a net moves the readings by \[m\].
     fn moved(&self, model: &Model, net: &[f64]) -> f64 {
-        let squares = model.moved(net, self.smoother.weights());
+        let squares = model.misfit(net, self.smoother.weights());
         (squares / self.smoother.count().max(1) as f64).sqrt()
     }
 }

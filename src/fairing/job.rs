@@ -157,10 +157,6 @@ pub struct Job {
     pub field: bool,
     /// Whether suspects are left out.
     pub exclude_suspects: bool,
-    /// Whether the energy is that of true curvature: the metric is refreshed until it stands still.
-    pub true_curvature: bool,
-    /// Whether the bending energy of the surface takes the place of the energy at last.
-    pub bending: bool,
     /// Whether extraneous changes of curvature are forbidden.
     pub signs: bool,
     /// Dearest change of curvature that is forbidden, in squares of the noise.
@@ -172,17 +168,14 @@ pub struct Job {
 impl Job {
     /// Whether a field is asked for, and nothing that only the net of a fit can do; `noise` \[m\] is that of the table.
     pub(super) fn suits_a_field(&self, noise: f64) -> bool {
-        let kept = Self::default();
         self.field
             && self.weight.is_none()
-            && self.energy == kept.energy
+            && self.energy == EnergySettings::default()
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
             && self.rules.is_empty()
             && self.locked.is_empty()
             && self.lines.is_empty()
-            && self.accepted == kept.accepted
-            && !self.bending
-            && !self.true_curvature
+            && self.accepted == Accepted::None
     }
 }
 
@@ -205,8 +198,6 @@ impl Default for Job {
             exclude_suspects: true,
             signs: true,
             price: PRICE,
-            true_curvature: false,
-            bending: false,
             solver: Settings { tolerance: 1e-11, ..Settings::default() },
         }
     }

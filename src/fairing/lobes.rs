@@ -65,7 +65,7 @@ impl Lobes<'_> {
     pub(super) fn fewer(&self, attempt: Attempt) -> Result<Attempt, FairError> {
         let faired = &attempt.faired;
         // The rows of what is not linear stand for the answer that they were made at.
-        if !attempt.is_optimal() || faired.refreshed.is_some() || faired.bent.is_some() || faired.settled.is_some() {
+        if !attempt.is_optimal() || faired.settled.is_some() {
             return Ok(attempt);
         }
         let mut best = attempt;

@@ -2,7 +2,6 @@
 //! of its curves.
 
 mod adapt;
-pub mod bending;
 pub mod bends;
 pub mod breaks;
 mod carry;
@@ -24,7 +23,6 @@ pub mod inflections;
 pub mod inspect;
 pub mod job;
 pub mod least;
-pub mod least_bending;
 mod lines;
 mod lobes;
 pub mod metric;
@@ -37,7 +35,6 @@ pub mod pattern;
 pub mod program;
 pub mod proposals;
 pub mod record;
-pub mod refresh;
 pub mod relinearise;
 mod repeated;
 mod robust;

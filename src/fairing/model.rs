@@ -111,16 +111,10 @@ impl Model {
         self.known.len()
     }
 
-    /// c'E c.
-    #[must_use]
-    pub fn quadratic_of(&self, c: &[f64]) -> f64 {
-        self.energy.quadratic(c)
-    }
-
     /// The energy of control values: c'E c, or that of a field and of the move from it ([`Stationary`]).
     #[must_use]
     pub fn energy_of(&self, c: &[f64]) -> f64 {
-        let Some(field) = &self.stationary else { return self.quadratic_of(c) };
+        let Some(field) = &self.stationary else { return self.energy.quadratic(c) };
         let moves: Vec<f64> = c.iter().zip(&field.net).map(|(c, f)| c - f).collect();
         let along: f64 = self.slope(field).iter().zip(&moves).map(|(g, d)| g * d).sum();
         field.energy + 2.0 * along + self.energy.quadratic(&moves)
@@ -142,20 +136,10 @@ impl Model {
         self.readings.iter().map(|reading| value(&reading.row, c) - reading.value).collect()
     }
 
-    /// sum w_k (a_k c - d_k)^2 \[m^2\], d_k with what is carried.
-    #[must_use]
-    pub fn misfit(&self, c: &[f64], weights: &[f64]) -> f64 {
-        self.readings
-            .iter()
-            .zip(weights)
-            .map(|(reading, w)| w * (value(&reading.row, c) - self.wished(reading)).powi(2))
-            .sum()
-    }
-
     /// sum w_k (a_k c - d_k)^2 \[m^2\] to the readings as they are.
     #[must_use]
-    pub fn moved(&self, c: &[f64], weights: &[f64]) -> f64 {
-        self.residuals(c).iter().zip(weights).map(|(r, w)| w * r * r).sum()
+    pub fn misfit(&self, c: &[f64], weights: &[f64]) -> f64 {
+        self.residuals(c).iter().zip(weights).map(|(r, w)| w * r.powi(2)).sum()
     }
 
     /// A reading with what is carried \[m\].
@@ -199,7 +183,7 @@ impl Model {
         }
         let (pull, constant) = match &self.stationary {
             Some(field) => (self.slope(field), field.energy),
-            None => (self.energy.apply(&origin), self.quadratic_of(&origin)),
+            None => (self.energy.apply(&origin), self.energy.quadratic(&origin)),
         };
         Reduced {
             pull: free.iter().map(|&i| pull[i]).collect(),

@@ -229,16 +229,6 @@ impl Program {
         Self::assembled(self.problem.clone(), all.collect())
     }
 
-    /// The same rows with the objective of another energy over the same unknowns.
-    #[must_use]
-    pub fn with_objective(&self, smoother: &Smoother, lambda: f64) -> Self {
-        let (normal, right) = smoother.normal(lambda);
-        let mut changed = self.clone();
-        changed.problem.quadratic = symmetric(&normal, 2.0);
-        changed.problem.linear = right.iter().map(|b| -2.0 * b).collect();
-        changed
-    }
-
     /// The same program with other limits in the place of the rows of these names.
     #[must_use]
     pub fn with_rows(&self, changed: &[(RowName, Limit)], reduced: &Reduced) -> Self {

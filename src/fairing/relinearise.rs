@@ -11,9 +11,9 @@
 //! problem.
 
 use super::constraint::Constraint;
+use super::fair::FairError;
 use super::model::Limit;
 use super::program::{Program, RowName, Solved};
-use super::refresh::RefreshError;
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
 use crate::qp::Settings;
@@ -88,7 +88,7 @@ impl Settling<'_> {
     }
 
     /// Relative errors of what is not linear, with their signs.
-    fn errors(&self, net: &[f64]) -> Result<Vec<f64>, RefreshError> {
+    fn errors(&self, net: &[f64]) -> Result<Vec<f64>, FairError> {
         let hull = self.surface.hull_of(net)?;
         let off = |(_, constraint): (usize, &Constraint)| {
             (constraint.value(&hull) - constraint.target()) / constraint.scale(&hull)
@@ -96,12 +96,12 @@ impl Settling<'_> {
         Ok(self.curved().map(off).collect())
     }
 
-    fn error(&self, net: &[f64]) -> Result<f64, RefreshError> {
+    fn error(&self, net: &[f64]) -> Result<f64, FairError> {
         Ok(largest(&self.errors(net)?))
     }
 
     /// Steps from an answer; none where every constraint is linear.
-    pub(super) fn run(&self, program: &Program, solved: &Solved) -> Result<Option<Settled>, RefreshError> {
+    pub(super) fn run(&self, program: &Program, solved: &Solved) -> Result<Option<Settled>, FairError> {
         if self.curved().next().is_none() {
             return Ok(None);
         }

@@ -11,7 +11,6 @@ use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, net_signs};
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
-use super::least_bending::LeastBending;
 use super::lobes::Lobes;
 use super::noise::{Differences, left_by_differences};
 use super::outcome::{Outcome, Turns, more_often, total};
@@ -203,8 +202,6 @@ impl<'a> Run<'a> {
             tolerances: job.tolerances(&surface),
             signs: job.signs,
             price: job.price * job.fairness.on_the_price(),
-            true_curvature: job.true_curvature,
-            bending: job.bending,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
             strict: Vec::new(),
@@ -482,7 +479,6 @@ impl<'a> Run<'a> {
     /// What is told, what bends more often before all else: whoever reads no further should know it.
     fn tell(&mut self, faired: &Faired, held: &[Held], lines: &[Turns], beyond: [f64; 2]) {
         let (job, surface) = (self.job, &self.surface);
-        let optimal = faired.solved.is_optimal();
         let notes = &mut self.notes;
         let mut when = |told: bool, note: &str| {
             if told {
@@ -491,21 +487,6 @@ impl<'a> Run<'a> {
         };
         surface.straight_parts().iter().for_each(|note| when(true, note));
         surface.break_lines().for_each(|note| when(true, &note));
-        faired.bent.iter().for_each(|bent| when(true, &LeastBending::words(bent)));
-        when(
-            job.bending && faired.bent.is_none() && optimal,
-            "the bending energy was not minimised: the surface is no graph over its centreplane everywhere, or no step of the solver \
-             lowers it",
-        );
-        if let Some(wanted) = job.energy.order.filter(|&wanted| wanted != surface.order) {
-            let of = surface.order;
-            when(
-                true,
-                &format!(
-                    "the energy is of order {of}: one of order {wanted} needs an independent net, which does not follow this table"
-                ),
-            );
-        }
         let [start, fair] = beyond.map(|beyond| 1e3 * beyond);
         when(
             beyond[1] > self.quantum.max(BREADTH * self.greatest),
@@ -514,10 +495,6 @@ impl<'a> Run<'a> {
                  {start:.2} mm",
                 self.greatest
             ),
-        );
-        when(
-            job.true_curvature && faired.refreshed.is_none() && optimal,
-            "the metric of true curvature stayed that of the start: refreshing it did not lower the functional",
         );
         when(
             !surface.own && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),

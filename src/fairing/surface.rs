@@ -19,7 +19,7 @@ use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
-use super::metric::{Metric, true_energy};
+use super::metric::Metric;
 use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
@@ -141,8 +141,6 @@ pub struct FairSurface {
     pub places: Vec<Place>,
     /// Half-breadths of the net at the start \[m\].
     pub start: Vec<f64>,
-    /// Weights of the cells of the energy on the net of a fit.
-    spared: Option<Spared>,
     /// Where the net of a fit might break and does not.
     unbroken: Option<Unbroken>,
     /// Order of the energy.
@@ -298,18 +296,14 @@ fn rectangle(hull: &Hull, [u, v]: [KnotVector; 2]) -> Result<Hull, HullError> {
     Hull::new(hull.name(), *hull.particulars(), BsplineSurface::new(u, v, points)?, hull.deck().clone())
 }
 
-/// The same chart with other half-breadths.
-pub(super) fn surface_with(surface: &BsplineSurface<3>, y: &[f64]) -> Result<BsplineSurface<3>, HullError> {
-    let points = surface.points().iter().zip(y).map(|(p, &y)| [p[0], y, p[2]]).collect();
-    Ok(BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?)
-}
-
 /// The same hull with other half-breadths.
 ///
 /// # Errors
 /// [`HullError`] when the half-breadths make no hull.
 pub fn with_half_breadths(hull: &Hull, y: &[f64]) -> Result<Hull, HullError> {
-    let surface = surface_with(hull.surface(), y)?;
+    let surface = hull.surface();
+    let points = surface.points().iter().zip(y).map(|(p, &y)| [p[0], y, p[2]]).collect();
+    let surface = BsplineSurface::new(surface.u().clone(), surface.v().clone(), points)?;
     let deck = BsplineCurve::new(hull.deck().knots().clone(), hull.deck().points().to_vec())?;
     Hull::new(hull.name(), *hull.particulars(), surface, deck)
 }
@@ -362,17 +356,16 @@ impl FairSurface {
         let (u, v) = (surface.u(), surface.v());
         let plain = is_plain(&hull);
         let mut straight = straightness(surface, &courses);
-        let (spared, unbroken, energy) = if smooth {
-            (None, None, energy(u, v, order, settings.anisotropy))
+        let (unbroken, energy) = if smooth {
+            (None, energy(u, v, order, settings.anisotropy))
         } else {
             let level = hull.is_level();
             let metric = if level { Metric::new } else { Metric::parametric }(surface, order, settings.anisotropy);
             let cells = Cells::new(surface);
             let unbroken = Unbroken::new(&cells, &metric, breaks);
-            let weights = Spared::new(&cells, &metric, &unbroken);
-            let energy = weights.energy(&cells, &metric);
+            let energy = Spared::new(&cells, &metric, &unbroken).energy(&cells, &metric);
             straight = unbroken.form(&cells, &metric);
-            (level.then_some(weights), Some(unbroken), energy)
+            (Some(unbroken), energy)
         };
         Ok(Self {
             model: Model {
@@ -387,7 +380,6 @@ impl FairSurface {
             courses,
             places,
             start,
-            spared,
             unbroken,
             order,
             anisotropy: settings.anisotropy,
@@ -408,7 +400,6 @@ impl FairSurface {
             model,
             places,
             start,
-            spared: None,
             unbroken: None,
             order: super::field::net::ORDER,
             anisotropy,
@@ -464,14 +455,6 @@ impl FairSurface {
             })
         });
         parts.collect()
-    }
-
-    /// The energy of true curvature with the metric of other half-breadths and the weights of the start.
-    pub(super) fn true_energy(&self, surface: &BsplineSurface<3>) -> SymmetricBand {
-        self.spared.as_ref().map_or_else(
-            || true_energy(surface, self.order, self.anisotropy),
-            |spared| spared.energy(&Cells::new(surface), &Metric::new(surface, self.order, self.anisotropy)),
-        )
     }
 
     /// The greatest jump of curvature of a hull on this net across lines of it where the surface through the table has

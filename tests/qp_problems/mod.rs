@@ -3,7 +3,7 @@
 pub(crate) mod second_opinion;
 
 use loftsman::qp::{Problem, SparseRows};
-use loftsman::spline::{BsplineSurface, Gram, KnotVector};
+use loftsman::spline::{Gram, KnotVector};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 const LENGTH: f64 = 100.0;
@@ -119,19 +119,6 @@ pub(crate) fn fairing_of(offsets: [usize; 2], net: [usize; 2], readings: &[f64])
         upper.push(f64::INFINITY);
     }
     Problem { quadratic: SparseRows::from_entries(n, n, &entries), linear, rows, lower, upper }
-}
-
-/// The surface of half-breadths for a program of [`fairing`], and its rows without its objective.
-pub(crate) fn unbent(problem: &Problem, net: [usize; 2], half_breadths: &[f64]) -> (BsplineSurface<3>, Problem) {
-    let knots = net.map(|count| KnotVector::uniform(3, count - 3).unwrap());
-    let (u, v) = (knots[0].greville(), knots[1].greville());
-    let place = |k: usize| [LENGTH * u[k / net[1]], half_breadths[k], DRAUGHT * (v[k % net[1]] - 1.0)];
-    let points = (0..half_breadths.len()).map(place).collect();
-    let [u, v] = knots;
-    let n = half_breadths.len();
-    let nothing: Vec<_> = (0..n).map(|i| (i, i, 0.0)).collect();
-    let quadratic = SparseRows::from_entries(n, n, &nothing);
-    (BsplineSurface::new(u, v, points).unwrap(), Problem { quadratic, linear: vec![0.0; n], ..problem.clone() })
 }
 
 /// What the objective of a random program is.
