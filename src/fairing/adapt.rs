@@ -52,7 +52,7 @@ impl Spared {
     /// The weights for the cells of a start.
     pub(super) fn new(cells: &Cells<'_>, metric: &Metric, unbroken: &Unbroken) -> Self {
         let [rows, columns] = cells.count();
-        let mut density = vec![vec![0.0; rows * columns]; metric.count()];
+        let mut density = vec![vec![0.0; rows * columns]; Metric::TERMS];
         for (k, cell) in cells.all().enumerate() {
             let area = cells.area(cell);
             for place in cells.places(cell) {
@@ -72,7 +72,7 @@ impl Spared {
         });
         let weights: Vec<Vec<f64>> = weights.collect();
         let lines = [0, 1].map(|way: usize| {
-            let term = way * (metric.count() - 1);
+            let term = way * (Metric::TERMS - 1);
             let count = [columns, rows][way];
             let rho =
                 |span: usize, e: usize| weights[term][if way == 0 { span * columns + e } else { e * columns + span }];
@@ -136,7 +136,6 @@ fn spared(density: f64, median: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::metric::true_energy;
     use super::super::unbroken::{Breaks, RunsOn};
     use super::*;
     use crate::spline::{BsplineSurface, KnotVector};
@@ -156,8 +155,8 @@ mod tests {
         BsplineSurface::new(u.clone(), v.clone(), points).unwrap()
     }
 
-    fn weights(surface: &BsplineSurface<3>, anisotropy: f64, breaks: &Breaks) -> Spared {
-        let (cells, metric) = (Cells::new(surface), Metric::new(surface, 3, anisotropy));
+    fn weights(surface: &BsplineSurface<3>, breaks: &Breaks) -> Spared {
+        let (cells, metric) = (Cells::new(surface), Metric::new(surface));
         Spared::new(&cells, &metric, &Unbroken::new(&cells, &metric, breaks))
     }
 
@@ -173,13 +172,13 @@ mod tests {
         let (u, v) = (KnotVector::uniform(3, 6).unwrap(), KnotVector::uniform(3, 4).unwrap());
         let cube = |knots: &KnotVector, i: usize| knots.knots()[i + 1..i + 4].iter().product::<f64>();
         let even = surface(&u, &v, |i, j| 1e-4 * (cube(&u, i) + cube(&v, j)));
-        let weights = weights(&even, 0.6, &Breaks::default());
+        let weights = weights(&even, &Breaks::default());
         for term in [0, 3] {
             assert!(weights.cells[term].iter().all(|w| (w - 1.0).abs() < 1e-6), "{:?}", weights.cells[term]);
         }
         let (adapted, plain) = (
-            of(&weights.energy(&Cells::new(&even), &Metric::new(&even, 3, 0.6)), &even),
-            of(&true_energy(&even, 3, 0.6), &even),
+            of(&weights.energy(&Cells::new(&even), &Metric::new(&even)), &even),
+            of(&Metric::new(&even).energy(&Cells::new(&even), |_, _| 1.0), &even),
         );
         assert!((adapted / plain - 1.0).abs() < 1e-6, "{adapted} for {plain}");
     }
@@ -194,16 +193,16 @@ mod tests {
         let pairs = |t: &[f64]| (t[0] * t[1] + t[0] * t[2] + t[1] * t[2]) / 3.0;
         // Slopes so small that curvature is the second derivative.
         let cube = surface(&u, &v, |_, j| 1e-6 * knots(j).iter().product::<f64>());
-        let weights = weights(&cube, 1.0, &Breaks { runs_on: RunsOn::Nowhere, ..Breaks::default() });
+        let weights = weights(&cube, &Breaks { runs_on: RunsOn::Nowhere, ..Breaks::default() });
         let smooth = surface(&u, &v, |_, j| 1e-6 * pairs(knots(j)));
-        assert!(of(&weights.energy(&Cells::new(&smooth), &Metric::new(&smooth, 3, 1.0)), &smooth).abs() < 1e-15);
-        // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5.
+        assert!(of(&weights.energy(&Cells::new(&smooth), &Metric::new(&smooth)), &smooth).abs() < 1e-15);
+        // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5, over 0.6^3.
         let kinked = surface(&u, &v, |_, j| {
             let t: Vec<f64> = knots(j).iter().map(|t| t - 1.0).collect();
             if v.greville()[j] > 1.0 + 1e-12 { 1e-6 * pairs(&t) } else { 0.0 }
         });
-        let found = of(&weights.energy(&Cells::new(&kinked), &Metric::new(&kinked, 3, 1.0)), &kinked) * 1e12;
-        assert!((found / (CHARGE * 256.0) - 1.0).abs() < 1e-6, "{found}");
+        let found = of(&weights.energy(&Cells::new(&kinked), &Metric::new(&kinked)), &kinked) * 1e12;
+        assert!((found * 0.6f64.powi(3) / (CHARGE * 256.0) - 1.0).abs() < 1e-6, "{found}");
     }
 
     /// The same half-breadths over a chart with waves of its own: what is smooth on the stations costs nothing,
@@ -226,7 +225,7 @@ mod tests {
             .collect();
         let waved = BsplineSurface::new(u.clone(), v.clone(), waved).unwrap();
         let parametric = of(&crate::spline::energy(&u, &v, 3, 0.6), &waved);
-        let metric = Metric::new(&waved, 3, 0.6);
+        let metric = Metric::new(&waved);
         let cells = Cells::new(&waved);
         let mut stations = 0.0;
         for cell in cells.all() {
@@ -251,7 +250,7 @@ mod tests {
             let k = i * columns + j;
             if k == columns + 1 { 1e-2 } else { ((k * 7919) % 13) as f64 * 1e-6 }
         });
-        let weights = weights(&bumped, 0.6, &Breaks::default()).cells;
+        let weights = weights(&bumped, &Breaks::default()).cells;
         for term in weights {
             let (bump, far) = (term[0], term[term.len() - 1]);
             assert!(bump < 1e-4 && far > 1e3 * bump, "{bump} {far}");

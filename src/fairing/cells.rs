@@ -12,8 +12,8 @@
 use crate::numeric::{SymmetricBand, gauss_legendre};
 use crate::spline::{BsplineSurface, KnotVector, MAX_DEGREE};
 
-/// Orders of derivatives, 0 to 4.
-pub(super) const ORDERS: usize = 5;
+/// Orders of derivatives, 0 to 3.
+pub(super) const ORDERS: usize = 4;
 
 /// Functions of one direction that live on a span at most.
 const LOCAL: usize = MAX_DEGREE + 1;

@@ -106,7 +106,7 @@ impl FairSurface {
         let own = field.net.energy(field.chosen.metric).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
-        let mut found = Self::over(hull, model, places, start, field.chosen.metric.anisotropy);
+        let mut found = Self::over(hull, model, places, start);
         found.breaks = field.lines;
         let field = found.off_the_centreplane(likely)?;
         let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));

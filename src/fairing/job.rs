@@ -6,7 +6,7 @@ use super::fair::{FairError, PRICE};
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;
 use super::strength::Fairness;
-use super::surface::{EnergySettings, FairSurface, Origin};
+use super::surface::{FairSurface, Origin};
 pub use super::unbroken::RunsOn;
 use crate::hull::{FitError, Hull, HullError, OffsetTable};
 use crate::qp::Settings;
@@ -125,8 +125,6 @@ pub struct Tolerance {
 /// What is wished.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// Order and direction of the energy.
-    pub energy: EnergySettings,
     /// How strongly the table is faired.
     pub fairness: Fairness,
     /// Smoothing weight; none: by cross-validation on a net of its own, for the errors of the table on that of a fit.
@@ -170,7 +168,6 @@ impl Job {
     pub(super) fn suits_a_field(&self, noise: f64) -> bool {
         self.field
             && self.weight.is_none()
-            && self.energy == EnergySettings::default()
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
             && self.rules.is_empty()
             && self.locked.is_empty()
@@ -182,7 +179,6 @@ impl Job {
 impl Default for Job {
     fn default() -> Self {
         Self {
-            energy: EnergySettings::default(),
             fairness: Fairness::default(),
             weight: None,
             holding: Holding::Table,

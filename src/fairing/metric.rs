@@ -1,36 +1,34 @@
-//! Energies of true curvature with a frozen metric: quadratic forms that are exact at the net at which they were frozen.
+//! The energy of true curvature with a frozen metric: a quadratic form that is exact at the net at which it was frozen.
 //!
 //! Along a waterline or a station with arc length s, and Q = x'^2 + y'^2 (z' for x' on stations) taken at the present
 //! net,
 //!
 //! ```text
-//! N = x' y'' - x'' y',   kappa = N Q^(-3/2),   dkappa/ds = (N' Q^(-3/2) - 3/2 N Q' Q^(-5/2)) Q^(-1/2),   and once more
+//! N = x' y'' - x'' y',   kappa = N Q^(-3/2),   dkappa/ds = (N' Q^(-3/2) - 3/2 N Q' Q^(-5/2)) Q^(-1/2)
 //! ```
 //!
-//! are linear in y once Q and its derivatives are frozen. With L and H the length and the height of the surface,
+//! are linear in y once Q and Q' are frozen. With L and H the length and the height of the surface, and w = 0.6,
 //!
 //! ```text
-//! E_n = w^n  int int (L^n d^(n-2)kappa/ds^(n-2))^2 ds/L dz/H      over waterlines
-//!     + w^-n int int (H^n d^(n-2)kappa/ds^(n-2))^2 ds/H dx/L      over stations
-//!     + sum_(0 < k < n) C(n, k) w^(n - 2 k) int int ((H d/ds)^k d^(n-k)y/du^(n-k))^2 du dv,    s along stations,
+//! E = w^3  int int (L^3 dkappa/ds)^2 ds/L dz/H      over waterlines
+//!   + w^-3 int int (H^3 dkappa/ds)^2 ds/H dx/L      over stations
+//!   + sum_(0 < k < 3) C(3, k) w^(3 - 2 k) int int ((H d/ds)^k d^(3-k)y/du^(3-k))^2 du dv,    s along stations,
 //! ```
 //!
-//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small (of order 4 the
-//! mixed terms are those of the parameters everywhere). ds dz = Q^(1/2) |z_v| du dv on a waterline; Gauss sums over the
-//! spans, with as many nodes as the degree plus one. Freezing again at the answer until it stands still minimises the
-//! true functional. Exact bending energy of a graph can fall to nothing by running the slope to infinity: a step counts
-//! only while the exact functional falls, and the tolerances bound it.
+//! which is the parametric energy of [`super::surface`] on a rectangular chart where slopes are small.
+//! ds dz = Q^(1/2) |z_v| du dv on a waterline; Gauss sums over the spans, with as many nodes as the degree plus one.
 //!
 //! A chart that follows the profiles of a ship has waves of its own: derivatives by its parameters are no derivatives
 //! along a station, and what is smooth in them is a saw on the body plan where lines of the chart swing round a bulb or
 //! spread and crowd with the waterlines.
 
 use super::cells::{Cells, Combination, Crossing, ORDERS, Place, Row, add_square};
+use super::surface::ANISOTROPY;
 use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineSurface, binomial};
 
-/// Highest derivative of y in the energy of order n.
-const HIGHEST: usize = 4;
+/// Order of the energy: the highest derivative of y.
+const ORDER: usize = 3;
 
 /// Rate of the other parameter below which a line is one of the net.
 const SKEW: f64 = 1e-9;
@@ -41,14 +39,13 @@ const STEEP: f64 = 1e-9;
 /// What a line runs on along the ship or up, over its length, below which it runs across the ship.
 const ATHWART: f64 = 1e-3;
 
-/// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; the fourth only along
-/// lines of the net.
+/// Terms (factor, order in s, order in t) of D^k with D = a d/ds + d/dt, b = D a, c = D^2 a; k is 1 to 3.
 fn terms(order: usize, [a, b, c]: [f64; 3]) -> [(f64, usize, usize); 7] {
     let none = (0.0, 0, 0);
     match order {
         1 => [(a, 1, 0), (1.0, 0, 1), none, none, none, none, none],
         2 => [(a * a, 2, 0), (2.0 * a, 1, 1), (1.0, 0, 2), (b, 1, 0), none, none, none],
-        3 => [
+        _ => [
             (a * a * a, 3, 0),
             (3.0 * a * a, 2, 1),
             (3.0 * a, 1, 2),
@@ -57,7 +54,6 @@ fn terms(order: usize, [a, b, c]: [f64; 3]) -> [(f64, usize, usize); 7] {
             (3.0 * b, 1, 1),
             (c, 1, 0),
         ],
-        _ => [(1.0, 0, 4), none, none, none, none, none, none],
     }
 }
 
@@ -67,9 +63,9 @@ struct Line {
     /// Derivative of the held coordinate across the line.
     steep: f64,
     turn: [f64; 3],
-    /// Derivatives of order 1 to 4 of what runs on (z on a station, x on a waterline) and of y.
-    run: [f64; HIGHEST],
-    breadth: [f64; HIGHEST],
+    /// Derivatives of order 1 to 3 of what runs on (z on a station, x on a waterline) and of y.
+    run: [f64; ORDER],
+    breadth: [f64; ORDER],
 }
 
 impl Line {
@@ -92,18 +88,14 @@ impl Line {
         // On a line of the net they are zero but for rounding.
         let skew = [a, b, c].iter().any(|rate| rate.abs() > SKEW);
         let turn = if skew { [a, b, c] } else { [0.0; 3] };
-        let all = |axis: usize| [1, 2, 3, 4].map(|k| along(axis, k, turn));
+        let all = |axis: usize| [1, 2, 3].map(|k| along(axis, k, turn));
         Some(Self { station, steep, turn, run: all(run), breadth: all(1) })
     }
 
-    /// Q, Q' and Q''.
-    fn square_of_speed(&self) -> [f64; 3] {
+    /// Q and Q'.
+    fn square_of_speed(&self) -> [f64; 2] {
         let (x, y) = (self.run, self.breadth);
-        [
-            x[0] * x[0] + y[0] * y[0],
-            2.0 * (x[0] * x[1] + y[0] * y[1]),
-            2.0 * (x[1] * x[1] + x[0] * x[2] + y[1] * y[1] + y[0] * y[2]),
-        ]
+        [x[0] * x[0] + y[0] * y[0], 2.0 * (x[0] * x[1] + y[0] * y[1])]
     }
 
     /// sum_k factors[k - 1] D^k as a combination, D^k applied to the derivative of order `across` by the other parameter.
@@ -121,51 +113,41 @@ impl Line {
     /// (H d/ds)^k of the derivative of y of order `across` by the other parameter, k = 1 or 2; none where the line
     /// stands still.
     fn mixed(&self, k: usize, across: usize, height: f64) -> Option<Combination> {
-        let [q, dq, _] = self.square_of_speed();
+        let [q, dq] = self.square_of_speed();
         let rate = height / q.sqrt();
         let square = rate * rate;
         let factors = if k == 1 { vec![rate] } else { vec![-0.5 * square * dq / q, square] };
         rate.is_finite().then(|| self.combination(&factors, across))
     }
 
-    /// d^(order-2) kappa / ds^(order-2) and the weight of its square per area of the parameters; none where the line
+    /// kappa (order 2) or dkappa/ds (3), and the weight of its square per area of the parameters; none where the line
     /// stands still.
     fn curvature(&self, order: usize) -> Option<(Combination, f64)> {
-        if order == 4 && self.turn.iter().any(|rate| *rate != 0.0) {
-            return None;
-        }
-        let (x, [q, dq, ddq]) = (self.run, self.square_of_speed());
+        let (x, [q, dq]) = (self.run, self.square_of_speed());
         let speed = q.sqrt();
         if speed <= 0.0 || speed.is_nan() {
             return None;
         }
-        // g = Q^(-3/2) and its derivatives.
+        // g = Q^(-3/2) and its derivative.
         let g = 1.0 / (q * speed);
         let dg = -1.5 * g * dq / q;
-        let ddg = g * (3.75 * dq * dq / q - 1.5 * ddq) / q;
-        // N, N', N'' as factors of y', y'', y''', y''''.
-        let n = [-x[1], x[0], 0.0, 0.0];
-        let dn = [-x[2], 0.0, x[0], 0.0];
-        let ddn = [-x[3], -x[2], x[1], x[0]];
-        let factor = |k: usize| match order {
-            2 => n[k] * g,
-            3 => (dn[k] * g + n[k] * dg) / speed,
-            _ => {
-                let first = dn[k] * g + n[k] * dg;
-                let second = ddn[k] * g + 2.0 * dn[k] * dg + n[k] * ddg;
-                (second - 0.5 * first * dq / q) / q
-            }
-        };
+        // N and N' as factors of y', y'' and y'''.
+        let n = [-x[1], x[0], 0.0];
+        let dn = [-x[2], 0.0, x[0]];
+        let factor = |k: usize| if order == 2 { n[k] * g } else { (dn[k] * g + n[k] * dg) / speed };
         let factors: Vec<f64> = (0..order).map(factor).collect();
         Some((self.combination(&factors, 0), speed * self.steep.abs()))
     }
 }
 
+/// C(3, k) w^(3 - 2 k).
+fn weight(k: usize) -> f64 {
+    binomial(ORDER, k) * ANISOTROPY.powi((ORDER - k) as i32 - k as i32)
+}
+
 /// The terms of the energy of one surface.
 pub(super) struct Metric {
-    order: usize,
-    anisotropy: f64,
-    /// L^2n / (L H) w^n over waterlines, H^2n / (L H) w^-n over stations.
+    /// L^6 / (L H) w^3 over waterlines, H^6 / (L H) w^-3 over stations.
     scales: [f64; 2],
     height: f64,
     /// Whether all terms are derivatives by the parameters.
@@ -173,59 +155,49 @@ pub(super) struct Metric {
 }
 
 impl Metric {
-    pub(super) fn new(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> Self {
-        let order = order.clamp(2, HIGHEST);
+    /// How many terms there are: waterlines, the mixed ones, stations.
+    pub(super) const TERMS: usize = ORDER + 1;
+
+    /// With the metric of the surface as it is.
+    pub(super) fn new(surface: &BsplineSurface<3>) -> Self {
         let extent = |axis: usize| {
             let values = surface.points().iter().map(|point| point[axis]);
             values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
         };
         let (length, height) = (extent(0), extent(2));
-        let n = order as i32;
+        let n = ORDER as i32;
         let scales = [
-            anisotropy.powi(n) * length.powi(2 * n) / (length * height),
-            anisotropy.powi(-n) * height.powi(2 * n) / (length * height),
+            ANISOTROPY.powi(n) * length.powi(2 * n) / (length * height),
+            ANISOTROPY.powi(-n) * height.powi(2 * n) / (length * height),
         ];
-        Self { order, anisotropy, scales, height, parametric: false }
+        Self { scales, height, parametric: false }
     }
 
     /// All terms as derivatives by the parameters.
-    pub(super) fn parametric(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> Self {
-        Self { parametric: true, ..Self::new(surface, order, anisotropy) }
-    }
-
-    /// C(n, k) w^(n - 2 k).
-    fn weight(&self, k: usize) -> f64 {
-        let n = self.order;
-        binomial(n, k) * self.anisotropy.powi((n - k) as i32 - k as i32)
-    }
-
-    /// How many terms there are: waterlines, the mixed ones, stations.
-    pub(super) fn count(&self) -> usize {
-        self.order + 1
+    pub(super) fn parametric(surface: &BsplineSurface<3>) -> Self {
+        Self { parametric: true, ..Self::new(surface) }
     }
 
     /// Calls `each` with every term at a place: which, its weight of the integral, and what is squared.
     pub(super) fn terms(&self, place: &Place<'_>, mut each: impl FnMut(usize, f64, &Combination)) {
-        let n = self.order;
         let parametric = |k: usize| {
             let mut all = [[0.0; ORDERS]; ORDERS];
-            all[n - k][k] = 1.0;
+            all[ORDER - k][k] = 1.0;
             all
         };
         if self.parametric {
-            (0..=n).for_each(|k| each(k, self.weight(k) * place.weight, &parametric(k)));
+            (0..Self::TERMS).for_each(|k| each(k, weight(k) * place.weight, &parametric(k)));
             return;
         }
         let [waterline, station] = [false, true].map(|station| Line::new(place, station));
-        for (which, line, scale) in [(0, &waterline, self.scales[0]), (n, &station, self.scales[1])] {
-            if let Some((factors, weight)) = line.as_ref().and_then(|line| line.curvature(n)) {
+        for (which, line, scale) in [(0, &waterline, self.scales[0]), (ORDER, &station, self.scales[1])] {
+            if let Some((factors, weight)) = line.as_ref().and_then(|line| line.curvature(ORDER)) {
                 each(which, scale * weight * place.weight, &factors);
             }
         }
-        let station = station.filter(|_| n < 4);
-        for k in 1..n {
-            let factors = station.as_ref().and_then(|line| line.mixed(k, n - k, self.height));
-            each(k, self.weight(k) * place.weight, &factors.unwrap_or_else(|| parametric(k)));
+        for k in 1..ORDER {
+            let factors = station.as_ref().and_then(|line| line.mixed(k, ORDER - k, self.height));
+            each(k, weight(k) * place.weight, &factors.unwrap_or_else(|| parametric(k)));
         }
     }
 
@@ -244,14 +216,11 @@ impl Metric {
     }
 
     /// The jump of the curvature of a waterline (`way` 0) or station (1) where it crosses a line of the net: the weight
-    /// of its square in the energy of order 3, and its factors. It counts as dkappa/ds = jump/h over the mean length h of
+    /// of its square in the energy, and its factors. It counts as dkappa/ds = jump/h over the mean length h of
     /// the spans beside the line.
     pub(super) fn jump(&self, way: usize, at: &Crossing<'_>) -> Option<(f64, [f64; 3])> {
-        if self.order != 3 {
-            return None;
-        }
         if self.parametric {
-            return Some((self.weight(3 * way) * at.weight / at.length, [0.0, 0.0, 1.0]));
+            return Some((weight(ORDER * way) * at.weight / at.length, [0.0, 0.0, 1.0]));
         }
         let Jumped { factors, speed, steep } = self.jumped(way, at)?;
         Some((self.scales[way] * steep * at.weight / (at.length * speed), factors))
@@ -326,12 +295,6 @@ impl Jumped {
     }
 }
 
-/// The energy of order 2, 3 or 4 with the metric of the surface as it is.
-#[must_use]
-pub fn true_energy(surface: &BsplineSurface<3>, order: usize, anisotropy: f64) -> SymmetricBand {
-    Metric::new(surface, order, anisotropy).energy(&Cells::new(surface), |_, _| 1.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::surface::energy;
@@ -339,13 +302,13 @@ mod tests {
     use crate::numeric::gauss_legendre;
     use crate::spline::KnotVector;
 
-    /// x = 100 u + skew v, z = 10 v, half-breadths from a function of (x, z) at the Greville points.
-    fn surface(degree: usize, skew: f64, y: impl Fn(f64, f64) -> f64) -> BsplineSurface<3> {
-        let (u, v) = (KnotVector::uniform(degree, 5).unwrap(), KnotVector::uniform(degree, 4).unwrap());
+    /// x = 100 u, z = 10 v, half-breadths from a function of (x, z) at the Greville points.
+    fn surface(y: impl Fn(f64, f64) -> f64) -> BsplineSurface<3> {
+        let (u, v) = (KnotVector::uniform(3, 5).unwrap(), KnotVector::uniform(3, 4).unwrap());
         let mut points = Vec::new();
         for s in u.greville() {
             for t in v.greville() {
-                let (x, z) = (100.0 * s + skew * t, 10.0 * t);
+                let (x, z) = (100.0 * s, 10.0 * t);
                 points.push([x, y(x, z), z]);
             }
         }
@@ -356,26 +319,22 @@ mod tests {
         surface.points().iter().map(|point| point[1]).collect()
     }
 
-    fn of(energy: &SymmetricBand, y: &[f64]) -> f64 {
-        energy.apply(y).iter().zip(y).map(|(e, y)| e * y).sum()
+    fn true_energy(surface: &BsplineSurface<3>) -> f64 {
+        Metric::new(surface).energy(&Cells::new(surface), |_, _| 1.0).quadratic(&half_breadths(surface))
     }
 
     #[test]
     fn small_slopes_give_the_parametric_energy() {
-        for (degree, order) in [(3, 2), (3, 3), (5, 4)] {
-            let flat = surface(degree, 0.0, |x, z| 1e-7 * ((0.31 * x).sin() + (0.9 * z + 0.05 * x).cos()));
-            let y = half_breadths(&flat);
-            let (parametric, exact) =
-                (of(&energy(flat.u(), flat.v(), order, 0.6), &y), of(&true_energy(&flat, order, 0.6), &y));
-            assert!((exact / parametric - 1.0).abs() < 1e-9, "order {order}: {exact:e} for {parametric:e}");
-        }
+        let flat = surface(|x, z| 1e-7 * ((0.31 * x).sin() + (0.9 * z + 0.05 * x).cos()));
+        let parametric = energy(flat.u(), flat.v(), 3, 0.6).quadratic(&half_breadths(&flat));
+        let exact = true_energy(&flat);
+        assert!((exact / parametric - 1.0).abs() < 1e-9, "{exact:e} for {parametric:e}");
     }
 
     /// Waterlines that bend by up to 45 degrees, the same at every height: int (dkappa/ds)^2 ds by its own formula.
     #[test]
     fn steep_waterlines_have_their_true_energy() {
-        let hull = surface(3, 0.0, |x, _| 30.0 * (0.03 * x).sin());
-        let y = half_breadths(&hull);
+        let hull = surface(|x, _| 30.0 * (0.03 * x).sin());
         let breaks = hull.u().breakpoints();
         let mut expected = 0.0;
         for piece in breaks.windows(2) {
@@ -389,7 +348,7 @@ mod tests {
         }
         // w^3 L^6 ds/L dz/H over H.
         let expected = expected * 0.6f64.powi(3) * 100f64.powi(5);
-        let found = of(&true_energy(&hull, 3, 0.6), &y);
+        let found = true_energy(&hull);
         assert!((found / expected - 1.0).abs() < 1e-10, "{found:e} for {expected:e}");
     }
 

@@ -10,7 +10,7 @@ use super::fair::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::model::Model;
 use super::smoothing::Smoother;
-use super::surface::{EnergySettings, FairSurface, energy as plain_energy};
+use super::surface::{ANISOTROPY, FairSurface, energy as plain_energy};
 use super::unbroken::{AT_KNOT, Along, Breaks, runs_on};
 use crate::hull::{self, FeatureLine, Hull, HullError, OffsetTable};
 use crate::spline::KnotVector;
@@ -173,7 +173,6 @@ pub fn proposals(
     table: &OffsetTable,
     hull: &Hull,
     lines: &[ProposedLine],
-    energy: EnergySettings,
     noise: f64,
     (accepted, breaks): (&Accepted, &Breaks),
 ) -> Result<Vec<Proposal>, FairError> {
@@ -182,11 +181,11 @@ pub fn proposals(
     }
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
     let of = |hull: &Hull, weight: Option<f64>, breaks: &Breaks| -> Result<[f64; 3], FairError> {
-        let surface = FairSurface::new(table, hull, energy, None, breaks)?;
+        let surface = FairSurface::new(table, hull, None, breaks)?;
         // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way
         // there.
         let net = surface.hull.surface();
-        let plain = plain_energy(net.u(), net.v(), surface.order, energy.anisotropy);
+        let plain = plain_energy(net.u(), net.v(), surface.order, ANISOTROPY);
         let smoother = Smoother::new(&Model { start: None, energy: plain, ..surface.model.clone() });
         let lambda = match weight {
             Some(weight) => weight / smoother.unit,

@@ -150,8 +150,7 @@ impl Started {
             // difference.
             let dear = gap > noise && !matches!(job.holding, Holding::Given(_));
             if dear || !modelled.follows(noise) || modelled.swings(&cleaned.clean) {
-                modelled.surface =
-                    FairSurface::new(&cleaned.clean, &modelled.start, job.energy, None, &modelled.breaks)?;
+                modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, None, &modelled.breaks)?;
                 (modelled.search, gap) = (None, 0.0);
             }
         }
@@ -257,7 +256,7 @@ impl Modelled {
         list.extend(&told);
         let mut breaks = declared_breaks(charted, before, &table.excluded);
         breaks.runs_on = job.runs_on;
-        let mut proposals = proposals(clean, before, &list, job.energy, noise, (&job.accepted, &breaks))?;
+        let mut proposals = proposals(clean, before, &list, noise, (&job.accepted, &breaks))?;
         for proposal in proposals.iter_mut().skip(found) {
             let ProposedLine { course, kind, at, .. } = proposal.line;
             if proposal.rms.is_none() {
@@ -291,7 +290,7 @@ impl Modelled {
         }
         let own = own && !job.rules.iter().any(|rule| rule.keeps_the_fit(before));
         let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
-        let surface = FairSurface::new(clean, &start, job.energy, own.then_some(least), &breaks)?;
+        let surface = FairSurface::new(clean, &start, own.then_some(least), &breaks)?;
         let search = surface.own.then(|| Search::new(&surface)).transpose()?;
         Ok((proposals, refitted, (start, breaks), surface, search))
     }

@@ -6,10 +6,10 @@
 //! which profiles, knuckles and flats are lines of the net already, and an energy that spares what bends sharply
 //! (`adapt`).
 //!
-//! On a net of its own the energy of order n is that over the unit square of the parameters,
+//! On a net of its own the energy of order n = 4 is that over the unit square of the parameters,
 //!
 //! ```text
-//! E = sum_a C(n, a) w_u^(n-a) w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv,   w_v = 1/w_u,
+//! E = sum_a C(n, a) w_u^(n-a) w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv,   w_u = 0.6, w_v = 1/w_u,
 //! ```
 //!
 //! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across
@@ -24,7 +24,7 @@ use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
 use crate::numeric::SymmetricBand;
-use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, MAX_DEGREE, add_product};
+use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, add_product};
 pub use crate::spline::{basis_row, energy};
 
 /// Half-breadths below this part of B are on the centreplane.
@@ -44,20 +44,12 @@ const DOUBTFUL: f64 = 0.01;
 /// they are the edges.
 const BESIDE: f64 = 1e-3;
 
-/// Which energy.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EnergySettings {
-    /// Order n of the derivatives: 2, 3 or 4; none takes 4 on quintic nets and 3 on cubic ones.
-    pub order: Option<usize>,
-    /// w_u; w_v is its inverse. 1 treats both directions alike.
-    pub anisotropy: f64,
-}
+/// w_u, the weight of bending along the ship; w_v is its inverse.
+pub(super) const ANISOTROPY: f64 = 0.6;
 
-impl Default for EnergySettings {
-    fn default() -> Self {
-        Self { order: None, anisotropy: 0.6 }
-    }
-}
+/// Order of the energy on a net of its own, where that has the degree for it, and on the net of a fit.
+const OWN_ORDER: usize = 4;
+const FIT_ORDER: usize = 3;
 
 /// Where a reading comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,8 +137,6 @@ pub struct FairSurface {
     unbroken: Option<Unbroken>,
     /// Order of the energy.
     pub order: usize,
-    /// w_u of the energy.
-    pub anisotropy: f64,
     /// Whether the net is one of its own, not that of the fit.
     pub own: bool,
     /// Whether the fit that a net of its own replaces breaks along no lines but those declared.
@@ -319,13 +309,7 @@ impl FairSurface {
     ///
     /// # Errors
     /// [`HullError`] when the net makes no hull.
-    pub fn new(
-        table: &OffsetTable,
-        fitted: &Hull,
-        settings: EnergySettings,
-        own: Option<f64>,
-        breaks: &Breaks,
-    ) -> Result<Self, HullError> {
+    pub fn new(table: &OffsetTable, fitted: &Hull, own: Option<f64>, breaks: &Breaks) -> Result<Self, HullError> {
         let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
         let smooth = over.is_some();
         let mut courses = [Course::default(), Course::default()];
@@ -341,8 +325,8 @@ impl FairSurface {
         }
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
         let surface = hull.surface();
-        let order = settings.order.unwrap_or(if smooth { 4 } else { 3 });
-        let order = order.clamp(2, surface.u().degree().max(surface.v().degree()).min(MAX_DEGREE));
+        let degree = surface.u().degree().max(surface.v().degree());
+        let order = if smooth { OWN_ORDER.min(degree) } else { FIT_ORDER };
         let (mut readings, places) = readings(table, &hull);
         let known = known(fitted, &hull, smooth);
         for reading in &mut readings {
@@ -357,10 +341,9 @@ impl FairSurface {
         let plain = is_plain(&hull);
         let mut straight = straightness(surface, &courses);
         let (unbroken, energy) = if smooth {
-            (None, energy(u, v, order, settings.anisotropy))
+            (None, energy(u, v, order, ANISOTROPY))
         } else {
-            let level = hull.is_level();
-            let metric = if level { Metric::new } else { Metric::parametric }(surface, order, settings.anisotropy);
+            let metric = if hull.is_level() { Metric::new } else { Metric::parametric }(surface);
             let cells = Cells::new(surface);
             let unbroken = Unbroken::new(&cells, &metric, breaks);
             let energy = Spared::new(&cells, &metric, &unbroken).energy(&cells, &metric);
@@ -382,7 +365,6 @@ impl FairSurface {
             start,
             unbroken,
             order,
-            anisotropy: settings.anisotropy,
             plain,
             own: smooth,
             is_field: false,
@@ -393,7 +375,7 @@ impl FairSurface {
     }
 
     /// A field over the chart of its hull.
-    pub(super) fn over(hull: Hull, model: Model, places: Vec<Place>, start: Vec<f64>, anisotropy: f64) -> Self {
+    pub(super) fn over(hull: Hull, model: Model, places: Vec<Place>, start: Vec<f64>) -> Self {
         Self {
             plain: is_plain(&hull),
             hull,
@@ -402,7 +384,6 @@ impl FairSurface {
             start,
             unbroken: None,
             order: super::field::net::ORDER,
-            anisotropy,
             own: false,
             simple: true,
             courses: [Course::default(), Course::default()],

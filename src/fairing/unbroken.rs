@@ -143,7 +143,7 @@ fn reach(way: usize, points: &[[f64; 3]; 6]) -> [f64; 2] {
 /// Whether a line of the net of a surface (along the ship, `way` 0, or up, 1) lets the curvature jump where, somewhere
 /// along it, it does not.
 pub(super) fn runs_on(surface: &BsplineSurface<3>, way: usize, at: f64) -> bool {
-    let (cells, metric) = (Cells::new(surface), Metric::new(surface, 3, 1.0));
+    let (cells, metric) = (Cells::new(surface), Metric::new(surface));
     let unbroken = Unbroken::new(&cells, &metric, &Breaks::default());
     let mut lines = cells.jumps(way).iter().zip(&unbroken.spans[way]);
     lines.any(|(jump, spans)| (jump.at - at).abs() <= AT_KNOT && spans.contains(&true))
@@ -170,7 +170,7 @@ impl Unbroken {
     /// The spans across which a surface has no jump of curvature, but for where it may have one.
     pub(super) fn new(cells: &Cells<'_>, metric: &Metric, breaks: &Breaks) -> Self {
         let nil = NIL * cells.greatest_half_breadth();
-        let exact = Metric::new(cells.surface(), 3, 1.0);
+        let exact = Metric::new(cells.surface());
         let smooth = |metric: &Metric, way: usize, jump: &Jump, e: usize| {
             let departs = |at: Crossing<'_>| {
                 metric.jumped(way, &at).map(|jumped| (jumped.departure(&at) * at.value(jumped.factors)).abs())
@@ -276,7 +276,7 @@ impl Unbroken {
     /// no line is declared, or where a knuckle has ended \[1/m\]; none where there is no such place.
     pub(super) fn greatest(&self, surface: &BsplineSurface<3>) -> Option<f64> {
         let mut most = None;
-        each(&self.own, &Cells::new(surface), &Metric::new(surface, 3, 1.0), |at, jumped| {
+        each(&self.own, &Cells::new(surface), &Metric::new(surface), |at, jumped| {
             most = Some(at.value(jumped.factors).abs().max(most.unwrap_or(0.0)));
         });
         each_fold(&self.own_curvatures, &Cells::new(surface), |sides, folded| {
@@ -350,11 +350,11 @@ mod tests {
     }
 
     fn unbroken(surface: &BsplineSurface<3>, breaks: &Breaks) -> Unbroken {
-        Unbroken::new(&Cells::new(surface), &Metric::new(surface, 3, 1.0), breaks)
+        Unbroken::new(&Cells::new(surface), &Metric::new(surface), breaks)
     }
 
     fn form(unbroken: &Unbroken, surface: &BsplineSurface<3>) -> Option<SymmetricBand> {
-        unbroken.form(&Cells::new(surface), &Metric::new(surface, 3, 1.0))
+        unbroken.form(&Cells::new(surface), &Metric::new(surface))
     }
 
     /// y = v^3 runs on through the double knot; max(v - 1, 0)^2 added to it jumps by d^2y/dz^2 = 2 / 25 times its size.
