@@ -28,7 +28,7 @@ use crate::numeric::SymmetricBand;
 use crate::spline::{BsplineSurface, binomial};
 
 /// Order of the energy: the highest derivative of y.
-const ORDER: usize = 3;
+pub(super) const ORDER: usize = 3;
 
 /// Rate of the other parameter below which a line is one of the net.
 const SKEW: f64 = 1e-9;

@@ -19,7 +19,7 @@ use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
-use super::metric::Metric;
+use super::metric::{self, Metric};
 use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
 use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
@@ -47,9 +47,8 @@ const BESIDE: f64 = 1e-3;
 /// w_u, the weight of bending along the ship; w_v is its inverse.
 pub(super) const ANISOTROPY: f64 = 0.6;
 
-/// Order of the energy on a net of its own, where that has the degree for it, and on the net of a fit.
+/// Order of the energy on a net of its own that has the degree for it.
 const OWN_ORDER: usize = 4;
-const FIT_ORDER: usize = 3;
 
 /// Where a reading comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -326,7 +325,7 @@ impl FairSurface {
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
         let surface = hull.surface();
         let degree = surface.u().degree().max(surface.v().degree());
-        let order = if smooth { OWN_ORDER.min(degree) } else { FIT_ORDER };
+        let order = if smooth { OWN_ORDER.min(degree) } else { metric::ORDER };
         let (mut readings, places) = readings(table, &hull);
         let known = known(fitted, &hull, smooth);
         for reading in &mut readings {
