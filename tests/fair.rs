@@ -665,16 +665,22 @@ fn unknown_offsets_are_predicted() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
-/// Single lines that bend more often are warned of on stderr.
+/// Lines that bend more often, single ones or all together, are warned of on stderr.
 #[test]
 fn what_is_not_what_was_hoped_for_is_warned_of() {
     let folder = folder("hoped");
     let out = folder.join("out").display().to_string();
     let yacht = carried(YACHT).display().to_string();
-    let output = program(&["fair", &yacht, "-o", &out, "--no-figures", "--fairness", "0"]);
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(0), "{said}");
+    let warned = |targets: &[&str]| {
+        let options = ["-o", &out, "--force", "--no-figures", "--fairness", "0"];
+        let output = program(&[&["fair", &yacht][..], &options, targets].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let said = warned(&[]);
     assert!(said.contains("W402") && said.contains("waterline 0.900 m 5 > 6"), "{said}");
+    let said = warned(&["--displacement", "13.08 m3"]);
+    assert!(said.contains("W401") && said.contains("the targets are met by adding inflections: 25 > "), "{said}");
 }
 
 /// x of the yacht counts from near midship, and nothing says where AP is.
