@@ -117,7 +117,7 @@ pub enum FairError {
     /// Rules that name what the surface does not have: index of the rule, and why.
     #[error("{}", .0.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("; "))]
     Rules(Vec<(usize, String)>),
-    /// A net with an accepted line makes no hull.
+    /// A net makes no hull.
     #[error(transparent)]
     Hull(#[from] HullError),
 }

@@ -1,5 +1,5 @@
-//! What is wished of a table of offsets, and why it may not be faired: energy, what is held, rules, tolerances. How it
-//! is done: `ways` and `run`; what it comes to: [`super::outcome`].
+//! What is wished of a table of offsets, and why it may not be faired: smoothing, what is held, rules, tolerances. How
+//! it is done: `ways` and `run`; what it comes to: [`super::outcome`].
 
 use super::constraint::{Constraint, Rule};
 use super::fair::{FairError, PRICE};
