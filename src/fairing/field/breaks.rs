@@ -2,7 +2,8 @@
 //!
 //! The score test ([`Observed::scores`]) says where a break is likely: between any two waterlines, with a jump that is a
 //! polynomial along the ship. The likeliest is tried in the net, moved to where it is likeliest, and given the charge that
-//! is. It is taken where -2 log l falls by more than 24; then the next is looked for. Sections x = constant are no
+//! is. It is taken where -2 log l falls by more than 24, unless the field with it passes the centreplane between offsets:
+//! on a fishing vessel one did so by 60 mm, where the keel is narrow. Then the next is looked for. Sections x = constant are no
 //! candidates: a middle body ends at another place at every height. With them the error of 53 random tables was 2 % more
 //! in the geometric mean; breaks of waterlines alone make it 9 % less.
 
@@ -10,6 +11,7 @@ use super::chart::Chart;
 use super::choice::Chosen;
 use super::likelihood::{Cell, Observed, Roughness, smoothed};
 use super::net::{Break, Net};
+use super::region::Field;
 use std::collections::BTreeSet;
 
 /// Least gain in -2 log l of a break. Those of less made as many tables worse as better.
@@ -17,6 +19,9 @@ const GAIN: f64 = 24.0;
 
 /// Least score of a break that is tried.
 const SCORE: f64 = 25.0;
+
+/// Noise levels by which a field with a break may pass the centreplane between offsets.
+const DEPTH: f64 = 3.0;
 
 /// Most breaks.
 const MOST: usize = 6;
@@ -77,13 +82,26 @@ pub fn broken(
         let Some((_, exponent, line)) = best else { break };
         let Some((tried, found, line)) = trial.refined(line, exponent) else { break };
         let gain = chosen.field.cost - found.field.cost;
-        if gain < GAIN {
+        if gain < GAIN || depth(&tried, &found, cells) > depth(&net, &chosen, cells).max(DEPTH * found.field.sigma) {
             break;
         }
         lines.push(FoundBreak { z: chart.z(line.at), gain });
         (net, chosen) = (tried, found);
     }
     (net, chosen, lines)
+}
+
+/// How far the field passes the centreplane between two offsets with breadth of a station \[m\].
+fn depth(net: &Net, chosen: &Chosen, cells: &[Cell]) -> f64 {
+    let Ok(field) = Field::new(chosen.chart, net, &chosen.field.values) else { return f64::INFINITY };
+    let mut wide: Vec<&Cell> = cells.iter().filter(|cell| cell.y > 0.0).collect();
+    wide.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.z.total_cmp(&b.z)));
+    let pairs = wide.windows(2).filter(|pair| pair[0].x.total_cmp(&pair[1].x).is_eq());
+    let between = pairs.flat_map(|pair| {
+        let (u, [low, high]) = (chosen.chart.u(pair[0].x), [0, 1].map(|k| chosen.chart.v(pair[k].z)));
+        (1..PLACES).map(move |k| [u, low + (high - low) * k as f64 / PLACES as f64])
+    });
+    between.map(|at| -field.at(at)).fold(0.0, f64::max)
 }
 
 /// A break beside those that are known.
