@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use loftsman::fairing::inspect::{Findings, Inspection, Local, Planes, Profile, Resolution, SurfaceMap, kind};
+use loftsman::fairing::inspect::{
+    Counts, Findings, Inspection, Local, Planes, Profile, Resolution, SurfaceMap, gaussian_regions, kind,
+};
 use loftsman::hull::{Cut, Hull, PrincipalParticulars};
 use loftsman::parametric::analytic::{self, Dimensions};
 use loftsman::parametric::cosh::{self, DesignTargets, MidshipTarget};
@@ -87,6 +89,63 @@ fn an_ellipse_has_four_extrema() {
         .sum();
     let found = findings(&even(0.0, 2.0 * PI, 24), true, 1e-3, ellipse);
     assert!((found.variation - fine).abs() < 1e-7 * fine, "{} {fine}", found.variation);
+}
+
+/// Monotone pieces of curvature, total variation over its range: an arc of a circle, parts of an ellipse, a sine.
+#[test]
+fn monotone_pieces_of_curves_in_closed_form() {
+    let count = |ends: &[f64], local: &dyn Fn(f64) -> Local| {
+        let spans: Vec<[f64; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        Counts::of(&[Profile::sample(&spans, false, |t| Some(local(t))).expect("a curve")], 1e-3)
+    };
+    let ellipse = |a: f64, b: f64| {
+        move |t: f64| {
+            let w = (a * t.sin()).powi(2) + (b * t.cos()).powi(2);
+            Local {
+                point: [a * t.cos(), b * t.sin()],
+                velocity: [-a * t.sin(), b * t.cos()],
+                curvature: a * b / w.powf(1.5),
+                slope: -3.0 * a * b * (a * a - b * b) * t.sin() * t.cos() / w.powi(3),
+            }
+        }
+    };
+    let arc = count(&even(0.0, 2.0, 3), &ellipse(3.0, 3.0));
+    assert_eq!((arc.inflections, arc.pieces, arc.variation), (0, 1, None));
+    for (to, pieces) in [(0.5 * PI, 1), (PI, 2), (1.5 * PI, 3)] {
+        let part = count(&even(0.0, to, 9), &ellipse(5.0, 2.0));
+        assert_eq!((part.inflections, part.pieces), (0, pieces), "{to}");
+        assert!((part.variation.unwrap() - pieces as f64).abs() < 1e-6, "{part:?}");
+    }
+    // Half waves of 6 m that depart by 10 mm, from crest to crest; with ripples of 2 um, 40 to a half wave.
+    let (wave, amplitude) = (PI / 6.0, 0.01);
+    for n in 1..8 {
+        let ends = even(0.0, 6.0 * f64::from(n), 8 * n as usize);
+        let sine = |x: f64, a: f64, w: f64| {
+            let (s, c) = (w * x).sin_cos();
+            [a * c, -a * w * s, -a * w * w * c, a * w.powi(3) * s]
+        };
+        let plain = count(&ends, &|x| graph(x, sine(x, amplitude, wave)));
+        let rough = count(&even(0.0, 6.0 * f64::from(n), 40 * n as usize), &|x| {
+            let (a, b) = (sine(x, amplitude, wave), sine(x, 2e-6, 40.0 * wave));
+            graph(x, [0, 1, 2, 3].map(|k| a[k] + b[k]))
+        });
+        assert_eq!((plain.inflections, plain.pieces), (n as usize, n as usize));
+        assert_eq!((rough.inflections, rough.pieces), (n as usize, n as usize));
+        assert!((plain.variation.unwrap() - f64::from(n)).abs() < 1e-3, "{plain:?}");
+        assert!(rough.variation.unwrap() > 3.0 * f64::from(n), "{rough:?}");
+    }
+}
+
+/// Ellipsoids are synclastic; Wigley's y = (B/2)(1 - s^2)(1 - w^2) has the sign of (1 - s^2)(1 - w^2) - 4 s^2 w^2, which
+/// turns toward both ends of the keel; a box is developable.
+#[test]
+fn regions_of_gaussian_curvature_in_closed_form() {
+    let ellipsoid = analytic::ellipsoid("ellipsoid", &dimensions(40.0, 10.0, 4.0)).unwrap().hull;
+    let wigley = analytic::wigley("Wigley", &dimensions(100.0, 10.0, 6.25)).unwrap().hull;
+    let block = analytic::rectangular_box("box", &dimensions(40.0, 8.0, 5.0)).unwrap().hull;
+    let count = |hull: &Hull| gaussian_regions(hull, 2e-3);
+    assert_eq!([count(&ellipsoid), count(&wigley), count(&block)], [1, 3, 0]);
+    assert_eq!(gaussian_regions(&wigley, 1e3), 0);
 }
 
 #[test]

@@ -54,7 +54,7 @@ pub struct Predicted {
     pub half_breadth: f64,
 }
 
-/// Inflections of one curve.
+/// Inflections and monotone pieces of one curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turns {
     /// The plane that cuts it.
@@ -66,6 +66,24 @@ pub struct Turns {
     /// The least number of inflections of any curve within the tolerances of the offsets, and whether that is proved;
     /// none on lines that the table does not have.
     pub minimum: Option<(usize, bool)>,
+    /// Monotone pieces of curvature before and after.
+    pub pieces: [usize; 2],
+    /// Total variation of curvature over its range before and after \[-\]; none on straight lines.
+    pub variation: [Option<f64>; 2],
+}
+
+impl Turns {
+    /// The least number of monotone pieces, max(1, m) of the least number m of inflections; none where that is not known.
+    ///
+    /// Between two successive zeros of curvature it has an extremum (Rolle): m inflections have m - 1 turning points
+    /// between them, which part m pieces; without inflections there is one. The number rests on the least number of
+    /// inflections, and is proved where that is. It says nothing of curves within the tolerances whose curvature has
+    /// few zeros and must turn all the same.
+    #[must_use]
+    pub fn least_pieces(&self) -> Option<usize> {
+        // Of a hump that just counts the swings beside it may not.
+        self.minimum.map(|(least, _)| least.max(1).min(self.pieces[1]))
+    }
 }
 
 /// What a job comes to.
@@ -89,6 +107,8 @@ pub struct Outcome {
     pub held: Vec<Held>,
     /// Rules for lines and regions.
     pub rules: Vec<HeldRule>,
+    /// Regions of one sign of Gaussian curvature before and after.
+    pub regions: [usize; 2],
     /// Curves of the table's stations and waterlines, of buttocks and of diagonals, which were never used.
     pub turns: Vec<Turns>,
     /// Knuckles and tangent lines that the table has and does not declare.
@@ -193,19 +213,51 @@ impl Outcome {
     /// The least number of them within the tolerances, the sum over the lines; none where that of a line is not known.
     #[must_use]
     pub fn least_changes_of_sign(&self) -> Option<usize> {
-        let lines = self.turns.iter().filter(|turns| matches!(kind(&turns.cut), "station" | "waterline"));
-        lines.map(|turns| turns.minimum.map(|(least, _)| least)).sum()
+        self.table_lines().map(|turns| turns.minimum.map(|(least, _)| least)).sum()
     }
 
-    /// Whether stations and waterlines have more changes of sign than before, or from the default grade of fairness on as
-    /// many where they are far above the least. Of the surface through the table nobody asks for less.
+    /// Stations and waterlines.
+    fn table_lines(&self) -> impl Iterator<Item = &Turns> {
+        self.turns.iter().filter(|turns| matches!(kind(&turns.cut), "station" | "waterline"))
+    }
+
+    /// Monotone pieces of curvature on all stations and waterlines before and after.
+    #[must_use]
+    pub fn monotone_pieces(&self) -> [usize; 2] {
+        [0, 1].map(|side| self.table_lines().map(|turns| turns.pieces[side]).sum())
+    }
+
+    /// The least number of them, the sum of [`Turns::least_pieces`]; none where that of a line is not known.
+    #[must_use]
+    pub fn least_monotone_pieces(&self) -> Option<usize> {
+        self.table_lines().map(Turns::least_pieces).sum()
+    }
+
+    /// Total variation of curvature over its range before and after \[-\], the median of the stations and waterlines that
+    /// have both; none where none has.
+    #[must_use]
+    pub fn variation(&self) -> Option<[f64; 2]> {
+        let pairs = self.table_lines().filter_map(|turns| Some([turns.variation[0]?, turns.variation[1]?]));
+        let pairs: Vec<[f64; 2]> = pairs.collect();
+        let median = |side: usize| {
+            let mut all: Vec<f64> = pairs.iter().map(|pair| pair[side]).collect();
+            all.sort_by(f64::total_cmp);
+            Some(0.5 * (all.get((all.len().max(1) - 1) / 2)? + all.get(all.len() / 2)?))
+        };
+        Some([median(0)?, median(1)?])
+    }
+
+    /// Whether stations and waterlines have more changes of sign or more monotone pieces than before, or from the default
+    /// grade of fairness on no fewer changes of sign where they are far above the least. Of the surface through the
+    /// table nobody asks for less.
     #[must_use]
     pub fn is_no_fairer(&self) -> bool {
         let [before, after] = self.changes_of_sign();
+        let [pieces, pieces_after] = self.monotone_pieces();
         let far = |least: usize| after as f64 > FAR_ABOVE[0] * least as f64 + FAR_ABOVE[1];
         let promised = self.fairness.promises_a_fairer_hull();
-        !self.fairness.is_raw()
-            && (after > before || promised && after == before && self.least_changes_of_sign().is_some_and(far))
+        let stalled = promised && after == before && self.least_changes_of_sign().is_some_and(far);
+        !self.fairness.is_raw() && (after > before || pieces_after > pieces || stalled)
     }
 
     /// How many targets the surface through the table is off by more than a part of their scale.

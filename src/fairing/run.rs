@@ -8,7 +8,7 @@ use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
 use super::flats::shown_flat;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
-use super::inspect::{ON_CHORD, net_signs};
+use super::inspect::{ON_CHORD, gaussian_regions, net_signs};
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
 use super::lobes::Lobes;
@@ -309,7 +309,10 @@ impl<'a> Run<'a> {
             ));
         }
         let Self { surface, settings, before, .. } = self;
+        let seen = settings.seen;
+        let regions = join(|| gaussian_regions(&before, seen), || gaussian_regions(&after, seen));
         Ok(Outcome {
+            regions: [regions.0, regions.1],
             proposals: self.proposals,
             signs: [&before, &after].map(|hull| net_signs(hull.surface(), ON_CHORD * settings.seen)),
             status: if let Some(found) = &faired.diagnosis {

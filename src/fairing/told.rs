@@ -1,6 +1,6 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
-use super::inspect::{Planes, Traced};
+use super::inspect::{Counts, Planes, Traced};
 use super::outcome::{Change, Predicted, Turns};
 use super::surface::{FairSurface, Origin};
 use crate::hull::{Cell, Cut, Entry, Hull, OffsetTable, default_waterlines};
@@ -127,26 +127,33 @@ impl Watched {
         Self { planes, before }
     }
 
-    /// The inflections before; `tolerance` is the departure that can just be seen \[m\].
+    /// What counts before; `tolerance` is the departure that can just be seen \[m\].
     pub(super) fn counted(self, tolerance: f64) -> Counted {
-        Counted { before: self.before.inflections(tolerance), planes: self.planes, tolerance }
+        Counted { before: self.before.counts(tolerance), planes: self.planes, tolerance }
     }
 }
 
-/// Lines with their inflections before.
+/// Lines with what counts before.
 pub(super) struct Counted {
     planes: Planes,
-    before: Vec<(Cut, usize)>,
+    before: Vec<(Cut, Counts)>,
     tolerance: f64,
 }
 
 impl Counted {
-    /// Inflections before and after.
+    /// Inflections and monotone pieces before and after.
     pub(super) fn turns(&self, after: &Hull) -> Vec<Turns> {
-        let new = Traced::new(after, &self.planes).inflections(self.tolerance);
+        let new = Traced::new(after, &self.planes).counts(self.tolerance);
         let cuts = self.before.iter().filter_map(|&(cut, before)| {
             let after = new.iter().find(|(other, _)| *other == cut)?.1;
-            Some(Turns { cut, before, after, minimum: None })
+            Some(Turns {
+                cut,
+                before: before.inflections,
+                after: after.inflections,
+                minimum: None,
+                pieces: [before.pieces, after.pieces],
+                variation: [before.variation, after.variation],
+            })
         });
         cuts.collect()
     }

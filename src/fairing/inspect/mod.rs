@@ -20,15 +20,18 @@ mod comb;
 mod contour;
 mod curvature;
 mod map;
+mod pieces;
 mod polygon;
 mod profile;
+mod regions;
 mod stations;
 
 pub use comb::{Comb, Tooth, combs};
 pub use curvature::{CurvatureAt, CurvatureRange, SurfaceMeasures};
 pub use map::{KnotLine, MapBreak, MapPoint, SurfaceMap};
 pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, net_signs, polygon_signs};
-pub use profile::{Findings, Local, Place, Profile, Stretch};
+pub use profile::{Counts, Findings, Local, Place, Profile, Stretch};
+pub use regions::gaussian_regions;
 
 use crate::hull::{Cut, Face, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
 use contour::{Breadth, Locator, Trace};
@@ -212,11 +215,10 @@ impl Traced {
         Self(list.filter(|(_, profiles): &(Cut, Vec<Profile>)| !profiles.is_empty()).collect())
     }
 
-    /// Inflections of each plane; `tolerance` is the departure that can just be seen \[m\].
+    /// What counts on each plane; `band` is the height from which a bump does \[m\].
     #[must_use]
-    pub fn inflections(&self, tolerance: f64) -> Vec<(Cut, usize)> {
-        let count = |profiles: &[Profile]| profiles.iter().map(|profile| profile.inflection_count(tolerance)).sum();
-        self.0.iter().map(|(cut, profiles)| (*cut, count(profiles))).collect()
+    pub fn counts(&self, band: f64) -> Vec<(Cut, Counts)> {
+        self.0.iter().map(|(cut, profiles)| (*cut, Counts::of(profiles, band))).collect()
     }
 }
 

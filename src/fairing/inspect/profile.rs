@@ -10,15 +10,15 @@
 //!   of the stretch (kappa l^2 / 8 for constant kappa: kappa integrated twice). While some lobe departs by less than
 //!   the tolerance, the least of them is given to its neighbours, which become one; an **inflection** is a border
 //!   between the lobes that remain.
-//! * A **curvature extremum** counts when the ripple that it stands for can be seen: with the smaller difference A to the
-//!   extrema beside it and their distance w, A w^2 / (4 pi^2) is the height from crest to trough of the sine wave with
-//!   that curvature. Lesser ones are removed, the least first.
+//! * A **curvature extremum** is a turning point between two monotone pieces of curvature whose swings count (`pieces.rs`).
 //! * A **flat** is a stretch of at least 5 % of the length of the curve that departs by at most the tolerance and in
 //!   which |kappa| stays below 1/8 of its mean over the curve, or below a lower bound, halved until that is so. An
 //!   inflection inside a flat stands in its middle.
 //! * A **knuckle** is a turn of the tangent by more than half a degree at one point. It splits the curve.
 
 use std::f64::consts::PI;
+
+use super::pieces::{height, total_variation, turning_points};
 
 /// Points to a piece.
 const NODES: usize = 13;
@@ -86,6 +86,43 @@ pub struct Findings {
     pub flats: Vec<Stretch>,
     /// Knuckles.
     pub knuckles: Vec<Place>,
+}
+
+/// How fair the curves of a plane are, counted.
+///
+/// Knuckles split a curve: what is counted is counted between them, and added. A bump counts from a band \[m\] on, the
+/// same for all: for inflections the depth of a lobe from its chord, for monotone pieces the height |dk| l^2 / pi^2 of a
+/// swing of curvature dk \[1/m\] between turning points an arc length l \[m\] apart, merged the least first (Farin and
+/// Sapidis 1989, "Curvature and the fairness of curves and surfaces").
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Counts {
+    /// Inflections: changes of the sign of curvature.
+    pub inflections: usize,
+    /// Monotone pieces of the signed curvature kappa(s), one at least.
+    pub pieces: usize,
+    /// Total variation of curvature over its range, int |d kappa| / (max kappa - min kappa) \[-\]: 1 where it is monotone, n
+    /// for n equal swings. None where no swing of that range along the whole curve would count.
+    pub variation: Option<f64>,
+}
+
+impl Counts {
+    /// Of the curves in which a plane cuts a hull; `band` is the height from which a bump counts \[m\].
+    #[must_use]
+    pub fn of(curves: &[Profile], band: f64) -> Self {
+        let (mut inflections, mut pieces, mut total, mut length) = (0, 0, 0.0, 0.0);
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for run in curves.iter().flat_map(|curve| curve.runs().0) {
+            let course = course(&run);
+            inflections += inflections_of(&run, band).len();
+            pieces += turning_points(&course, band).len() - 1;
+            total += total_variation(&course);
+            length += run[run.len() - 1].s - run[0].s;
+            range = course.iter().fold(range, |[low, high], point| [low.min(point.1), high.max(point.1)]);
+        }
+        let change = range[1] - range[0];
+        let variation = (change > 0.0 && height(change, length) >= band).then(|| total / change);
+        Self { inflections, pieces: pieces.max(1), variation }
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -280,12 +317,6 @@ impl Profile {
         }
     }
 
-    /// Number of inflections; `tolerance` is the departure that can just be seen \[m\].
-    #[must_use]
-    pub fn inflection_count(&self, tolerance: f64) -> usize {
-        self.runs().0.iter().map(|run| inflections_of(run, tolerance).len()).sum()
-    }
-
     /// The parts between knuckles, and the knuckles. A closed curve without knuckles starts at its largest curvature.
     fn runs(&self) -> (Vec<Vec<Node>>, Vec<Place>) {
         let mut runs: Vec<Vec<Node>> = vec![Vec::new()];
@@ -417,56 +448,8 @@ fn inflections_of(run: &[Node], tolerance: f64) -> Vec<f64> {
     lobes.iter().skip(1).map(|lobe| lobe.from).collect()
 }
 
-/// Places and values where the curvature turns, cyclic when the curve is closed: `around` is its length then.
-struct Swings {
-    points: Vec<(f64, f64)>,
-    around: Option<f64>,
-}
-
-impl Swings {
-    /// Neighbours of a point; none at the ends of an open curve. The place of a neighbour across the start of a closed
-    /// curve is that of the next or the last round.
-    fn beside(&self, k: usize) -> Option<[(f64, f64); 2]> {
-        let (n, p) = (self.points.len(), &self.points);
-        match self.around {
-            Some(length) if n > 1 => {
-                let (before, after) = (p[(k + n - 1) % n], p[(k + 1) % n]);
-                let before = if k == 0 { (before.0 - length, before.1) } else { before };
-                let after = if k + 1 == n { (after.0 + length, after.1) } else { after };
-                Some([before, after])
-            }
-            None if k > 0 && k + 1 < n => Some([p[k - 1], p[k + 1]]),
-            _ => None,
-        }
-    }
-
-    /// Keeps the points where the direction changes.
-    fn turns(&mut self) {
-        loop {
-            let idle = |k: usize| {
-                let here = self.points[k].1;
-                self.beside(k).is_some_and(|[before, after]| (here - before.1) * (after.1 - here) >= 0.0)
-            };
-            // From the end, so that what follows keeps its place; neighbours are not dropped together.
-            let mut kept: Vec<(f64, f64)> = Vec::with_capacity(self.points.len());
-            let mut dropped = false;
-            for k in 0..self.points.len() {
-                let drop = !dropped && idle(k);
-                if !drop {
-                    kept.push(self.points[k]);
-                }
-                dropped = drop;
-            }
-            if kept.len() == self.points.len() {
-                return;
-            }
-            self.points = kept;
-        }
-    }
-}
-
-fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
-    // Every node, and the extrema of the cubics between them.
+/// Arc length and curvature along a run: its nodes, and the extrema of the cubics between them.
+fn course(run: &[Node]) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = vec![(run[0].s, run[0].curvature)];
     for pair in run.windows(2) {
         let h = pair[1].s - pair[0].s;
@@ -477,30 +460,21 @@ fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
         }
         points.push((pair[1].s, pair[1].curvature));
     }
-    let around = closed.then(|| run[run.len() - 1].s - run[0].s);
-    if closed {
-        // The last point is the first one again.
-        points.pop();
+    points
+}
+
+/// Where the curvature of a run turns; a closed one starts near its largest curvature, where it turns if it does
+/// anywhere.
+fn extrema_of(run: &[Node], tolerance: f64, closed: bool) -> Vec<f64> {
+    let course = course(run);
+    let turns = turning_points(&course, tolerance);
+    let mut found: Vec<f64> = turns[1..turns.len() - 1].iter().map(|&turn| course[turn].0).collect();
+    // Once round a curve there are as many maxima as minima.
+    if closed && found.len() % 2 == 1 {
+        let ends = [turns[0], turns[turns.len() - 1]].map(|turn| course[turn]);
+        found.push(if ends[0].1.abs() > ends[1].1.abs() { ends[0].0 } else { ends[1].0 });
     }
-    let mut swings = Swings { points, around };
-    loop {
-        swings.turns();
-        let mut least: Option<(usize, f64)> = None;
-        for k in 0..swings.points.len() {
-            let Some([before, after]) = swings.beside(k) else { continue };
-            let here = swings.points[k].1;
-            let step = (here - before.1).abs().min((here - after.1).abs());
-            let height = step * ((after.0 - before.0) / (2.0 * PI)).powi(2);
-            if height < tolerance && least.is_none_or(|(_, h)| height < h) {
-                least = Some((k, height));
-            }
-        }
-        // Without the least swing its nearer neighbour is no turn either.
-        let Some((k, _)) = least else { break };
-        swings.points.remove(k);
-    }
-    let inner = (0..swings.points.len()).filter(|&k| swings.beside(k).is_some());
-    inner.map(|k| swings.points[k].0).collect()
+    found
 }
 
 /// Maximal stretches of a run with |kappa| at most `bound`; those that bend too much are searched again with half the
