@@ -7,7 +7,8 @@ use std::process::Stdio;
 use loftsman::exchange::read_table;
 use loftsman::fairing::outcome::Turns;
 use loftsman::hull::{Cut, Hull};
-use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, read_fair, read_source};
+use loftsman::fairing::strength::Fairness;
+use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, fair_summary, read_fair, read_source};
 use serde_json::Value;
 
 use crate::random::Random;
@@ -98,8 +99,11 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     let output = program(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let page = stdout(&output);
-    assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
-    assert!(page.starts_with("Fairer: ") && page.contains("changes of sign of curvature"), "{page}");
+    let (first, rest) = page.split_once('\n').unwrap();
+    assert!(rest.lines().all(|line| line.chars().count() <= 100) && rest.lines().count() <= 8, "{page}");
+    let parts = ["Fairer: ", " changes of sign (least ", " monotone pieces, moves ", " mm RMS, displacement, LCB and C_M kept."];
+    assert!(first.starts_with(parts[0]) && parts.iter().all(|part| first.contains(part)), "{page}");
+    assert!(rest.contains("Lpp 121.920 m") && rest.contains("kept within") && rest.contains("--verbose"), "{page}");
     let names = names_in(&out);
     let expected = [
         "changes.csv",
@@ -126,6 +130,23 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         number(&certificate["certificate"][key]);
     }
     assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-9);
+    // What fair means, line by line and together.
+    let lines = ["stations", "waterlines"].map(|kind| certificate["inflections"][kind].as_array().unwrap().clone());
+    let sum = |of: &str| lines.iter().flatten().map(|line| number(&line["pieces"][of]) as u64).sum::<u64>();
+    let fair = &certificate["fair"];
+    for of in ["before", "after", "least"] {
+        assert_eq!(fair["monotone_pieces"][of].as_u64(), Some(sum(of)), "{of}");
+    }
+    assert!(sum("least") <= sum("after") && sum("after") < sum("before"), "{fair}");
+    for line in lines.iter().flatten() {
+        let [pieces, least] = ["after", "least"].map(|of| number(&line["pieces"][of]));
+        let minimum = number(&line["minimum"]).max(1.0);
+        assert!(least >= 1.0 && least <= pieces && least <= minimum, "{line}");
+        // None on straight lines; one rise or fall has 1.
+        assert!(line["variation"]["after"].as_f64().is_none_or(|variation| variation > 1.0 - 1e-9), "{line}");
+    }
+    assert!(number(&fair["variation"]["after"]) <= number(&fair["variation"]["before"]), "{fair}");
+    assert!(number(&fair["gaussian_regions"]["after"]) >= 1.0, "{fair}");
     let kinds: Vec<&str> =
         certificate["constraints"].as_array().unwrap().iter().map(|c| c["kind"].as_str().unwrap()).collect();
     assert_eq!(kinds, ["displacement", "lcb", "midship_coefficient"]);
@@ -527,7 +548,7 @@ fn a_sectional_area_curve_is_held() {
         let table = carried(TABLE).display().to_string();
         fs::write(&job, format!("[table]\nfile = {table:?}\n[hold]\n{areas}\n")).unwrap();
         let (job, to) = (job.display().to_string(), out.display().to_string());
-        let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
+        let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures", "--verbose"]);
         (output.status.code(), stderr(&output), String::from_utf8_lossy(&output.stdout).into_owned())
     };
     let certificate = || json(folder.read("out/fairing.json"));
@@ -650,7 +671,7 @@ fn unknown_offsets_are_predicted() {
     let table = path.join("table.csv");
     fs::write(&table, text.replace(",2.6420,3.3569,4.3972,", ",2.6420,?,4.3972,")).unwrap();
     let out = path.join("out").display().to_string();
-    let output = program(&["fair", &table.display().to_string(), "-o", &out, "--no-figures"]);
+    let output = program(&["fair", &table.display().to_string(), "-o", &out, "--no-figures", "--verbose"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let changes = read_text(path.join("out/changes.csv"));
     let mut rows = changes.lines().map(|line| line.split(',').collect::<Vec<&str>>());
@@ -713,6 +734,38 @@ fn changes_list_every_offset_of_the_table() {
     let page = fair_page(&job, &outputs, "out");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("within it stay, 12 at its edges move by"), "{page}");
+}
+
+/// More changes of sign or more monotone pieces than before end with exit code 5 and say so first; none fewer do from grade
+/// 5 on where they are far above the least, and nothing of the surface through the table.
+#[test]
+fn what_is_no_fairer_says_so_first() {
+    let (job, outputs) = faired(&carried(TABLE), &[]);
+    let changed = |grade: f64, change: &dyn Fn(&mut Turns)| {
+        let mut outputs = outputs.clone();
+        outputs.outcome.fairness = Fairness::new(grade).unwrap();
+        outputs.outcome.turns.iter_mut().for_each(change);
+        let verdict = outputs.verdict().map_err(|failure| (failure.exit_code(), failure.to_string()));
+        (fair_summary(&job, &outputs, "out"), verdict)
+    };
+    let (page, verdict) = changed(5.0, &|_| ());
+    assert!(page.starts_with("Fairer: ") && verdict.is_ok(), "{page} {verdict:?}");
+    let more_signs = |turns: &mut Turns| turns.after = turns.before + 1;
+    let more_pieces = |turns: &mut Turns| turns.pieces[1] = turns.pieces[0] + 1;
+    for grade in [1.0, 5.0] {
+        for change in [&more_signs as &dyn Fn(&mut Turns), &more_pieces] {
+            let (page, verdict) = changed(grade, change);
+            let (code, said) = verdict.unwrap_err();
+            assert!(page.starts_with("No fairer: ") && code == 5, "{page} {code}");
+            assert!(said.starts_with("E503") && said.contains("monotone pieces"), "{said}");
+            assert!(changed(0.0, change).1.is_ok());
+        }
+    }
+    let as_many = |turns: &mut Turns| (turns.before, turns.after, turns.minimum) = (3, 3, Some((1, true)));
+    assert_eq!(changed(5.0, &as_many).1.unwrap_err().0, 5);
+    assert!(changed(4.9, &as_many).1.is_ok());
+    let at_least = |turns: &mut Turns| (turns.before, turns.after, turns.minimum) = (3, 3, Some((2, true)));
+    assert!(changed(5.0, &at_least).1.is_ok());
 }
 
 /// Lines that keep far more inflections than their offsets ask for are named.

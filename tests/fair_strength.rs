@@ -60,7 +60,7 @@ fn the_command_takes_grades_by_number_and_name() {
     let run = |grade: &[&str]| {
         program(&[&["fair", &table, "-o", out.to_str().unwrap(), "--no-figures", "--force"], grade].concat())
     };
-    let output = run(&["--fairness", "smooth"]);
+    let output = run(&["--fairness", "smooth", "--verbose"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert!(stdout(&output).contains("Fairness 8 (smooth)"), "{}", stdout(&output));
     let result = json(read_text(out.join("fairing.json")));

@@ -10,7 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{
-    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, read_fair,
+    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary, read_fair,
 };
 use crate::units::counted;
 
@@ -87,6 +87,9 @@ pub(super) struct Arguments {
     _removed: Removed,
     #[command(flatten)]
     files: RunFiles,
+    /// Print everything: prices, every move and remark, the proof, names of the files
+    #[arg(long, conflicts_with = "quiet")]
+    verbose: bool,
     /// Run again whenever one of the files that were read changes; files of the run before are overwritten
     #[arg(long)]
     watch: bool,
@@ -99,8 +102,11 @@ through the table where the job has locks, rules, lines or a tolerance below hal
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
 manifest.json, figures.
-Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit \
-code 5 when they are met and stations and waterlines have no fewer changes of sign of curvature than before.
+The first line says whether the hull is fairer: changes of sign and monotone pieces of the curvature of stations and \
+waterlines before > after, with the proved least number of changes of sign. At most eight lines follow; --verbose prints the rest.
+Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit code 5 when \
+they are met and stations and waterlines have more changes of sign or more monotone pieces than before, or from --fairness 5 on no \
+fewer changes of sign and more than 1.5 times the least and 2. With --fairness 0 exit code 0.
 Tables of offsets are all that `loftsman fit --help` lists.";
 
 /// Options that were removed, all of which --fairness serves, and whether they took a value.
@@ -218,8 +224,7 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     let of = [(waterlines, "waterline"), (offsets, "offset"), (points, "point")];
     let of = of.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {}", counted(*count, what)));
     progress(format!("{}: {}{}", job.table.name, counted(stations, "station"), of.collect::<String>()));
-    let scale = job.reading.iter().filter(|note| note.code == "W320");
-    scale.for_each(|note| stream::message(&note.to_string()));
+    job.warnings().for_each(|warning| stream::message(&warning.to_string()));
     let told = |text: &str| progress(format!("{:6.1} s  {text}", start.elapsed().as_secs_f64()));
     let outputs = match fair_outputs_with_progress(&job, !arguments.files.no_figures, &told) {
         Ok(outputs) => outputs,
@@ -261,7 +266,8 @@ fn print(arguments: &Arguments, job: &FairJob, outputs: &FairOutputs, seconds: f
     if arguments.files.quiet {
         return Ok(());
     }
-    stream::data(&fair_page(job, outputs, &arguments.files.folder(&arguments.input, false).display().to_string()))
+    let page = if arguments.verbose { fair_page } else { fair_summary };
+    stream::data(&page(job, outputs, &arguments.files.folder(&arguments.input, false).display().to_string()))
 }
 
 /// Runs again when a file changes, until the program is ended; what goes wrong is reported and does not end it, but for a

@@ -79,12 +79,17 @@ fn number(value: f64) -> Value {
     json_number(Some(value))
 }
 
-/// Inflections of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it. `asked` is the number that the
+/// Inflections, monotone pieces of curvature and its total variation over its range of one kind of curve; `kind` as [`crate::fairing::inspect::kind`] names it. `asked` is the number that the
 /// signs of the program were made for, `allowed` the most that its rows admit: no more than before, or than was asked.
 fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
     let list = outcome.turns.iter().filter(|turns| crate::fairing::inspect::kind(&turns.cut) == kind);
     list.map(|turns| {
-        let mut entry = json!({ "at": number(at(&turns.cut)), "before": turns.before, "after": turns.after });
+        let [pieces, variation] = [turns.pieces.map(Value::from), turns.variation.map(json_number)];
+        let mut entry = json!({
+            "at": number(at(&turns.cut)), "before": turns.before, "after": turns.after,
+            "pieces": { "before": pieces[0], "after": pieces[1], "least": turns.least_pieces() },
+            "variation": { "before": variation[0], "after": variation[1] },
+        });
         if let Some((count, proved)) = turns.minimum {
             entry["minimum"] = json!(count);
             entry["minimum_proved"] = json!(proved);
@@ -119,6 +124,21 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
         entry
     })
     .collect()
+}
+
+/// How fair stations and waterlines are together, and the surface, before and after.
+fn fair(outcome: &Outcome) -> Value {
+    let [signs, signs_after] = outcome.changes_of_sign();
+    let [pieces, pieces_after] = outcome.monotone_pieces();
+    let [regions, regions_after] = outcome.regions;
+    let [variation, variation_after] = outcome.variation().map_or([None; 2], |pair| pair.map(Some)).map(json_number);
+    json!({
+        "changes_of_sign": { "before": signs, "after": signs_after, "least": outcome.least_changes_of_sign() },
+        "monotone_pieces": { "before": pieces, "after": pieces_after, "least": outcome.least_monotone_pieces() },
+        // The median of the lines.
+        "variation": { "before": variation, "after": variation_after },
+        "gaussian_regions": { "before": regions, "after": regions_after },
+    })
 }
 
 /// Why the targets are infeasible: the least factor on the tolerances, and for each constraint alone what the others
@@ -311,6 +331,7 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
         "rules": rules,
         // Largest relative error of what is not linear, before its first new linearisation and after each.
         "nonlinear_residuals": faired.settled.as_ref().map(|list| list.iter().map(|value| number(*value)).collect::<Vec<_>>()),
+        "fair": fair(outcome),
         "inflections": {
             // What departs less from its chord is no inflection [m].
             "dead_band": number(outcome.resolution),

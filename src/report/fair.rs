@@ -180,6 +180,11 @@ impl FairJob {
         &self.files
     }
 
+    /// What reading the table had to guess.
+    pub fn warnings(&self) -> impl Iterator<Item = &TableProblem> {
+        self.reading.iter().filter(|problem| problem.severity == Severity::Warning)
+    }
+
     /// Stations, waterlines, offsets on them and points of sections of the table.
     #[must_use]
     pub fn size(&self) -> [usize; 4] {
@@ -356,8 +361,7 @@ pub fn fair_outputs_with_progress(
         .run_telling(&job.table, progress)
         .map_err(|error| refusal(&job.request, &job.job.lines, &job.table_file, &error))?;
     // What reading the table had to guess decides the hull as much.
-    let guessed = job.reading.iter().filter(|problem| problem.severity == Severity::Warning);
-    outcome.notes.splice(0..0, guessed.map(remark));
+    outcome.notes.splice(0..0, job.warnings().map(remark));
     let draught = outcome.after.particulars().draught;
     let row = |hull: &Hull| {
         let mut rows = CurvesOfForm::new(hull, &[draught], &job.conventions).rows;
@@ -443,6 +447,8 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
         "targets": targets,
         "moves": { "rms": rms, "max": max, "excluded": outcome.changes.iter().filter(|c| c.suspect).count() },
         "inflections": inflections,
+        "monotone_pieces": outcome.monotone_pieces(),
+        "gaussian_regions": outcome.regions,
         "rounding": { "largest": rounding.largest, "rms": rounding.root_mean_square, "volume_share": rounding.volume_share },
         "conventions": conventions_json(&job.conventions),
         "notes": outcome.notes,

@@ -2,6 +2,7 @@
 
 use super::fair::{FairJob, FairOutputs};
 use super::fair_refused::line_name;
+use super::fair_short::headline;
 use super::page::{WIDTH, fixed, fixed_sign, wrapped};
 use super::verdict::more_than;
 use crate::exchange::{priced, reached, status_word};
@@ -13,14 +14,13 @@ use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
 use crate::fairing::smoothing::end_of_search;
-use crate::qp::Status;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
 const MOST_LINES: usize = 8;
 
 /// Section areas that the page lists one by one.
-const MOST_AREAS: usize = 4;
+pub(super) const MOST_AREAS: usize = 4;
 
 /// Remarks that the page shows.
 const MOST_REMARKS: usize = 16;
@@ -57,12 +57,12 @@ pub(super) fn limit(quantum: Option<f64>, sigma: f64, notation: Notation) -> (f6
     (limit, format!("{}{what}", small(limit, notation)))
 }
 
-fn counted(n: usize, one: &str, many: &str) -> String {
+pub(super) fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
 /// "station 5, waterline 2.000 m".
-fn place(job: &FairJob, change: &Change) -> String {
+pub(super) fn place(job: &FairJob, change: &Change) -> String {
     let station = job.table.stations.get(change.station).map_or_else(String::new, |station| station.station.words());
     format!("{station}, {}", change.origin.words(change.z))
 }
@@ -92,14 +92,7 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
     });
     let (rms, largest, at) = outcome.moves();
     let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
-    let tolerances = kept.iter().filter_map(|change| change.tolerance);
-    let [least, most] =
-        tolerances.fold([f64::INFINITY, 0.0_f64], |[least, most], each| [least.min(each), most.max(each)]);
-    if least < most * (1.0 - 1e-9) {
-        line.push_str(&format!("; tolerances {} to {} mm", millimetres(least), millimetres(most)));
-    } else if most > 0.0 {
-        line.push_str(&format!("; tolerance {} mm", millimetres(most)));
-    }
+    line.push_str(&tolerances(outcome));
     line.push_str(&format!(
         ". Moves: {} mm RMS, {} mm at most{at}, normal to the hull {} and {} mm; {}.",
         millimetres(rms),
@@ -150,6 +143,19 @@ fn verdict(job: &FairJob, outcome: &Outcome, page: &mut String) {
         let moved = outcome.changes.iter().filter(|change| change.locked).map(size).fold(0.0, f64::max);
         let offsets = counted(locked, "offset is locked", "offsets are locked");
         page.push_str(&format!("  {offsets}; the largest move of one is {moved:.0e} m\n"));
+    }
+}
+
+/// "; tolerances 1.20 to 22.0 mm" of what was not left out.
+pub(super) fn tolerances(outcome: &Outcome) -> String {
+    let all = outcome.changes.iter().filter(|change| !change.suspect).filter_map(|change| change.tolerance);
+    let [least, most] = all.fold([f64::INFINITY, 0.0_f64], |[least, most], each| [least.min(each), most.max(each)]);
+    if least < most * (1.0 - 1e-9) {
+        format!("; tolerances {} to {} mm", millimetres(least), millimetres(most))
+    } else if most > 0.0 {
+        format!("; tolerance {} mm", millimetres(most))
+    } else {
+        String::new()
     }
 }
 
@@ -221,6 +227,22 @@ fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
     )
 }
 
+/// Monotone pieces and total variation of curvature on stations and waterlines, and the regions of the surface.
+fn pieces(outcome: &Outcome) -> String {
+    let [before, after] = outcome.monotone_pieces();
+    let least = outcome.least_monotone_pieces().map_or(String::new(), |least| format!(" (least {least})"));
+    let variation = outcome.variation().map_or(String::new(), |[before, after]| {
+        format!(" total variation over its range, in the median of the lines, {before:.1} -> {after:.1};")
+    });
+    let [regions, regions_after] = outcome.regions;
+    let line = format!(
+        "Curvature of stations and waterlines: monotone pieces {before} -> {after}{least};{variation} regions of one sign of \
+         Gaussian curvature {regions} -> {regions_after}. A bump counts from {} mm.",
+        millimetres(outcome.resolution)
+    );
+    wrapped(&line, 2)
+}
+
 /// How many lines bend more often than the signs that they were asked for say; nothing where none does.
 fn more_than_asked(outputs: &FairOutputs) -> String {
     let kinds = outputs.certificate["inflections"].as_object().into_iter().flatten();
@@ -268,6 +290,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
     page.push_str(&wrapped(&line, 2));
     page.push_str("  (buttocks and diagonals are no lines of the table: they were never used)\n");
+    page.push_str(&pieces(&outputs.outcome));
     page.push_str(&more_than_asked(outputs));
     page.push_str(&far_above_the_least(&outputs.outcome));
     let sum =
@@ -335,41 +358,14 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
 }
 
-/// Whether the hull is fairer, by how much, and what it cost.
-fn headline(outcome: &Outcome) -> String {
-    let [before, after] = outcome.changes_of_sign();
-    let verdict = match outcome.status {
-        Status::Optimal if outcome.fairness.is_raw() => "Through the table",
-        Status::Optimal if outcome.is_no_fairer() => "No fairer",
-        Status::Optimal if after == before => "Fair as before",
-        Status::Optimal => "Fairer",
-        _ => "Compromise",
-    };
-    let least = outcome.least_changes_of_sign().map_or(String::new(), |least| format!(" (least {least})"));
-    let moves = millimetres(outcome.moves().0);
-    let kept: Vec<String> =
-        outcome.held.iter().filter(|held| held.is_had()).map(|held| held.constraint.words()).collect();
-    let kept = match kept.as_slice() {
-        [] => String::new(),
-        [one] => format!(", {one} held"),
-        [first @ .., last] if first.len() < MOST_AREAS => format!(", {} and {last} held", first.join(", ")),
-        many => format!(", {} targets held", many.len()),
-    };
-    format!(
-        "{verdict}: {before} > {after} changes of sign of curvature on stations and waterlines{least}, moves {moves} mm RMS{kept}."
-    )
-}
-
-/// The page of `fair`, at most 80 columns wide.
+/// The page of `fair` with everything, but for the first line at most 80 columns wide.
 #[must_use]
 pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
     let name: String = job.table.name.chars().take(WIDTH - 20).collect();
-    let p = outcome.after.particulars();
-    let mut page = wrapped(&headline(outcome), 2);
+    let mut page = headline(outcome) + "\n";
     page.push_str(&format!("{name}: {}\n", status_word(outcome.status)));
-    let length = p.length_between_perpendiculars;
-    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n", p.breadth, p.draught, p.depth));
+    page.push_str(&dimensions(outcome));
     page.push_str(&assumed(job, outcome));
     page.push('\n');
     verdict(job, outcome, &mut page);
@@ -439,8 +435,15 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     page
 }
 
-/// What is held, and all figures, rest on dimensions that nobody stated: reported before all figures.
-fn assumed(job: &FairJob, outcome: &Outcome) -> String {
+/// The dimensions of a hull.
+pub(super) fn dimensions(outcome: &Outcome) -> String {
+    let p = outcome.after.particulars();
+    let length = p.length_between_perpendiculars;
+    format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n", p.breadth, p.draught, p.depth)
+}
+
+/// The dimensions that nobody stated.
+pub(super) fn not_stated(job: &FairJob) -> Vec<&'static str> {
     let stated = &job.table.stated;
     let dimensions = [
         ("Lpp", stated.length_between_perpendiculars),
@@ -448,7 +451,12 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
         ("T (displacement is held up to it)", stated.draught),
         ("D", stated.depth),
     ];
-    let names: Vec<&str> = dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect();
+    dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect()
+}
+
+/// What is held, and all figures, rest on dimensions that nobody stated: reported before all figures.
+fn assumed(job: &FairJob, outcome: &Outcome) -> String {
+    let names = not_stated(job);
     let mut text = if names.is_empty() {
         String::new()
     } else {

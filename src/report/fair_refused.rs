@@ -3,6 +3,7 @@
 use super::failure::{Failure, problem};
 use super::fair::FairOutputs;
 use super::fair_page::millimetres;
+use super::fair_short::least;
 use super::page::upward;
 use crate::config::{Diagnostic, Location, Severity};
 use crate::fairing::constraint::Constraint;
@@ -80,11 +81,12 @@ impl FairOutputs {
     /// That the hull is no fairer than the surface through the table, and what may help.
     fn no_fairer(&self) -> String {
         let [before, after] = self.outcome.changes_of_sign();
-        let least = self.outcome.least_changes_of_sign().map_or(String::new(), |least| format!(" (least {least})"));
+        let [pieces, pieces_after] = self.outcome.monotone_pieces();
         format!(
-            "the hull is no fairer than the surface through the table: {before} > {after} changes of sign of curvature on \
-             stations and waterlines{least}. The files are written. Ask for nearer targets, wider tolerances or more \
-             smoothing (--weight), or look for errors with `loftsman check`"
+            "the hull is no fairer than the surface through the table: {before} > {after} changes of sign{}, {pieces} > \
+             {pieces_after} monotone pieces of curvature on stations and waterlines. The files are written. Ask for nearer \
+             targets, wider tolerances or more smoothing (--weight), or look for errors with `loftsman check`",
+            least(&self.outcome)
         )
     }
 

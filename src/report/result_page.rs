@@ -259,9 +259,24 @@ fn dearest(fairing: &Value) -> f64 {
     inflections["max_cost"].as_f64().or(inflections["dearest"].as_f64()).unwrap_or(PRICE)
 }
 
-/// How often every line bends, before, after, at least, and what was asked of it.
+/// How often every line bends and in how many monotone pieces its curvature runs, before, after, at least, and what was
+/// asked of it.
 pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
-    let mut table = Table::new(&["line", "at [m]", "before", "after", "least", "asked", "price"], 1);
+    let heads = [
+        "line",
+        "at [m]",
+        "before",
+        "after",
+        "least",
+        "pieces before",
+        "pieces after",
+        "pieces least",
+        "variation before",
+        "variation after",
+        "asked",
+        "price",
+    ];
+    let mut table = Table::new(&heads, 1);
     let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
@@ -295,7 +310,12 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
                 (None, None) => String::new(),
             };
             let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
-            table.rows.push((more, vec![name, fixed(place, 3), count("before"), count("after"), least, asked, price]));
+            let mut cells = vec![name, fixed(place, 3), count("before"), count("after"), least];
+            // Files of old programs have neither.
+            cells.extend(["before", "after", "least"].map(|key| figures(&line["pieces"][key], 1)));
+            cells.extend(["before", "after"].map(|key| figures(&line["variation"][key], 3)));
+            cells.extend([asked, price]);
+            table.rows.push((more, cells));
         }
     }
     table
@@ -304,7 +324,9 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
 /// What the columns of [`inflections`] are.
 pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
     format!(
-        "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; at most: what \
+        "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; pieces: monotone \
+         pieces of curvature between swings of that height (dk l² / π²), with the least that goes with the least inflections; variation: total \
+         variation of curvature over its range, empty on straight lines; at most: what \
          was asked of the line; let go: costlier than {} (of several inflections by chi-square where the noise is errors), or infeasible with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
         record.lines.notation.small(record.tolerance()),

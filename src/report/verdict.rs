@@ -142,6 +142,28 @@ fn more_often(fairing: &Value, than: &str) -> Vec<String> {
     KINDS.iter().flat_map(|key| list(&fairing["inflections"][key]).filter_map(move |line| one(key, line))).collect()
 }
 
+/// How fair stations and waterlines are together, and the surface; none in files of old programs.
+fn fair(counts: &Value) -> Option<String> {
+    let pair = |key: &str| Some(format!("{} → {}", counts[key]["before"].as_u64()?, counts[key]["after"].as_u64()?));
+    let least = |key: &str| counts[key]["least"].as_u64().map_or(String::new(), |least| format!(" (least {least})"));
+    let variation = match ["before", "after"].map(|when| counts["variation"][when].as_f64()) {
+        [Some(before), Some(after)] => {
+            format!(", total variation of it over its range {} → {} in the median", fixed(before, 1), fixed(after, 1))
+        }
+        _ => String::new(),
+    };
+    let [signs, pieces] = ["changes_of_sign", "monotone_pieces"];
+    Some(format!(
+        "Curvature of stations and waterlines: changes of sign {}{}, monotone pieces {}{}{variation}; regions of one sign of \
+         Gaussian curvature {}.",
+        pair(signs)?,
+        least(signs),
+        pair(pieces)?,
+        least(pieces),
+        pair("gaussian_regions")?
+    ))
+}
+
 /// Whether a note of what was assumed is a warning of the reader, `W320 ...`: it may change what all numbers mean.
 pub(super) fn is_warning(note: &str) -> bool {
     let digits = note.strip_prefix('W').unwrap_or_default();
@@ -186,6 +208,7 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     let counts: Vec<String> =
         KINDS.iter().map(|key| format!("{key} {} → {}", sum(key, "before"), sum(key, "after"))).collect();
     lines.push((false, format!("Inflections before → after: {}.", counts.join(", "))));
+    lines.extend(fair(&fairing["fair"]).map(|line| (false, line)));
     for (than, words) in [("before", "after than before"), ("asked", "than was asked of them")] {
         let lines_there = more_often(fairing, than);
         if !lines_there.is_empty() {

@@ -1,0 +1,148 @@
+//! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
+
+use super::fair::{FairJob, FairOutputs};
+use super::fair_page::{MOST_AREAS, counted, dimensions, limit, millimetres, not_stated, place, tolerances};
+use super::page::{WIDTH, fixed_sign, value};
+use crate::exchange::status_word;
+use crate::fairing::outcome::{Change, Outcome};
+use crate::qp::Status;
+
+/// Suspects that are named.
+const NAMED: usize = 3;
+
+/// Whether the hull is fairer, by how much, and what it cost.
+pub(super) fn headline(outcome: &Outcome) -> String {
+    let ([before, after], [pieces, pieces_after]) = (outcome.changes_of_sign(), outcome.monotone_pieces());
+    let verdict = match outcome.status {
+        Status::Optimal if outcome.fairness.is_raw() => "Through the table",
+        Status::Optimal if outcome.is_no_fairer() => "No fairer",
+        Status::Optimal if [after, pieces_after] == [before, pieces] => "Fair as before",
+        Status::Optimal => "Fairer",
+        _ => "Compromise",
+    };
+    let moves = millimetres(outcome.moves().0);
+    let kept: Vec<String> =
+        outcome.held.iter().filter(|held| held.is_had()).map(|held| held.constraint.words()).collect();
+    let kept = match kept.as_slice() {
+        [] => String::new(),
+        [one] => format!(", {one} kept"),
+        [first @ .., last] if first.len() < MOST_AREAS => format!(", {} and {last} kept", first.join(", ")),
+        many => format!(", {} targets kept", many.len()),
+    };
+    format!(
+        "{verdict}: {before} > {after} changes of sign{}, {pieces} > {pieces_after} monotone pieces, moves {moves} mm RMS{kept}.",
+        least(outcome)
+    )
+}
+
+/// The least number of changes of sign, and whether it is proved on every line.
+pub(super) fn least(outcome: &Outcome) -> String {
+    let Some(least) = outcome.least_changes_of_sign() else { return String::new() };
+    let proved = outcome.turns.iter().filter_map(|turns| turns.minimum).all(|(_, proved)| proved);
+    format!(" (least {least}{})", if proved { "" } else { ", not proved" })
+}
+
+/// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. At most
+/// eight lines follow; [`super::fair_page`] has the rest.
+#[must_use]
+pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
+    let outcome = &outputs.outcome;
+    let name: String = job.table.name.chars().take(WIDTH - 20).collect();
+    let lines = [
+        headline(outcome),
+        format!("{name}: {}; fairness {}", status_word(outcome.status), outcome.fairness),
+        dimensions(outcome).trim_end().to_owned(),
+        assumed(job, outcome),
+        offsets(job, outcome),
+        moves(job, outcome),
+        suspects(job, outcome),
+        held(outputs),
+        written(outputs, folder),
+    ];
+    lines.iter().filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()
+}
+
+/// What nobody stated.
+fn assumed(job: &FairJob, outcome: &Outcome) -> String {
+    let mut parts = Vec::new();
+    let names: Vec<&str> = not_stated(job).iter().filter_map(|name| name.split(' ').next()).collect();
+    if !names.is_empty() {
+        parts.push(format!("Not stated, so assumed: {}", names.join(", ")));
+    }
+    if !outcome.before.counts_from_aft_perpendicular() {
+        parts.push("midship is not known, C_M is not held".to_owned());
+    }
+    if parts.is_empty() { String::new() } else { format!("{}.", parts.join("; ")) }
+}
+
+/// How many offsets stayed, and within which tolerances.
+fn offsets(job: &FairJob, outcome: &Outcome) -> String {
+    let (limit, shown) = limit(job.table.form.quantum(), outcome.faired.sigma, job.table.form.notation);
+    let stays = |change: &&Change| !change.suspect && (change.after - change.before).abs() <= limit * (1.0 + 1e-9);
+    let kept = outcome.changes.iter().filter(stays).count();
+    let all = counted(outcome.changes.len(), "offset", "offsets");
+    format!("{kept} of {all} kept within {shown}{}.", tolerances(outcome))
+}
+
+/// The largest move, the noise, and what is locked.
+fn moves(job: &FairJob, outcome: &Outcome) -> String {
+    let (_, largest, at) = outcome.moves();
+    let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
+    let locked = match outcome.changes.iter().filter(|change| change.locked).count() {
+        0 => String::new(),
+        n => format!("; {n} locked"),
+    };
+    let noise = millimetres(outcome.faired.sigma);
+    format!("Largest move {} mm{at}; noise {noise} mm{locked}.", millimetres(largest))
+}
+
+/// The suspects that were left out.
+fn suspects(job: &FairJob, outcome: &Outcome) -> String {
+    let left_out: Vec<&Change> = outcome.changes.iter().filter(|change| change.suspect).collect();
+    if left_out.is_empty() {
+        return String::new();
+    }
+    let name = |change: &&Change| {
+        let cell = (change.station, change.origin.waterline());
+        let found = outcome.suspects.iter().find(|suspect| (suspect.station, Some(suspect.waterline)) == cell);
+        let id = found.map_or(String::new(), |suspect| format!("{} ", suspect.id));
+        id + &place(job, change)
+    };
+    let mut names: Vec<String> = left_out.iter().take(NAMED).map(name).collect();
+    if left_out.len() > NAMED {
+        names.push(format!("{} more", left_out.len() - NAMED));
+    }
+    format!("{} left out: {}.", counted(left_out.len(), "suspect", "suspects"), names.join("; "))
+}
+
+/// Displacement and LCB before and after, and what is not held.
+fn held(outputs: &FairOutputs) -> String {
+    let ([before, after], outcome) = (&outputs.rows, &outputs.outcome);
+    let share = 100.0 * (after.displacement_volume / before.displacement_volume - 1.0);
+    let share = if share.is_finite() { format!(" ({})", fixed_sign(share, 3, " %")) } else { String::new() };
+    let mut line = format!("Displacement {} > {} t{share}", value(before, "DISPM"), value(after, "DISPM"));
+    let length = outcome.after.particulars().length_between_perpendiculars;
+    if let (Some(a), Some(b)) = (before.lcb, after.lcb) {
+        line.push_str(&format!(", LCB {}", fixed_sign(100.0 * (b - a) / length, 3, " % L")));
+    }
+    let targets = outcome.held.iter().filter(|held| !held.is_had()).map(|held| held.constraint.words());
+    let rules = outcome.rules.iter().filter(|held| held.given_up).map(|held| held.rule.words());
+    let missed: Vec<String> = targets.chain(rules).collect();
+    match missed.as_slice() {
+        [] if outcome.held.is_empty() => line.push_str("; nothing of the whole hull is held"),
+        [] => {}
+        missed if missed.len() > MOST_AREAS => line.push_str(&format!("; NOT MET: {} targets", missed.len())),
+        missed => line.push_str(&format!("; NOT MET: {}", missed.join(", "))),
+    }
+    line + "."
+}
+
+/// Where the files are, and what else there is to read.
+fn written(outputs: &FairOutputs, folder: &str) -> String {
+    let files = counted(outputs.files.len(), "file", "files");
+    let remarks = match outputs.outcome.notes.len() {
+        0 => String::new(),
+        n => format!("; {} on what was found and assumed", counted(n, "remark", "remarks")),
+    };
+    format!("Written to {folder}: {files}{remarks} (--verbose).")
+}
