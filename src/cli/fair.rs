@@ -10,7 +10,8 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use super::run_files::RunFiles;
 use super::stream;
 use crate::report::{
-    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary, read_fair,
+    Destination, Failure, FairJob, FairOutputs, fair_line, fair_outputs_with_progress, fair_page, fair_summary,
+    read_fair,
 };
 use crate::units::counted;
 
@@ -224,7 +225,8 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
     let of = [(waterlines, "waterline"), (offsets, "offset"), (points, "point")];
     let of = of.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!(", {}", counted(*count, what)));
     progress(format!("{}: {}{}", job.table.name, counted(stations, "station"), of.collect::<String>()));
-    job.warnings().for_each(|warning| stream::message(&warning.to_string()));
+    let shown = |code: &str| code == "W320" || !arguments.files.quiet;
+    job.warnings().filter(|warning| shown(warning.code)).for_each(|warning| stream::message(&warning.to_string()));
     let told = |text: &str| progress(format!("{:6.1} s  {text}", start.elapsed().as_secs_f64()));
     let outputs = match fair_outputs_with_progress(&job, !arguments.files.no_figures, &told) {
         Ok(outputs) => outputs,
