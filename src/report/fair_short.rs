@@ -42,8 +42,8 @@ pub(super) fn least(outcome: &Outcome) -> String {
     format!(" (least {least}{})", if proved { "" } else { ", not proved" })
 }
 
-/// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. At most
-/// eight lines follow; [`super::fair_page`] has the rest.
+/// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. Eight
+/// lines follow; [`super::fair_page`] has the rest.
 #[must_use]
 pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
@@ -59,20 +59,19 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
         held(outputs),
         written(outputs, folder),
     ];
-    lines.iter().filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()
+    lines.map(|line| line + "\n").concat()
 }
 
-/// What nobody stated.
+/// Which dimensions nobody stated.
 fn assumed(job: &FairJob, outcome: &Outcome) -> String {
-    let mut parts = Vec::new();
     let names: Vec<&str> = not_stated(job).iter().filter_map(|name| name.split(' ').next()).collect();
-    if !names.is_empty() {
-        parts.push(format!("Not stated, so assumed: {}", names.join(", ")));
-    }
-    if !outcome.before.counts_from_aft_perpendicular() {
-        parts.push("midship is not known, C_M is not held".to_owned());
-    }
-    if parts.is_empty() { String::new() } else { format!("{}.", parts.join("; ")) }
+    let names = match names.as_slice() {
+        [] => "These dimensions are stated".to_owned(),
+        names => format!("Not stated, so assumed: {}", names.join(", ")),
+    };
+    let midship =
+        if outcome.before.counts_from_aft_perpendicular() { "" } else { "; midship is not known, C_M is not held" };
+    format!("{names}{midship}.")
 }
 
 /// How many offsets stayed, and within which tolerances.
@@ -100,7 +99,7 @@ fn moves(job: &FairJob, outcome: &Outcome) -> String {
 fn suspects(job: &FairJob, outcome: &Outcome) -> String {
     let left_out: Vec<&Change> = outcome.changes.iter().filter(|change| change.suspect).collect();
     if left_out.is_empty() {
-        return String::new();
+        return "No suspected typing error is left out.".to_owned();
     }
     let name = |change: &&Change| {
         let cell = (change.station, change.origin.waterline());
@@ -112,7 +111,11 @@ fn suspects(job: &FairJob, outcome: &Outcome) -> String {
     if left_out.len() > NAMED {
         names.push(format!("{} more", left_out.len() - NAMED));
     }
-    format!("{} left out: {}.", counted(left_out.len(), "suspect", "suspects"), names.join("; "))
+    format!(
+        "{} left out: {}.",
+        counted(left_out.len(), "suspected typing error", "suspected typing errors"),
+        names.join("; ")
+    )
 }
 
 /// Displacement and LCB before and after, and what is not held.
