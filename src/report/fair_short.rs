@@ -48,9 +48,10 @@ pub(super) fn least(outcome: &Outcome) -> String {
 pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
     let name: String = job.table.name.chars().take(WIDTH - 20).collect();
+    let noise = millimetres(outcome.faired.sigma);
     let lines = [
         headline(outcome),
-        format!("{name}: {}; fairness {}", status_word(outcome.status), outcome.fairness),
+        format!("{name}: {}; fairness {}; noise {noise} mm", status_word(outcome.status), outcome.fairness),
         dimensions(outcome).trim_end().to_owned(),
         assumed(job, outcome),
         offsets(job, outcome),
@@ -74,16 +75,17 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
     format!("{names}{midship}.")
 }
 
-/// How many offsets stayed, and within which tolerances.
+/// How many offsets stayed, and their tolerances.
 fn offsets(job: &FairJob, outcome: &Outcome) -> String {
     let (limit, shown) = limit(job.table.form.quantum(), outcome.faired.sigma, job.table.form.notation);
+    let shown = shown.split(" (").next().unwrap_or_default();
     let stays = |change: &&Change| !change.suspect && (change.after - change.before).abs() <= limit * (1.0 + 1e-9);
     let kept = outcome.changes.iter().filter(stays).count();
     let all = counted(outcome.changes.len(), "offset", "offsets");
     format!("{kept} of {all} kept within {shown}{}.", tolerances(outcome))
 }
 
-/// The largest move, the noise, and what is locked.
+/// The largest move, and what is locked.
 fn moves(job: &FairJob, outcome: &Outcome) -> String {
     let (_, largest, at) = outcome.moves();
     let at = at.map(|change| format!(" ({})", place(job, change))).unwrap_or_default();
@@ -91,8 +93,7 @@ fn moves(job: &FairJob, outcome: &Outcome) -> String {
         0 => String::new(),
         n => format!("; {n} locked"),
     };
-    let noise = millimetres(outcome.faired.sigma);
-    format!("Largest move {} mm{at}; noise {noise} mm{locked}.", millimetres(largest))
+    format!("Largest move {} mm{at}{locked}.", millimetres(largest))
 }
 
 /// The suspects that were left out.
@@ -145,7 +146,7 @@ fn written(outputs: &FairOutputs, folder: &str) -> String {
     let files = counted(outputs.files.len(), "file", "files");
     let remarks = match outputs.outcome.notes.len() {
         0 => String::new(),
-        n => format!("; {} on what was found and assumed", counted(n, "remark", "remarks")),
+        n => format!(", {}", counted(n, "remark", "remarks")),
     };
-    format!("Written to {folder}: {files}{remarks} (--verbose).")
+    format!("Written to {folder}: {files}{remarks}; all else with --verbose.")
 }

@@ -291,7 +291,9 @@ fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a V
                 "How often each line bends the other way. Lines that bend more often than at least they must are those to look at; diagonals \
                  and buttocks judge the lines that were used.",
             ],
-            Box::new(move |_| Ok(sheets(&heading, &inflections_words(record, fairing), inflections(record, fairing)))),
+            Box::new(move |_| {
+                Ok(sheets(&heading, &inflections_words(record, fairing), inflections(record, fairing, true)))
+            }),
         ),
         job(
             [

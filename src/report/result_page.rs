@@ -260,23 +260,15 @@ fn dearest(fairing: &Value) -> f64 {
 }
 
 /// How often every line bends and in how many monotone pieces its curvature runs, before, after, at least, and what was
-/// asked of it.
-pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
-    let heads = [
-        "line",
-        "at [m]",
-        "before",
-        "after",
-        "least",
-        "pieces before",
-        "pieces after",
-        "pieces least",
-        "variation before",
-        "variation after",
-        "asked",
-        "price",
-    ];
-    let mut table = Table::new(&heads, 1);
+/// asked of it. On `paper` the pieces are one column, and variation is left out.
+pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> Table {
+    let pieces: &[&str] = if paper {
+        &["pieces"]
+    } else {
+        &["pieces before", "pieces after", "pieces least", "variation before", "variation after"]
+    };
+    let mut table =
+        Table::new(&[&["line", "at [m]", "before", "after", "least"], pieces, &["asked", "price"]].concat(), 1);
     let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
@@ -312,8 +304,17 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value) -> Table {
             let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
             let mut cells = vec![name, fixed(place, 3), count("before"), count("after"), least];
             // Files of old programs have neither.
-            cells.extend(["before", "after", "least"].map(|key| figures(&line["pieces"][key], 1)));
-            cells.extend(["before", "after"].map(|key| figures(&line["variation"][key], 3)));
+            let pieces = ["before", "after", "least"].map(|key| figures(&line["pieces"][key], 1));
+            match pieces {
+                [before, after, least] if paper => cells.push(match least.as_str() {
+                    "" => format!("{before} > {after}"),
+                    least => format!("{before} > {after} ({least})"),
+                }),
+                pieces => {
+                    cells.extend(pieces);
+                    cells.extend(["before", "after"].map(|key| figures(&line["variation"][key], 3)));
+                }
+            }
             cells.extend([asked, price]);
             table.rows.push((more, cells));
         }
@@ -487,7 +488,7 @@ pub(super) fn report_page(
         ));
         let told = inflections_words(record, fairing);
         let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
-        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing).html())));
+        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing, false).html())));
     }
     sections.push(("condition", "Design condition", condition(result, design, before).html()));
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
