@@ -323,7 +323,7 @@ fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: 
             ("E170", first(&[key]), "Give one of them")
         }
         JobError::NoLine { .. } => {
-            let help = "Run without it: the page and fairing.json list what is proposed";
+            let help = "Run without it: --verbose and fairing.json list what is proposed";
             ("E180", first(&["lines.accept"]), help)
         }
         _ => {
