@@ -292,7 +292,7 @@ fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a V
                  and buttocks judge the lines that were used.",
             ],
             Box::new(move |_| {
-                Ok(sheets(&heading, &inflections_words(record, fairing), inflections(record, fairing, true)))
+                Ok(sheets(&heading, &inflections_words(record, fairing, true), inflections(record, fairing, true)))
             }),
         ),
         job(

@@ -323,14 +323,16 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> 
 }
 
 /// What the columns of [`inflections`] are.
-pub(super) fn inflections_words(record: &FairRecord, fairing: &Value) -> String {
+pub(super) fn inflections_words(record: &FairRecord, fairing: &Value, paper: bool) -> String {
+    let band = fairing["inflections"]["dead_band"].as_f64().unwrap_or_else(|| record.tolerance());
+    let variation =
+        if paper { "" } else { " variation: total variation of curvature over its range, empty on straight lines;" };
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; pieces: monotone \
-         pieces of curvature between swings of that height (dk l² / π²), with the least that goes with the least inflections; variation: total \
-         variation of curvature over its range, empty on straight lines; at most: what \
+         pieces of curvature between swings of that height (dk l² / π²), with the least that goes with the least inflections;{variation} at most: what \
          was asked of the line; let go: costlier than {} (of several inflections by chi-square where the noise is errors), or infeasible with the others; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
-        record.lines.notation.small(record.tolerance()),
+        record.lines.notation.small(band),
         dearest(fairing)
     )
 }
@@ -486,7 +488,7 @@ pub(super) fn report_page(
                 constraints(fairing).html()
             ),
         ));
-        let told = inflections_words(record, fairing);
+        let told = inflections_words(record, fairing, false);
         let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing, false).html())));
     }
