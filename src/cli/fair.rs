@@ -64,6 +64,9 @@ pub(super) struct Arguments {
     /// [default: 5]
     #[arg(long, value_name = "GRADE", allow_hyphen_values = true, conflicts_with_all = ["weight", "inflection_cost"])]
     fairness: Option<String>,
+    /// Fair the table at grades 0 to 10 besides: grades.csv, grades/N/hull.json and a figure of deviation against fairness
+    #[arg(long)]
+    grades: bool,
     /// Greatest move of an offset [default: three times the noise about it, at least twice the resolution of the table; on
     /// the net of the surface through the table at most B/1000 or 15 mm, unless that is three times as rough]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
@@ -102,7 +105,7 @@ through the table where the job has locks, rules, lines or a tolerance below hal
 [shape], [energy], [suspects], [inflections]: `loftsman schema job`.
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
-manifest.json, figures.
+manifest.json, figures; with --grades: grades.csv, grades/N/hull.json.
 The first line says whether the hull is fairer: changes of sign and monotone pieces of the curvature of stations and \
 waterlines before > after, with the proved least number of changes of sign. Eight lines follow; --verbose prints the rest.
 Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit code 5 when \
@@ -212,10 +215,11 @@ fn once(arguments: &Arguments, force: bool) -> (Option<FairJob>, Result<(FairOut
         }
     };
     let start = Instant::now();
-    let job = match read_fair(&arguments.input, &arguments.options()) {
+    let mut job = match read_fair(&arguments.input, &arguments.options()) {
         Ok(job) => job,
         Err(failure) => return (None, Err(failure)),
     };
+    job.grades = arguments.grades;
     let folder = arguments.files.folder(&arguments.input, false);
     let destination = Destination { folder: &folder, inputs: job.files(), force };
     if let Err(failure) = destination.check(job.outputs().iter().map(String::as_str)) {

@@ -6,6 +6,7 @@ mod curve;
 mod fairing;
 mod fairing_read;
 mod fault;
+mod grades;
 mod hgf;
 mod hull_json;
 mod hydrostatics;
@@ -30,6 +31,7 @@ pub use fairing::{
     status_word,
 };
 pub use fairing_read::{FairingFile, FairingFileError, read_changes, read_fairing, read_texts};
+pub use grades::{grades_csv, result_word};
 pub use hgf::{HgfError, HgfShip, read_hgf};
 pub use hull_json::{HullFile, HullFileError, LARGEST_HULL_FILE, json_message, read_hull, write_hull};
 pub use hydrostatics::{conventions_json, hydrostatics_csv, hydrostatics_json, row_json};

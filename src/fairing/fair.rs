@@ -249,17 +249,6 @@ impl Prepared {
         }
         let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
         let local = surface.is_field.then(|| local_noise(surface, &smoothed, sigma));
-        // Digits that the table does not have are not followed.
-        let graded = if settings.strength < 1.0 {
-            smoother.through(lambda, settings.least_noise).max(lambda * settings.strength)
-        } else {
-            lambda * settings.strength
-        };
-        let mut likely = None;
-        if graded.total_cmp(&lambda).is_ne() {
-            likely = Some(std::mem::replace(&mut smoothed, smoother.at(graded)?));
-            lambda = graded;
-        }
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
             let weight = if reading.weight > 0.0 { reading.weight } else { 1.0 };
@@ -267,12 +256,41 @@ impl Prepared {
             let sigma = local.as_ref().map_or(sigma, |local| local[k]);
             let free = levels.map(|levels| (levels * sigma / weight.sqrt()).max(settings.least_tolerance));
             let own = settings.tolerances.get(k).copied().flatten();
-            let through = settings.through.map(|through| own.map_or(through, |own| own.min(through)));
-            reading.tolerance = if place.locked { Some(0.0) } else { through.or(own).or(free) };
+            reading.tolerance = if place.locked { Some(0.0) } else { own.or(free) };
         }
+        let errors = settings.errors(sigma);
+        let found = Self { smoother, lambda, smoothed, likely: None, sigma, errors, trials, lines: Vec::new() };
+        let mut graded = found.graded(surface, settings)?;
         let guarded = settings.signs && !surface.own;
-        let lines = settings.lines.iter().filter(|_| guarded).map(|&line| TableLine::new(surface, line)).collect();
-        Ok(Self { smoother, lambda, smoothed, likely, sigma, errors: settings.errors(sigma), trials, lines })
+        let lines = settings.lines.iter().filter(|_| guarded);
+        graded.lines = lines.map(|&line| TableLine::new(surface, line)).collect();
+        Ok(graded)
+    }
+
+    /// The weight of the search times the strength of the settings, and the tolerances of a surface through the table
+    /// where that is asked for. The least inflections of the lines stay those for the tolerances before.
+    ///
+    /// # Errors
+    /// [`FairError`] when the readings leave a control value open.
+    pub fn graded(mut self, surface: &mut FairSurface, settings: &FairSettings) -> Result<Self, FairError> {
+        let stronger = self.lambda * settings.strength;
+        // Digits that the table does not have are not followed.
+        let graded = if settings.strength < 1.0 {
+            self.smoother.through(self.lambda, settings.least_noise).max(stronger)
+        } else {
+            stronger
+        };
+        if graded.total_cmp(&self.lambda).is_ne() {
+            self.likely = Some(std::mem::replace(&mut self.smoothed, self.smoother.at(graded)?));
+            self.lambda = graded;
+        }
+        for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
+            if let Some(through) = settings.through.filter(|_| !place.locked) {
+                let own = settings.tolerances.get(k).copied().flatten();
+                reading.tolerance = Some(own.map_or(through, |own| own.min(through)));
+            }
+        }
+        Ok(self)
     }
 }
 

@@ -27,7 +27,8 @@ pub struct Held {
     pub scale: f64,
     /// Multiplier of its row \[m^2 per unit of the row\].
     pub multiplier: f64,
-    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs.
+    /// Root of the mean square of what the readings move less when it is dropped \[m\]: what holding it costs; not a
+    /// number where that was not found or not asked for.
     pub price: f64,
 }
 
@@ -70,7 +71,8 @@ pub struct HeldRule {
     pub violation: f64,
     /// Largest multiplier of its rows \[m^2 per unit of the row\].
     pub multiplier: f64,
-    /// Root of the mean square of what the readings move less when the rule is dropped \[m\].
+    /// Root of the mean square of what the readings move less when the rule is dropped \[m\]; not a number where that was
+    /// not found or not asked for.
     pub price: f64,
     /// Whether it was given up, because it cannot be had with the other wishes.
     pub given_up: bool,
@@ -100,16 +102,18 @@ pub(super) fn violated(limit: &Limit, net: &[f64]) -> f64 {
     (limit.lower - y).max(y - limit.upper).max(0.0)
 }
 
-/// Constraints with what they cost.
+/// Constraints, and what they cost where that is asked for (`priced`).
 pub(super) fn constraints(
     surface: &FairSurface,
     settings: &FairSettings,
     faired: &Faired,
     [before, after]: [&Hull; 2],
-    solver: &mut RepeatedSolver<'_>,
+    (priced, solver): (bool, &mut RepeatedSolver<'_>),
 ) -> Vec<Held> {
     let (model, count) = (&surface.model, settings.constraints.len());
-    let prices = if surface.is_field {
+    let prices = if !priced {
+        vec![f64::NAN; count]
+    } else if surface.is_field {
         // A price that takes long is not worth waiting for.
         faired.prices_of_constraints(model, count, &mut RepeatedSolver::new(&trial(&settings.solver)))
     } else {
@@ -127,8 +131,8 @@ pub(super) fn constraints(
     .collect()
 }
 
-/// Rules with what they cost; one that does not bind costs nothing.
-pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Faired) -> Vec<HeldRule> {
+/// Rules, and what they cost where that is asked for (`priced`); one that does not bind costs nothing.
+pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Faired, priced: bool) -> Vec<HeldRule> {
     let multipliers = &faired.solved.solution.multipliers;
     let problem = &faired.program.problem;
     let list = settings.rules.iter().enumerate();
@@ -146,7 +150,11 @@ pub(super) fn rules(surface: &FairSurface, settings: &FairSettings, faired: &Fai
             .iter()
             .filter(|(rule, _)| *rule == k)
             .fold(0.0_f64, |most, (_, limit)| most.max(violated(limit, &faired.net)));
-        let price = if binding == 0 { 0.0 } else { faired.price_of(&surface.model, own, &settings.solver) };
+        let price = match binding {
+            0 => 0.0,
+            _ if !priced => f64::NAN,
+            _ => faired.price_of(&surface.model, own, &settings.solver),
+        };
         HeldRule { rule: rule.clone(), rows: at.len(), binding, violation, multiplier: largest, price, given_up: false }
     })
     .collect()

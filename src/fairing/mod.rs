@@ -15,6 +15,7 @@ pub mod fair;
 pub mod field;
 mod fielded;
 mod flats;
+mod grades;
 pub mod guard;
 pub mod held;
 mod humps;

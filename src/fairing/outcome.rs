@@ -1,6 +1,7 @@
 //! What a job comes to: every offset with its move, what is held, what bends, and what is to be told of it.
 
 use super::fair::Faired;
+use super::grades::Taken;
 use super::held::{Held, HeldRule};
 use super::inspect::{PolygonSigns, kind};
 use super::proposals::Proposal;
@@ -144,6 +145,8 @@ pub struct Outcome {
     pub nearest: bool,
     /// What the job came to in words, and then what the surface through the table had to assume.
     pub notes: Vec<String>,
+    /// The way in which it was done, for other grades of fairness.
+    pub(super) taken: Taken,
 }
 
 /// Inflections of curves together, before and after.

@@ -6,6 +6,7 @@ use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
 use super::flats::shown_flat;
+use super::grades::Taken;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, gaussian_regions, net_signs};
@@ -20,6 +21,7 @@ use super::relinearise::ON_TARGET;
 use super::repeated::{Attempt, Repeated, excess};
 use super::rules::guarded_lines;
 use super::start::Started;
+use super::strength::Fairness;
 use super::surface::{FairSurface, Origin};
 use super::suspects::Suspects;
 use super::told::{Counted, Watched, changes, normal_moves, predicted, written};
@@ -27,6 +29,7 @@ use crate::hull::{Hull, OffsetTable};
 use crate::numeric::join;
 use crate::qp::{RepeatedSolver, Status};
 use crate::units::counted;
+use std::sync::Arc;
 
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
@@ -64,8 +67,9 @@ pub type Progress<'t> = &'t (dyn Fn(&str) + Sync);
 impl Job {
     /// Fairs a table in one way.
     pub(super) fn run_on(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
-        let (run, watched) = Run::new(self, table, way)?;
-        run.outcome(watched)
+        let started = Arc::new(Started::new(self, table, way.own)?);
+        let (run, watched) = Run::new(self, table, way, started)?;
+        run.at(self.fairness)?.outcome(watched)
     }
 
     /// The rules, and the flat that the table shows where no rule says what is flat.
@@ -81,10 +85,16 @@ impl Job {
 }
 
 /// A job under way.
-struct Run<'a> {
+#[derive(Clone)]
+pub(super) struct Run<'a> {
     job: &'a Job,
     table: &'a OffsetTable,
-    progress: Progress<'a>,
+    way: Way<'a>,
+    started: Arc<Started>,
+    fairness: Fairness,
+    /// Lines whose least inflections are known, of a run with the same tolerances; none where nothing is left out that
+    /// the hull and its moves do not need.
+    known: Option<&'a [Turns]>,
     found: Suspects,
     /// The surface through the table.
     before: Hull,
@@ -124,8 +134,13 @@ struct Given {
 type Attempted = (Attempt, Option<Vec<Held>>);
 
 impl<'a> Run<'a> {
-    /// The model with the wishes as they are asked for.
-    fn new(job: &'a Job, table: &'a OffsetTable, way: Way<'a>) -> Result<(Self, Watched), JobError> {
+    /// The model with the wishes as they are asked for, at the default grade of fairness.
+    pub(super) fn new(
+        job: &'a Job,
+        table: &'a OffsetTable,
+        way: Way<'a>,
+        started: Arc<Started>,
+    ) -> Result<(Self, Watched), JobError> {
         let Started {
             found,
             before,
@@ -140,7 +155,7 @@ impl<'a> Run<'a> {
             gap,
             excluded,
             watched,
-        } = Started::new(job, table, way.own)?;
+        } = Started::clone(&started);
         (way.progress)(&format!(
             "{}; {}",
             if surface.is_field {
@@ -189,8 +204,8 @@ impl<'a> Run<'a> {
             constraints: asked.clone(),
             rooms: vec![0.0; asked.len()],
             rules: wished.clone(),
-            strength: job.fairness.on_the_weight(),
-            through: job.fairness.is_raw().then(|| (0.5 * quantum).max(LEAST_THROUGH * before.particulars().breadth)),
+            strength: 1.0,
+            through: None,
             weight: job.weight,
             // Whoever names a tolerance for the table says how noisy it is.
             table_noise: Some(job.tolerance.table.map_or(known, |named| known.min(named / 3.0))),
@@ -201,7 +216,7 @@ impl<'a> Run<'a> {
             least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
             tolerances: job.tolerances(&surface),
             signs: job.signs,
-            price: job.price * job.fairness.on_the_price(),
+            price: job.price,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
             strict: Vec::new(),
@@ -232,7 +247,10 @@ impl<'a> Run<'a> {
         let run = Self {
             job,
             table,
-            progress: way.progress,
+            way,
+            started,
+            fairness: Fairness::default(),
+            known: None,
             found,
             before,
             surface,
@@ -252,15 +270,31 @@ impl<'a> Run<'a> {
         Ok((run, watched))
     }
 
+    /// The same, without prices of what is held; `known` are the lines of a run with the same tolerances.
+    pub(super) fn beside(self, known: &'a [Turns]) -> Self {
+        Self { known: Some(known), ..self }
+    }
+
+    /// The same at another grade of fairness.
+    pub(super) fn at(mut self, fairness: Fairness) -> Result<Self, JobError> {
+        let breadth = self.before.particulars().breadth;
+        self.fairness = fairness;
+        self.settings.strength = fairness.on_the_weight();
+        self.settings.through = fairness.is_raw().then(|| (0.5 * self.quantum).max(LEAST_THROUGH * breadth));
+        self.settings.price = self.job.price * fairness.on_the_price();
+        self.prepared = self.prepared.graded(&mut self.surface, &self.settings)?;
+        Ok(self)
+    }
+
     /// All of it.
-    fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
+    pub(super) fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
         let (lines_before, faired) = {
             let Self { surface, settings, prepared, solver, .. } = &mut self;
             let seen = settings.seen;
             join(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
         };
         let faired = faired?;
-        (self.progress)(&format!(
+        (self.way.progress)(&format!(
             "{} solved: {}",
             counted(faired.programs, "program"),
             match (&faired.instead, &faired.diagnosis) {
@@ -283,11 +317,12 @@ impl<'a> Run<'a> {
         let Attempt { mut faired, after, mut lines } = attempt;
         self.least(&mut lines, &faired);
         let held = held.unwrap_or_else(|| {
-            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], &mut self.solver)
+            let solver = (self.known.is_none(), &mut self.solver);
+            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], solver)
         });
         let asked = self.asked.iter().zip(held);
         let held: Vec<Held> = asked.map(|(&constraint, held)| Held { constraint, ..held }).collect();
-        let mut rules = held::rules(&self.surface, &self.settings, &faired);
+        let mut rules = held::rules(&self.surface, &self.settings, &faired, self.known.is_none());
         for &rule in &given.rules {
             rules.insert(rule, HeldRule::given_up(&self.wished[rule], &self.surface, &after));
         }
@@ -328,7 +363,7 @@ impl<'a> Run<'a> {
             predicted,
             jump: surface.greatest_jump(&after),
             beyond,
-            fairness: self.job.fairness,
+            fairness: self.fairness,
             before,
             after,
             changes,
@@ -345,6 +380,7 @@ impl<'a> Run<'a> {
             is_field: surface.is_field,
             table_noise: self.found.noise,
             notes: self.notes,
+            taken: Taken::new(self.job, self.way, self.started),
         })
     }
 
@@ -374,7 +410,7 @@ impl<'a> Run<'a> {
     fn without_rules(&mut self, mut faired: Faired, given: &mut Given) -> Result<Faired, JobError> {
         let mut kept: Vec<usize> = (0..self.wished.len()).collect();
         while let Some(Instead::WithoutRules(rules)) = &faired.instead {
-            (self.progress)(&format!("again without {}", counted(rules.len(), "rule")));
+            (self.way.progress)(&format!("again without {}", counted(rules.len(), "rule")));
             given.rules.extend(rules.iter().map(|&rule| kept[rule]));
             kept.retain(|rule| !given.rules.contains(rule));
             self.settings.rules = kept.iter().map(|&rule| self.wished[rule].clone()).collect();
@@ -397,7 +433,7 @@ impl<'a> Run<'a> {
         let plain = self.settings.clone();
         let mut best: Option<(Attempted, FairSettings)> = None;
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
-            (self.progress)("the nearest feasible targets");
+            (self.way.progress)("the nearest feasible targets");
             self.settings = FairSettings { constraints, ..plain.clone() };
             self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
@@ -430,12 +466,12 @@ impl<'a> Run<'a> {
             }
             after => after?,
         };
-        let Self { surface, settings, prepared, solver, before, wished, .. } = self;
+        let Self { surface, settings, prepared, solver, before, wished, known, .. } = self;
         if surface.own || surface.is_field {
             // Nothing is repeated on a net of its own: the prices are final.
             let (lines, held) = join(
                 || watched.turns(&after),
-                || held::constraints(surface, settings, &faired, [before, &after], solver),
+                || held::constraints(surface, settings, &faired, [before, &after], (known.is_none(), solver)),
             );
             return Ok((Attempt { faired, after, lines }, Some(held)));
         }
@@ -443,7 +479,7 @@ impl<'a> Run<'a> {
         let mut attempt = Attempt { faired, after, lines };
         if self.job.signs {
             let worse = excess(&attempt.lines);
-            (self.progress)(&format!(
+            (self.way.progress)(&format!(
                 "{} more than before on single lines; humps and hollows of the surface",
                 counted(worse, "inflection")
             ));
@@ -465,8 +501,10 @@ impl<'a> Run<'a> {
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             // The proof speaks of the line as one curve; where it is counted in pieces it may have less.
             let told = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
+            let beside = self.known.into_iter().flatten().find(|other| other.cut == turns.cut);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),
+                None if beside.is_some_and(|other| other.minimum.is_some()) => beside.and_then(|other| other.minimum),
                 None if self.job.signs && faired.diagnosis.is_none() && faired.solved.is_optimal() => {
                     TableLine::minimum(&self.surface, line, &faired.net)
                 }

@@ -26,7 +26,8 @@ const SAME: f64 = 1e-9;
 /// A cell: (station, waterline).
 type Cell = (usize, usize);
 
-/// What a job starts from.
+/// What a job starts from. The grade of fairness does not enter.
+#[derive(Debug, Clone)]
 pub(super) struct Started {
     /// Suspects of the table.
     pub(super) found: Suspects,
@@ -346,6 +347,7 @@ impl Modelled {
 }
 
 /// The smoothing problem of the quintic net and the weight that cross-validation finds for it.
+#[derive(Debug, Clone)]
 pub(super) struct Search {
     pub(super) smoother: Smoother,
     pub(super) smoothed: Smoothed,

@@ -34,6 +34,12 @@ impl Fairness {
         (0.0..=10.0).contains(&grade).then_some(Self(grade))
     }
 
+    /// The whole grades, from 0 to 10.
+    #[must_use]
+    pub fn whole() -> [Self; 11] {
+        std::array::from_fn(|grade| Self(grade as f64))
+    }
+
     /// The grade of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

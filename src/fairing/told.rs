@@ -108,6 +108,7 @@ pub(super) fn written(table: &OffsetTable, changes: &[Change], predicted: &[Pred
 }
 
 /// The lines of the table, buttocks and diagonals of the surface before.
+#[derive(Debug, Clone)]
 pub(super) struct Watched {
     planes: Planes,
     before: Traced,

@@ -92,7 +92,7 @@ impl Job {
     }
 
     /// The job of the surface through the table: it has the displacement and the humps that it has.
-    fn through(&self) -> Self {
+    pub(super) fn through(&self) -> Self {
         let given = match &self.holding {
             Holding::Table => Vec::new(),
             Holding::Given(given) | Holding::Both { given, .. } => given.clone(),

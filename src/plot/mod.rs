@@ -27,6 +27,7 @@ mod fairing_suspects;
 mod fairing_table;
 mod figure;
 mod font;
+mod grades;
 mod hydrostatics;
 mod label;
 mod lines;
@@ -79,6 +80,7 @@ pub use fairing_moves::fairing_moves;
 pub use fairing_suspects::fairing_suspects;
 pub use fairing_table::fairing_table;
 pub use figure::{Figure, FigureInputs, PlotError, Svg};
+pub use grades::{GradePoint, grades_figure};
 /// The embedded typeface, DejaVu Sans, as the file of its font.
 pub const FONT: &[u8] = font::DEJAVU_SANS;
 

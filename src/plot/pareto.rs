@@ -20,8 +20,8 @@ const BEYOND: f64 = 2.5;
 const MARK: f64 = 0.02;
 
 /// Name of the axis of energies.
-pub(super) fn energy_axis(record: &FairRecord) -> &'static str {
-    if record.is_field { "energy / that of the likeliest field" } else { "energy / that of the start" }
+pub(super) fn energy_axis(is_field: bool) -> &'static str {
+    if is_field { "energy / that of the likeliest field" } else { "energy / that of the start" }
 }
 
 /// Draws the front; none where the weight was given and nothing was tried.
@@ -67,7 +67,7 @@ pub(super) fn compose(record: &FairRecord) -> Result<Option<Canvas>, PlotError> 
             (1.0 + MARK) * end,
             nice_step(end, 12.0),
         ),
-        left: Axis::powers(energy_axis(record), low - room, high + room, 8),
+        left: Axis::powers(energy_axis(record.is_field), low - room, high + room, 8),
         top: None,
         right: None,
         text_size: 2.8,

@@ -77,7 +77,7 @@ pub fn smoothing_figure(record: &FairRecord) -> Result<Option<Svg>, PlotError> {
     let chart = Chart {
         frame,
         bottom: Axis::powers("deviation of the offsets, RMS [mm]", low[0], high[0], 10),
-        left: Axis::powers(energy_axis(record), low[1], high[1], 10),
+        left: Axis::powers(energy_axis(record.is_field), low[1], high[1], 10),
         top: None,
         right: None,
         text_size: 2.8,

@@ -10,6 +10,13 @@ pub struct RepeatedSolver<'a> {
     kept: Option<Solver>,
 }
 
+impl Clone for RepeatedSolver<'_> {
+    /// One for the same settings. It knows nothing yet.
+    fn clone(&self) -> Self {
+        Self::new(self.settings)
+    }
+}
+
 impl<'a> RepeatedSolver<'a> {
     /// Nothing is known yet.
     #[must_use]

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::check::suspect_json;
 use super::failure::{Failure, problem};
+use super::fair_grades;
 use super::files::OutputFile;
 use super::generate::{json_file, manifest_entry, manifest_file};
 use super::source::{Overrides, is_toml, read_bytes, read_table_stated, remark, ship_name, utf8};
@@ -39,6 +40,8 @@ pub struct FairJob {
     pub reading: Vec<TableProblem>,
     /// Conventions of what is printed.
     pub conventions: Conventions,
+    /// Whether the table is faired at all whole grades of fairness besides.
+    pub grades: bool,
     table_file: PathBuf,
     /// Name and text of the conventions beside the table.
     sidecar: Option<(String, String)>,
@@ -147,7 +150,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     let density = request.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
-    Ok(FairJob { table, job, reading, conventions, table_file, sidecar, request, inputs, files })
+    Ok(FairJob { table, job, reading, conventions, grades: false, table_file, sidecar, request, inputs, files })
 }
 
 /// The surface through a table.
@@ -171,7 +174,8 @@ impl FairJob {
     #[must_use]
     pub fn outputs(&self) -> Vec<String> {
         let conventions = conventions_beside(self).map(|_| "offsets.toml".to_owned());
-        FILES.map(str::to_owned).into_iter().chain([offsets_name(self)]).chain(conventions).collect()
+        let grades = self.grades.then(fair_grades::names).into_iter().flatten();
+        FILES.map(str::to_owned).into_iter().chain([offsets_name(self)]).chain(conventions).chain(grades).collect()
     }
 
     /// The files that were read.
@@ -211,7 +215,7 @@ fn offsets_name(job: &FairJob) -> String {
 const COMPROMISE: &str = " (compromise)";
 
 /// A name without the mark of an earlier fairing, and with it where `compromise`.
-fn marked_name(name: &str, compromise: bool) -> String {
+pub(super) fn marked_name(name: &str, compromise: bool) -> String {
     let plain = name.trim_end_matches(COMPROMISE);
     format!("{plain}{}", if compromise { COMPROMISE } else { "" })
 }
@@ -338,6 +342,28 @@ fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: 
     }])
 }
 
+/// Why the table of a job was not faired.
+pub(super) fn refused(job: &FairJob, error: &JobError) -> Failure {
+    refusal(&job.request, &job.job.lines, &job.table_file, error)
+}
+
+/// Hydrostatics at the design draught.
+pub(super) fn row(job: &FairJob, hull: &Hull) -> Result<Hydrostatics, Failure> {
+    let mut rows = CurvesOfForm::new(hull, &[hull.particulars().draught], &job.conventions).rows;
+    rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))
+}
+
+fn hull_text(job: &FairJob, name: &str, hull: &Hull) -> Result<OutputFile, Failure> {
+    let text = write_hull(hull, &job.conventions).map_err(|e| Failure::Internal(format!("{name}: {e}")))?;
+    Ok(OutputFile::text(name, text))
+}
+
+/// The fair hull of an outcome, marked where it does not meet all targets.
+pub(super) fn hull_file(job: &FairJob, name: &str, outcome: &Outcome) -> Result<OutputFile, Failure> {
+    let marked = marked_name(outcome.after.name(), outcome.status != Status::Optimal);
+    hull_text(job, name, &outcome.after.clone().with_name(marked))
+}
+
 /// Fairs the table and makes every file about it.
 ///
 /// # Errors
@@ -356,18 +382,11 @@ pub fn fair_outputs_with_progress(
     figures: bool,
     progress: Progress<'_>,
 ) -> Result<FairOutputs, Failure> {
-    let mut outcome = job
-        .job
-        .run_telling(&job.table, progress)
-        .map_err(|error| refusal(&job.request, &job.job.lines, &job.table_file, &error))?;
+    let mut outcome = job.job.run_telling(&job.table, progress).map_err(|error| refused(job, &error))?;
+    let grades = job.grades.then(|| fair_grades::grade_files(job, &outcome, figures, progress)).transpose()?;
     // What reading the table had to guess decides the hull as much.
     outcome.notes.splice(0..0, job.warnings().map(remark));
-    let draught = outcome.after.particulars().draught;
-    let row = |hull: &Hull| {
-        let mut rows = CurvesOfForm::new(hull, &[draught], &job.conventions).rows;
-        rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))
-    };
-    let rows = [row(&outcome.before)?, row(&outcome.after)?];
+    let rows = [row(job, &outcome.before)?, row(job, &outcome.after)?];
     let name = offsets_name(job);
     let written = write_table(&with_texts(job, &outcome), TableWriting::default());
     let (effect, back) = rounded(job, &outcome, &name, &written.text);
@@ -379,13 +398,13 @@ pub fn fair_outputs_with_progress(
     let suspects: Vec<Value> = outcome.suspects.iter().map(|suspect| suspect_json(&job.table, suspect)).collect();
     let certificate = fairing_json(&job.table, &outcome, &rounding, &suspects);
     let compromise = outcome.status != Status::Optimal;
+    let hull = hull_file(job, "hull.json", &outcome)?;
     let name_of_hull = marked_name(outcome.after.name(), compromise);
     outcome.after = outcome.after.with_name(name_of_hull);
     let summary = summary(job, &outcome, &rows, &rounding);
-    let [fitted, hull] = [&outcome.before, &outcome.after].map(|hull| write_hull(hull, &job.conventions));
     let mut files = vec![
-        OutputFile::text("hull.json", hull.map_err(|e| Failure::Internal(format!("hull.json: {e}")))?),
-        OutputFile::text("fitted-hull.json", fitted.map_err(|e| Failure::Internal(format!("fitted-hull.json: {e}")))?),
+        hull,
+        hull_text(job, "fitted-hull.json", &outcome.before)?,
         OutputFile::table(&name, written.text, &job.table.form)?,
         OutputFile::text("changes.csv", changes_csv(&job.table, &outcome, back.as_ref())),
         OutputFile::text("control-polygon.csv", control_polygon_csv(&outcome)),
@@ -401,6 +420,7 @@ pub fn fair_outputs_with_progress(
         record.name = marked_name(&record.name, compromise);
         files.extend(super::fair_figures::fair_figures(&record)?);
     }
+    files.extend(grades.into_iter().flatten());
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let input = job.inputs.first().cloned().ok_or_else(|| Failure::Internal("no input".to_owned()))?;
     let manifest = manifest_file(input, &files)?;

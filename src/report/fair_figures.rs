@@ -26,13 +26,23 @@ pub(super) fn fair_figures(record: &FairRecord) -> Result<Vec<OutputFile>, Failu
     let combs = FairingCombs::new(record, &[]);
     let mut files = Vec::new();
     for (name, draw) in PICTURES {
-        let failure = |error: PlotError| Failure::Internal(format!("{name}: {error}"));
-        for (k, svg) in draw(record, &combs).map_err(failure)?.into_iter().enumerate() {
-            let name = if k == 0 { name.to_owned() } else { format!("{name}-{}", k + 1) };
-            let contents = svg.to_png(DOTS_PER_INCH).map_err(failure)?;
-            files.push(OutputFile { name: format!("{name}.png"), contents });
-            files.push(OutputFile::text(&format!("{name}.svg"), svg.as_str().to_owned()));
-        }
+        files.extend(pictures(name, draw(record, &combs))?);
+    }
+    Ok(files)
+}
+
+/// The files of the sheets of a picture.
+pub(super) fn pictures(
+    name: &str,
+    sheets: Result<impl IntoIterator<Item = Svg>, PlotError>,
+) -> Result<Vec<OutputFile>, Failure> {
+    let failure = |error: PlotError| Failure::Internal(format!("{name}: {error}"));
+    let mut files = Vec::new();
+    for (k, svg) in sheets.map_err(failure)?.into_iter().enumerate() {
+        let name = if k == 0 { name.to_owned() } else { format!("{name}-{}", k + 1) };
+        let contents = svg.to_png(DOTS_PER_INCH).map_err(failure)?;
+        files.push(OutputFile { name: format!("{name}.png"), contents });
+        files.push(OutputFile::text(&format!("{name}.svg"), svg.as_str().to_owned()));
     }
     Ok(files)
 }

@@ -1,7 +1,7 @@
 //! Writing of files: all or nothing is checked first, and each file appears whole.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::failure::Failure;
 use crate::exchange::{read_manifest_outputs, sha256, workbook};
@@ -10,7 +10,7 @@ use crate::hull::TableForm;
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFile {
-    /// Name in its folder.
+    /// Name in its folder; with the folders within it and slashes between them.
     pub name: String,
     /// Contents.
     pub contents: Vec<u8>,
@@ -46,6 +46,14 @@ pub(super) fn is_workbook(path: &Path) -> bool {
 pub fn same_path(a: &Path, b: &Path) -> bool {
     let real = |path: &Path| Path::new(".").join(path).canonicalize();
     matches!((real(a), real(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// Makes a folder that is not there; an empty one is the folder that the program runs in.
+fn make(folder: &Path) -> Result<(), Failure> {
+    if folder.as_os_str().is_empty() {
+        return Ok(());
+    }
+    fs::create_dir_all(folder).map_err(|error| Failure::FileSystem { act: "make", path: folder.to_owned(), error })
 }
 
 /// Where the files of a run go.
@@ -100,15 +108,19 @@ impl Destination<'_> {
         let earlier = if self.force { fs::read_to_string(manifest).unwrap_or_default() } else { String::new() };
         self.write(files)?;
         for entry in read_manifest_outputs(&earlier) {
-            // Names of files in this folder, and nothing else.
-            let plain = Path::new(&entry.file).file_name().is_some_and(|name| name == entry.file.as_str());
+            // Names of files within this folder, and nothing else.
+            let within = Path::new(&entry.file).components().all(|part| matches!(part, Component::Normal(_)));
             let path = self.folder.join(&entry.file);
-            if !plain || files.iter().any(|file| file.name == entry.file) || self.is_read(&path) {
+            if !within || files.iter().any(|file| file.name == entry.file) || self.is_read(&path) {
                 continue;
             }
             let regular = path.symlink_metadata().is_ok_and(|data| data.is_file() && data.len() == entry.bytes as u64);
             if regular && fs::read(&path).is_ok_and(|bytes| sha256(&bytes) == entry.sha256) {
-                fs::remove_file(&path).map_err(|error| Failure::FileSystem { act: "remove", path, error })?;
+                let removed = fs::remove_file(&path);
+                removed.map_err(|error| Failure::FileSystem { act: "remove", path: path.clone(), error })?;
+                // A folder of this run goes with its last file; one that is not empty stays.
+                let folders = path.ancestors().skip(1).take_while(|folder| *folder != self.folder);
+                let _ = folders.map(fs::remove_dir).find(Result::is_err);
             }
         }
         Ok(())
@@ -121,19 +133,14 @@ impl Destination<'_> {
     /// Those of [`Destination::check`]; [`Failure::FileSystem`].
     pub fn write(&self, files: &[OutputFile]) -> Result<(), Failure> {
         self.check(files.iter().map(|file| file.name.as_str()))?;
-        let folder = self.folder;
-        if !folder.as_os_str().is_empty() {
-            fs::create_dir_all(folder).map_err(|error| Failure::FileSystem {
-                act: "make",
-                path: folder.to_owned(),
-                error,
-            })?;
-        }
+        make(self.folder)?;
         for file in files {
+            let path = self.folder.join(&file.name);
+            path.parent().map_or(Ok(()), make)?;
             // What a link points to is written, not the link.
-            let path = folder.join(&file.name);
             let path = path.canonicalize().unwrap_or(path);
-            let temporary = path.with_file_name(format!(".{}.{}.part", file.name, std::process::id()));
+            let leaf = path.file_name().unwrap_or_default().to_string_lossy();
+            let temporary = path.with_file_name(format!(".{leaf}.{}.part", std::process::id()));
             let written = fs::write(&temporary, &file.contents).and_then(|()| fs::rename(&temporary, &path));
             if let Err(error) = written {
                 // The half-written file is of no use; that it cannot be removed either adds nothing to the message.

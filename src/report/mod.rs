@@ -8,6 +8,7 @@ mod failure;
 mod fair;
 mod fair_curve;
 mod fair_figures;
+mod fair_grades;
 mod fair_page;
 mod fair_refused;
 mod fair_short;

@@ -201,7 +201,7 @@ impl Inspection {
 }
 
 /// The curves of an inspection before it is said what can be seen of them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Traced(Vec<(Cut, Vec<Profile>)>);
 
 impl Traced {

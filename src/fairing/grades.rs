@@ -1,0 +1,91 @@
+//! One table at several grades of fairness.
+//!
+//! The surface through the table, the field or net that follows it, its noise and the search for the weight do not depend
+//! on the grade: they are made once. All grades are done in the way that was found for the grade that was asked for.
+
+use super::job::{Holding, Job, JobError};
+use super::outcome::{Outcome, Turns};
+use super::run::{Progress, Run, Way};
+use super::start::Started;
+use super::strength::Fairness;
+use super::told::Watched;
+use crate::hull::OffsetTable;
+use crate::numeric::join;
+use crate::units::counted;
+use std::sync::Arc;
+
+/// The way in which a job was done.
+#[derive(Debug, Clone)]
+pub(super) struct Taken {
+    /// The job of that way.
+    job: Job,
+    own: bool,
+    another: f64,
+    followed: Option<f64>,
+    /// What it started from.
+    started: Arc<Started>,
+}
+
+impl Taken {
+    pub(super) fn new(job: &Job, way: Way<'_>, started: Arc<Started>) -> Self {
+        let Way { own, another, followed, .. } = way;
+        Self { job: job.clone(), own, another, followed, started }
+    }
+
+    /// What `job` starts from. It depends on what is held where the net may be one of its own.
+    fn start_of(&self, job: &Job, table: &OffsetTable) -> Result<Arc<Started>, JobError> {
+        let given = |job: &Job| matches!(job.holding, Holding::Given(_));
+        if !self.own || self.started.surface.is_field || given(job) == given(&self.job) {
+            return Ok(Arc::clone(&self.started));
+        }
+        Ok(Arc::new(Started::new(job, table, self.own)?))
+    }
+
+    /// A run of `job` that only lacks its grade; the least inflections of lines that are `known` are not sought again.
+    fn run<'a>(
+        &self,
+        job: &'a Job,
+        table: &'a OffsetTable,
+        known: &'a [Turns],
+    ) -> Result<(Run<'a>, Watched), JobError> {
+        let way = Way { own: self.own, another: self.another, followed: self.followed, progress: &|_| () };
+        let (run, watched) = Run::new(job, table, way, self.start_of(job, table)?)?;
+        Ok((run.beside(known), watched))
+    }
+}
+
+impl Job {
+    /// The table at each of `grades`, in the way in which `asked`, the outcome of [`Job::run`] for this job and table, was
+    /// come to; `asked` itself at its own grade. What is held and the rules have no prices at the other grades.
+    ///
+    /// # Errors
+    /// As [`Job::run`].
+    pub fn run_grades(
+        &self,
+        table: &OffsetTable,
+        asked: &Outcome,
+        grades: &[Fairness],
+        progress: Progress<'_>,
+    ) -> Result<Vec<Outcome>, JobError> {
+        let others: Vec<Fairness> = grades.iter().copied().filter(|grade| *grade != asked.fairness).collect();
+        progress(&format!("{} of fairness more", counted(others.len(), "grade")));
+        let smooth = Self { signs: self.signs, holding: self.holding.clone(), ..asked.taken.job.clone() };
+        let through = smooth.through();
+        let run = |job, known, raw: bool| {
+            let needed = others.iter().any(|grade| grade.is_raw() == raw);
+            needed.then(|| asked.taken.run(job, table, known)).transpose()
+        };
+        // Tolerances of the surface through the table are its own.
+        let (smooth, through) = join(|| run(&smooth, &asked.turns, false), || run(&through, &[], true));
+        let (smooth, through) = (smooth?, through?);
+        let one = |grade: Fairness| {
+            let base = if grade.is_raw() { &through } else { &smooth };
+            base.clone().map(|(run, watched)| run.at(grade)?.outcome(watched)).transpose()
+        };
+        let some = |first: usize| others.iter().skip(first).step_by(2).map(|&grade| one(grade)).collect();
+        let (even, odd): (Result<Vec<_>, JobError>, Result<Vec<_>, JobError>) = join(|| some(0), || some(1));
+        let found: Vec<Outcome> = even?.into_iter().chain(odd?).flatten().collect();
+        let of = |grade: &Fairness| found.iter().chain([asked]).find(|outcome| outcome.fairness == *grade).cloned();
+        Ok(grades.iter().filter_map(of).collect())
+    }
+}

@@ -1,0 +1,54 @@
+//! One table at all whole grades of fairness, for whoever chooses one: a table, the hulls and a picture.
+
+use super::failure::Failure;
+use super::fair::{FairJob, hull_file, marked_name, refused, row};
+use super::fair_figures::pictures;
+use super::files::OutputFile;
+use crate::exchange::grades_csv;
+use crate::fairing::Progress;
+use crate::fairing::outcome::Outcome;
+use crate::fairing::strength::Fairness;
+use crate::hydrostatics::Hydrostatics;
+use crate::plot::{GradePoint, grades_figure};
+use crate::qp::Status;
+
+/// Name of the table.
+const TABLE: &str = "grades.csv";
+
+/// Name of the file of the hull at a grade.
+fn hull_name(grade: Fairness) -> String {
+    format!("grades/{}/hull.json", grade.grade())
+}
+
+/// Names of the files, besides the picture.
+pub(super) fn names() -> impl Iterator<Item = String> {
+    std::iter::once(TABLE.to_owned()).chain(Fairness::whole().map(hull_name))
+}
+
+/// The files of all whole grades; `asked` is the outcome of the job.
+pub(super) fn grade_files(
+    job: &FairJob,
+    asked: &Outcome,
+    figures: bool,
+    progress: Progress<'_>,
+) -> Result<Vec<OutputFile>, Failure> {
+    let run = job.job.run_grades(&job.table, asked, &Fairness::whole(), progress);
+    let grades = run.map_err(|error| refused(job, &error))?;
+    let rows = grades.iter().map(|outcome| row(job, &outcome.after)).collect::<Result<Vec<_>, _>>()?;
+    let table: Vec<(&Outcome, &Hydrostatics)> = grades.iter().zip(&rows).collect();
+    let mut files = vec![OutputFile::text(TABLE, grades_csv(&table))];
+    for outcome in &grades {
+        files.push(hull_file(job, &hull_name(outcome.fairness), outcome)?);
+    }
+    if figures {
+        let mut points: Vec<GradePoint> =
+            grades.iter().map(|outcome| GradePoint::new(outcome, outcome.fairness == asked.fairness)).collect();
+        if points.iter().all(|point| !point.asked) {
+            points.push(GradePoint::new(asked, true));
+            points.sort_by(|a, b| a.grade.total_cmp(&b.grade));
+        }
+        let ship = marked_name(&job.table.name, asked.status != Status::Optimal);
+        files.extend(pictures("grades", grades_figure(&ship, asked.is_field, &points))?);
+    }
+    Ok(files)
+}
