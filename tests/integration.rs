@@ -15,6 +15,7 @@ mod errors;
 mod export;
 mod fair;
 mod fair_curve;
+mod fair_grades;
 mod fair_locks;
 mod fair_rules;
 mod fair_sections;

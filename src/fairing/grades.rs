@@ -68,7 +68,7 @@ impl Job {
         progress: Progress<'_>,
     ) -> Result<Vec<Outcome>, JobError> {
         let others: Vec<Fairness> = grades.iter().copied().filter(|grade| *grade != asked.fairness).collect();
-        progress(&format!("{} of fairness more", counted(others.len(), "grade")));
+        progress(&format!("{} of fairness", counted(others.len(), "other grade")));
         let smooth = Self { signs: self.signs, holding: self.holding.clone(), ..asked.taken.job.clone() };
         let through = smooth.through();
         let run = |job, known, raw: bool| {
@@ -80,7 +80,9 @@ impl Job {
         let (smooth, through) = (smooth?, through?);
         let one = |grade: Fairness| {
             let base = if grade.is_raw() { &through } else { &smooth };
-            base.clone().map(|(run, watched)| run.at(grade)?.outcome(watched)).transpose()
+            let outcome = base.clone().map(|(run, watched)| run.at(grade)?.outcome(watched)).transpose();
+            progress(&format!("grade {grade} done"));
+            outcome
         };
         let some = |first: usize| others.iter().skip(first).step_by(2).map(|&grade| one(grade)).collect();
         let (even, odd): (Result<Vec<_>, JobError>, Result<Vec<_>, JobError>) = join(|| some(0), || some(1));
