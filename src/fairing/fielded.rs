@@ -102,7 +102,9 @@ impl FairSurface {
         let energy = field.bent.energy(&field.net, field.chosen.metric);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
-        let moves = move_metric(hull.surface(), readings.len(), scale);
+        // A move bends no sharper across a corner of the chart than the field may.
+        let mut moves = field.bent.jumps(&field.net);
+        moves.add_band(1.0, &move_metric(hull.surface(), readings.len(), scale));
         let own = field.net.energy(field.chosen.metric).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };

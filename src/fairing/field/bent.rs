@@ -179,11 +179,8 @@ impl Bent {
     /// The energy of the field within the hull, in the net of the hull; `net` is that of the field, for its counts.
     #[must_use]
     pub fn energy(&self, net: &Net, metric: Metric) -> SymmetricBand {
-        let [rows, columns] = self.shape();
-        // Across a corner two spans of v meet that share one function.
-        let reach = if self.corners.is_empty() && self.breaks.is_empty() { DEGREE } else { 2 * DEGREE };
-        let width = DEGREE.min(rows - 1) * columns + reach.min(columns - 1);
-        let mut matrix = SymmetricBand::zeros(rows * columns, width);
+        let mut matrix = self.jumps(net);
+        let columns = self.shape()[1];
         let rule = gauss_legendre(NODES);
         let [n, m] = net.intervals;
         // sum_k C(4, k) (n m) g a^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
@@ -232,14 +229,19 @@ impl Bent {
                 }
             }
         }
-        self.charge_jumps(&mut matrix, [n, m]);
         matrix
     }
 
-    /// Charges what derivatives of the field jump across the corners of the chart, where those of the net do, and across
-    /// its breaks.
-    fn charge_jumps(&self, matrix: &mut SymmetricBand, [n, m]: [f64; 2]) {
-        let columns = self.shape()[1];
+    /// What the jumps of derivatives of the field are charged: across the corners of the chart, where those of the net
+    /// jump, and across its breaks; `net` is that of the field, for its counts.
+    #[must_use]
+    pub fn jumps(&self, net: &Net) -> SymmetricBand {
+        let [rows, columns] = self.shape();
+        // Across a corner two spans of v meet that share one function.
+        let reach = if self.corners.is_empty() && self.breaks.is_empty() { DEGREE } else { 2 * DEGREE };
+        let width = DEGREE.min(rows - 1) * columns + reach.min(columns - 1);
+        let mut matrix = SymmetricBand::zeros(rows * columns, width);
+        let [n, m] = net.intervals;
         let rule = gauss_legendre(NODES);
         let breaks = self.knots[0].breakpoints();
         let corner = |&at: &f64| Break { at, order: 1, charge: JUMP };
@@ -280,6 +282,7 @@ impl Bent {
                 }
             }
         }
+        matrix
     }
 }
 
