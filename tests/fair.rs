@@ -8,6 +8,7 @@ use loftsman::exchange::read_table;
 use loftsman::fairing::outcome::Turns;
 use loftsman::fairing::strength::Fairness;
 use loftsman::hull::{Cut, Hull};
+use loftsman::qp::Status;
 use loftsman::report::{FairJob, FairOutputs, fair_outputs, fair_page, fair_summary, read_fair, read_source};
 use serde_json::Value;
 
