@@ -24,7 +24,7 @@ fn all_grades_are_written_beside_the_one_that_is_asked_for() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stdout(&output)
     };
-    let page = fair(&["--grades"]);
+    let page = fair(&["--grades", "--verbose"]);
     assert!(page.contains("grades.csv") && page.contains("grades/10/hull.json"), "{page}");
     let csv = read_text(out.join("grades.csv"));
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();

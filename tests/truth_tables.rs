@@ -170,8 +170,8 @@ fn the_fair_hulls_of_the_tables_are_near_their_truths() {
         variations[middle]
     );
     println!("{said}");
-    assert!(ratios[middle] <= 0.98 && above <= 3 && worst <= 1.3, "{said}");
-    assert!(variations[middle] <= 1.05 && waving <= 3, "{said}");
+    assert!(ratios[middle] <= 0.99 && above <= 3 && worst <= 1.3, "{said}");
+    assert!(variations[middle] <= 1.05 && waving <= 4, "{said}");
 }
 
 /// The carried tables made fair: `LOFTSMAN_GOLDEN=1` writes their nets.
