@@ -49,10 +49,6 @@ const PRIOR: f64 = 4.0;
 /// Least 1 - h of a reading.
 const LEAST_FREEDOM: f64 = 0.05;
 
-/// Part of what the energy charges a jump across a corner of the chart that a move of the whole hull costs there. With all of
-/// it a Series 60 came a third of the way to a displacement out of reach, without it the energy of the move was 4500 times.
-const CORNERS: f64 = 1e-2;
-
 /// Powers of ten to each side of the weight of a field that are drawn.
 const TRIALS: i32 = 3;
 
@@ -106,8 +102,8 @@ impl FairSurface {
         let energy = field.bent.energy(&field.net, field.chosen.metric);
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
-        let jumps = field.bent.jumps(&field.net);
-        let mut moves = jumps.plus(CORNERS - 1.0, &jumps);
+        // A move bends no sharper across a corner of the chart than the field may.
+        let mut moves = field.bent.jumps(&field.net);
         moves.add_band(1.0, &move_metric(hull.surface(), readings.len(), scale));
         let own = field.net.energy(field.chosen.metric).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });

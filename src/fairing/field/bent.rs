@@ -15,7 +15,7 @@ use crate::spline::{Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
 const NODES: usize = 4;
 
 /// What a jump of a derivative of the field is charged, over its size in intervals of the table.
-const JUMP: f64 = 1e3;
+const JUMP: f64 = 1e4;
 
 /// Coefficients of a polynomial of total degree 4 in two variables: t\[p\]\[q\] of du^p dv^q.
 type Taylor = [[f64; ORDER + 1]; ORDER + 1];
