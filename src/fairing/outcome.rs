@@ -11,6 +11,7 @@ use super::strength::Fairness;
 use super::surface::Origin;
 use super::suspects::Suspect;
 use crate::hull::{Cut, Hull, OffsetTable};
+use crate::numeric::median;
 use crate::qp::Status;
 use crate::units::counted;
 
@@ -242,12 +243,8 @@ impl Outcome {
     pub fn variation(&self) -> Option<[f64; 2]> {
         let pairs = self.table_lines().filter_map(|turns| Some([turns.variation[0]?, turns.variation[1]?]));
         let pairs: Vec<[f64; 2]> = pairs.collect();
-        let median = |side: usize| {
-            let mut all: Vec<f64> = pairs.iter().map(|pair| pair[side]).collect();
-            all.sort_by(f64::total_cmp);
-            Some(0.5 * (all.get((all.len().max(1) - 1) / 2)? + all.get(all.len() / 2)?))
-        };
-        Some([median(0)?, median(1)?])
+        let middle = |side: usize| median(&mut pairs.iter().map(|pair| pair[side]).collect::<Vec<f64>>());
+        Some([middle(0)?, middle(1)?])
     }
 
     /// Whether stations and waterlines have more changes of sign or more monotone pieces than before, or from the default
