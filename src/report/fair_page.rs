@@ -57,7 +57,7 @@ pub(super) fn limit(quantum: Option<f64>, sigma: f64, notation: Notation) -> (f6
     (limit, format!("{}{what}", small(limit, notation)))
 }
 
-pub(super) fn counted(n: usize, one: &str, many: &str) -> String {
+fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 

@@ -1,11 +1,12 @@
 //! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
 
 use super::fair::{FairJob, FairOutputs};
-use super::fair_page::{MOST_AREAS, counted, dimensions, limit, millimetres, not_stated, place, tolerances};
+use super::fair_page::{MOST_AREAS, dimensions, limit, millimetres, not_stated, place, tolerances};
 use super::page::{WIDTH, fixed_sign, value};
 use crate::exchange::status_word;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::qp::Status;
+use crate::units::counted;
 
 /// Suspects that are named.
 const NAMED: usize = 3;
@@ -81,7 +82,7 @@ fn offsets(job: &FairJob, outcome: &Outcome) -> String {
     let shown = shown.split(" (").next().unwrap_or_default();
     let stays = |change: &&Change| !change.suspect && (change.after - change.before).abs() <= limit * (1.0 + 1e-9);
     let kept = outcome.changes.iter().filter(stays).count();
-    let all = counted(outcome.changes.len(), "offset", "offsets");
+    let all = counted(outcome.changes.len(), "offset");
     format!("{kept} of {all} kept within {shown}{}.", tolerances(outcome))
 }
 
@@ -112,11 +113,7 @@ fn suspects(job: &FairJob, outcome: &Outcome) -> String {
     if left_out.len() > NAMED {
         names.push(format!("{} more", left_out.len() - NAMED));
     }
-    format!(
-        "{} left out: {}.",
-        counted(left_out.len(), "suspected typing error", "suspected typing errors"),
-        names.join("; ")
-    )
+    format!("{} left out: {}.", counted(left_out.len(), "suspected typing error"), names.join("; "))
 }
 
 /// Displacement and LCB before and after, and what is not held.
@@ -143,10 +140,10 @@ fn held(outputs: &FairOutputs) -> String {
 
 /// Where the files are, and what else there is to read.
 fn written(outputs: &FairOutputs, folder: &str) -> String {
-    let files = counted(outputs.files.len(), "file", "files");
+    let files = counted(outputs.files.len(), "file");
     let remarks = match outputs.outcome.notes.len() {
         0 => String::new(),
-        n => format!(", {}", counted(n, "remark", "remarks")),
+        n => format!(", {}", counted(n, "remark")),
     };
     format!("Written to {folder}: {files}{remarks}; all else with --verbose.")
 }
