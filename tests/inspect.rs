@@ -33,6 +33,19 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..=count).map(|k| from + (to - from) * k as f64 / count as f64).collect()
 }
 
+/// The ellipse of these semi-axes.
+fn ellipse(a: f64, b: f64) -> impl Fn(f64) -> Local {
+    move |t| {
+        let w = (a * t.sin()).powi(2) + (b * t.cos()).powi(2);
+        Local {
+            point: [a * t.cos(), b * t.sin()],
+            velocity: [-a * t.sin(), b * t.cos()],
+            curvature: a * b / w.powf(1.5),
+            slope: -3.0 * a * b * (a * a - b * b) * t.sin() * t.cos() / w.powi(3),
+        }
+    }
+}
+
 #[test]
 fn a_circle_has_neither_inflections_nor_extrema_nor_flats() {
     let r = 3.0;
@@ -54,18 +67,10 @@ fn a_circle_has_neither_inflections_nor_extrema_nor_flats() {
 #[test]
 fn an_ellipse_has_four_extrema() {
     let (a, b) = (5.0f64, 2.0f64);
-    let ellipse = |t: f64| {
-        let w = (a * t.sin()).powi(2) + (b * t.cos()).powi(2);
-        Local {
-            point: [a * t.cos(), b * t.sin()],
-            velocity: [-a * t.sin(), b * t.cos()],
-            curvature: a * b / w.powf(1.5),
-            slope: -3.0 * a * b * (a * a - b * b) * t.sin() * t.cos() / w.powi(3),
-        }
-    };
+    let ellipse = ellipse(a, b);
     // From any start.
     for start in [0.0, 0.3, 1.2] {
-        let found = findings(&even(start, start + 2.0 * PI, 12), true, 1e-3, ellipse);
+        let found = findings(&even(start, start + 2.0 * PI, 12), true, 1e-3, &ellipse);
         assert_eq!(found.extrema.len(), 4, "{start}: {:?}", found.extrema);
         assert!(found.inflections.is_empty());
         assert!((found.largest.0 - a / (b * b)).abs() < 5e-2);
@@ -77,7 +82,7 @@ fn an_ellipse_has_four_extrema() {
         }
     }
     // Half of it, open, cut on the short axis: the end of the long axis is the only extremum inside.
-    let half = findings(&even(-0.5 * PI, 0.5 * PI, 6), false, 1e-3, ellipse);
+    let half = findings(&even(-0.5 * PI, 0.5 * PI, 6), false, 1e-3, &ellipse);
     assert_eq!(half.extrema.len(), 1);
     assert!((half.extrema[0].point[0] - a).abs() < 1e-6 && half.extrema[0].point[1].abs() < 1e-4);
     // int (d kappa / ds)^2 ds by a fine rule.
@@ -87,7 +92,7 @@ fn an_ellipse_has_four_extrema() {
             l.slope * l.slope * l.velocity[0].hypot(l.velocity[1]) * 2.0 * PI / 20_000.0
         })
         .sum();
-    let found = findings(&even(0.0, 2.0 * PI, 24), true, 1e-3, ellipse);
+    let found = findings(&even(0.0, 2.0 * PI, 24), true, 1e-3, &ellipse);
     assert!((found.variation - fine).abs() < 1e-7 * fine, "{} {fine}", found.variation);
 }
 
@@ -97,17 +102,6 @@ fn monotone_pieces_of_curves_in_closed_form() {
     let count = |ends: &[f64], local: &dyn Fn(f64) -> Local| {
         let spans: Vec<[f64; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         Counts::of(&[Profile::sample(&spans, false, |t| Some(local(t))).expect("a curve")], 1e-3)
-    };
-    let ellipse = |a: f64, b: f64| {
-        move |t: f64| {
-            let w = (a * t.sin()).powi(2) + (b * t.cos()).powi(2);
-            Local {
-                point: [a * t.cos(), b * t.sin()],
-                velocity: [-a * t.sin(), b * t.cos()],
-                curvature: a * b / w.powf(1.5),
-                slope: -3.0 * a * b * (a * a - b * b) * t.sin() * t.cos() / w.powi(3),
-            }
-        }
     };
     let arc = count(&even(0.0, 2.0, 3), &ellipse(3.0, 3.0));
     assert_eq!((arc.inflections, arc.pieces, arc.variation), (0, 1, None));
