@@ -92,8 +92,7 @@ pub(super) struct Run<'a> {
     way: Way<'a>,
     started: Arc<Started>,
     fairness: Fairness,
-    /// Lines whose least inflections are known, of a run with the same tolerances; none where nothing is left out that
-    /// the hull and its moves do not need.
+    /// The lines of a run with the same tolerances, whose least inflections are known. With them prices are left out.
     known: Option<&'a [Turns]>,
     found: Suspects,
     /// The surface through the table.

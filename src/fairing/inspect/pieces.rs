@@ -2,14 +2,14 @@
 //!
 //! A curve is fair when its curvature kappa(s) has few monotone pieces (Farin and Sapidis 1989, "Curvature and the
 //! fairness of curves and surfaces", IEEE Computer Graphics and Applications 9(2), 52-57). A *swing* is the course of
-//! kappa between two successive turning points. With its change of curvature dk \[1/m\], of either sign, and the arc length
-//! l \[m\] between the turning points it has the height
+//! kappa between two successive turning points. It has a change of curvature dk \[1/m\] of either sign, and the arc length
+//! l \[m\] between its turning points. Its height is
 //!
 //! ```text
 //! h = |dk| l^2 / pi^2 \[m\],
 //! ```
 //!
-//! what a half wave departs by from its chord whose curvature swings by dk over its length l. While the least swing has
+//! A half wave whose curvature swings by dk over its length l departs by that from its chord. While the least swing has
 //! a height below a band \[m\], it is merged: within the curve with both its neighbours, at an end of the curve with its
 //! one neighbour. Ripple upon ripple goes, the least first, and what is left is what persists (Edelsbrunner, Letscher and
 //! Zomorodian 2002). The ends of the curve count as turning points. One that lies on a plateau has no place of its own:

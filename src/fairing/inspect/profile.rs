@@ -91,9 +91,9 @@ pub struct Findings {
 /// How fair the curves of a plane are, counted.
 ///
 /// Knuckles split a curve: what is counted is counted between them, and added. A bump counts from a band \[m\] on, the
-/// same for all: for inflections the depth of a lobe from its chord, for monotone pieces the height |dk| l^2 / pi^2 of a
-/// swing of curvature dk \[1/m\] between turning points an arc length l \[m\] apart, merged the least first (Farin and
-/// Sapidis 1989, "Curvature and the fairness of curves and surfaces").
+/// same for all. For inflections that is the depth of a hump from its chord. For monotone pieces it is the height
+/// |dk| l^2 / pi^2 of a swing of curvature dk \[1/m\] between turning points an arc length l \[m\] apart. The least is
+/// merged first (Farin and Sapidis 1989, "Curvature and the fairness of curves and surfaces").
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Counts {
     /// Inflections: changes of the sign of curvature.
