@@ -33,6 +33,10 @@ pub(super) struct Arguments {
     /// Shape of the file: matrix or tidy; as in the table where none is given
     #[arg(long, value_parser = layout)]
     layout: Option<TableLayout>,
+    /// Draught of panels, and of the files for Michlet, PDSTRIP and DELFTship, above the base line [default: of the table
+    /// or the hull, where one is stated]
+    #[arg(long, alias = "draft", value_parser = super::positive, value_name = "LENGTH", allow_hyphen_values = true)]
+    draught: Option<f64>,
     /// Overwrite the file when it is there already
     #[arg(long)]
     force: bool,
@@ -88,7 +92,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if let Some(format) = said_format.or(table) {
         let name = output.unwrap_or(&arguments.table).to_string_lossy().into_owned();
-        let (file, messages) = convert_file(&arguments.table, &overrides, &name, format, &ExportSettings::default())?;
+        let settings = ExportSettings { draught: arguments.draught, ..ExportSettings::default() };
+        let (file, messages) = convert_file(&arguments.table, &overrides, &name, format, &settings)?;
         if !arguments.quiet {
             messages.iter().for_each(|message| stream::message(message));
         }

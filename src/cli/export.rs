@@ -39,7 +39,8 @@ pub(super) struct Arguments {
     /// design draught
     #[arg(long, value_parser = datum, value_name = "HEIGHT", default_value = "0 m", allow_hyphen_values = true)]
     datum: Datum,
-    /// Draught of panels, and of the offsets for Michlet, above the base line [default: of the hull]
+    /// Draught of panels, and of the files for Michlet, PDSTRIP and DELFTship, above the base line [default: of the hull,
+    /// where one is stated]
     #[arg(long, alias = "draft", value_parser = positive, value_name = "LENGTH", allow_hyphen_values = true)]
     draught: Option<f64>,
     /// Length of the sides of panels; without it a fiftieth of Lpp, or as much less, down to a quarter of that, as
@@ -123,7 +124,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {
         Datum::Height(height) => height,
-        Datum::Waterline => source.hull.particulars().draught,
+        Datum::Waterline => {
+            let none = || Failure::Usage("--datum waterline needs a draught, and none is stated: give --draught".to_owned());
+            source.hull.particulars().draught.or(arguments.draught).ok_or_else(none)?
+        }
     };
     let settings = ExportSettings {
         unit: arguments.unit,

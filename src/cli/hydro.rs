@@ -1,13 +1,15 @@
-//! `loftsman hydro HULL --draughts LIST`
+//! `loftsman hydro HULL [--draughts LIST]`
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Lengths, length, lengths, stream};
+use super::{Lengths, length, lengths, positive, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
 use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
-use crate::report::{Failure, hydrostatics_page, read_hydrostatic_body_with, source_files};
+use crate::report::{
+    Failure, hydrostatics_page, read_hydrostatic_body_at, read_hydrostatic_body_with, source_files,
+};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]
@@ -16,9 +18,13 @@ pub(super) struct Arguments {
     /// hull.json, a folder that holds one, a design file, a table of offsets (which is fitted first), or a mesh or CAD
     /// file (taken as it is)
     hull: PathBuf,
-    /// Draughts above the base line [m], as 1:9:1
+    /// Draughts above the base line [m], as 1:9:1 [default: about 20 round ones from a fifth of the design draught to the
+    /// depth, with both; from a fifth of the depth where no design draught is stated]
     #[arg(long, alias = "drafts", value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
-    draughts: Lengths,
+    draughts: Option<Lengths>,
+    /// Design draught above the base line [default: of the hull, where one is stated]
+    #[arg(long, alias = "draft", value_parser = positive, value_name = "T", allow_hyphen_values = true)]
+    draught: Option<f64>,
     #[command(flatten)]
     conventions: super::BodyFlags,
     /// Every quantity as CSV
@@ -109,15 +115,23 @@ fn conventions(arguments: &Arguments, stored: Conventions) -> Conventions {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = read_hydrostatic_body_with(&arguments.hull, &arguments.conventions.overrides())?;
+    let overrides = arguments.conventions.overrides();
+    let source = match arguments.draught {
+        Some(draught) => read_hydrostatic_body_at(&arguments.hull, &overrides, draught)?,
+        None => read_hydrostatic_body_with(&arguments.hull, &overrides)?,
+    };
     source.notes.iter().for_each(|note| stream::message(note));
-    let table = source.curves_of_form(&arguments.draughts.0, &conventions(arguments, source.conventions));
+    let draughts = match &arguments.draughts {
+        Some(Lengths(list)) => list.clone(),
+        None => source.default_draughts()?,
+    };
+    let table = source.curves_of_form(&draughts, &conventions(arguments, source.conventions));
     let text = if arguments.json {
         stream::json(&hydrostatics_json(source.hull(), &table).map_err(|e| Failure::Internal(e.to_string()))?)?
     } else if arguments.csv {
         hydrostatics_csv(&table)
     } else {
-        hydrostatics_page(&table, source.particulars.length_between_perpendiculars)
+        hydrostatics_page(&table, &source.particulars)
     };
     let inputs = source_files(&arguments.hull);
     stream::Target { file: arguments.output.as_deref(), inputs: &inputs, force: arguments.force }.text(text)

@@ -26,10 +26,11 @@ pub(super) struct Arguments {
     /// Buttocks, from the centreplane [m]
     #[arg(long, value_parser = lengths, value_name = "LIST")]
     buttocks: Option<Lengths>,
-    /// Diagonals by their heights on the centreplane [m]; without it at 0.7, 1 and 1.3 T
+    /// Diagonals by their heights on the centreplane [m]; without it at 0.7, 1 and 1.3 T, or where no draught is stated
+    /// at 0.5, 0.7 and 0.9 of the height H that all stations between the ends reach
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     diagonals: Option<Lengths>,
-    /// Angle of the diagonals below the horizontal; without it atan(T / (B/2))
+    /// Angle of the diagonals below the horizontal; without it atan(T / (B/2)), or atan(H / (B/2))
     #[arg(long, value_parser = diagonal_angle, value_name = "ANGLE")]
     diagonal_angle: Option<f64>,
     /// One more plane a x + b y + c z = d [m]; may be repeated

@@ -218,8 +218,8 @@ impl JobFile {
     /// The job for a table whose L_PP is `length` \[m\], and for water of the density of the file or of 1.025 t/m^3.
     ///
     /// # Errors
-    /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG; all of
-    /// them.
+    /// Names of stations, waterlines, cells and lines that the table does not have, empty ranges, GM without KG, targets at
+    /// a draught that is not stated; all of them.
     pub fn for_table(&self, table: &OffsetTable, length: f64) -> Result<Job, Vec<Diagnostic>> {
         let mut job = Job { fairness: self.fairness.unwrap_or_default(), ..Job::default() };
         job.weight = self.weight.flatten();
@@ -230,6 +230,7 @@ impl JobFile {
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);
         let mut problems = self.two_strengths();
+        problems.extend(self.at_no_draught(table));
         let mut named: Vec<(TableItem, f64)> = Vec::new();
         for (mark, tolerance) in &self.tolerances {
             let found = mark.find(table);
@@ -295,6 +296,30 @@ impl JobFile {
         job.locked.sort_unstable();
         job.locked.dedup();
         if problems.is_empty() { Ok(job) } else { Err(problems) }
+    }
+
+    /// What is asked for at a draught that neither job nor table states: a problem for each, at its place. The table's own
+    /// displacement and LCB are volume and centre below another height then.
+    #[must_use]
+    pub fn at_no_draught(&self, table: &OffsetTable) -> Vec<Diagnostic> {
+        if table.stated.states_draught() || self.stated.states_draught() {
+            return Vec::new();
+        }
+        let problem = |place: &Location, what: &str| {
+            let text = format!("{what} needs a draught, and none is stated");
+            place.problem("E184", &text, "Give --draught (T under [dimensions]), or leave it out.")
+        };
+        let quantities = self.hold.iter().filter(|(quantity, target)| quantity.needs_draught(*target));
+        let mut problems: Vec<Diagnostic> = quantities
+            .filter_map(|(quantity, _)| {
+                Some(problem(self.place(&format!("hold.{}", quantity.key()))?, &quantity.words()))
+            })
+            .collect();
+        let curve = self.section_area_curve.iter().map(|(_, place)| place);
+        let areas = self.section_areas.iter().map(|(_, place)| place).chain(curve);
+        problems.extend(areas.map(|place| problem(place, "a section area")));
+        problems.dedup();
+        problems
     }
 
     /// Keys that say how strongly a table is faired beside the one that does.

@@ -318,6 +318,8 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
     json!({
         "name": table.name,
         "table": lines(table, outcome),
+        // Null where a draught is stated: then the quantities are those at T.
+        "held_below": outcome.held_below().map(|(z, words)| json!({ "z": number(z), "words": words })),
         "status": status_word(outcome.status),
         "energy": {
             "before": number(outcome.energy[0]), "after": number(outcome.energy[1]), "order": outcome.order,

@@ -20,7 +20,7 @@ pub fn result_word(outcome: &Outcome) -> &'static str {
 /// moves \[m\], energy over that before (of a field, over that of the likeliest one), and hydrostatics at the design
 /// draught. The energy is empty where that before is 0.
 #[must_use]
-pub fn grades_csv(grades: &[(&Outcome, &Hydrostatics)]) -> String {
+pub fn grades_csv(grades: &[(&Outcome, Option<&Hydrostatics>)]) -> String {
     let head = [
         "grade",
         "status",
@@ -51,10 +51,10 @@ pub fn grades_csv(grades: &[(&Outcome, &Hydrostatics)]) -> String {
             rounded(rms, 9),
             rounded(largest, 9),
             cell((before > 0.0).then(|| to_decimals(after / before, 6))),
-            rounded(row.displacement_volume, 4),
-            rounded(row.displacement_mass, 4),
-            cell(row.lcb.map(|lcb| to_decimals(lcb, 4))),
-            cell(row.block_coefficient.map(|block| to_decimals(block, 6))),
+            cell(row.map(|row| to_decimals(row.displacement_volume, 4))),
+            cell(row.map(|row| to_decimals(row.displacement_mass, 4))),
+            cell(row.and_then(|row| row.lcb).map(|lcb| to_decimals(lcb, 4))),
+            cell(row.and_then(|row| row.block_coefficient).map(|block| to_decimals(block, 6))),
         ]));
     }
     csv

@@ -1,6 +1,6 @@
 //! `hull.json`: the hull as numbers, read back bit for bit.
 //!
-//! An object with `format` "loftsman-hull", `version` 1, `name`, `particulars` (Lpp, B, T, D), `surface` (`degree` in u
+//! An object with `format` "loftsman-hull", `version` 1, `name`, `particulars` (Lpp, B, D, and T where it is stated), `surface` (`degree` in u
 //! and v, `knots` in u and v, and the nets `x`, `y`, `z`: one list for each control point along the ship, aft to
 //! forward, with one number for each control point from bottom to top; on a level hull all lists of `z` are equal),
 //! `deck` (degree, knots, x, z of the deck at side) and `conventions`. All lengths in metres. Numbers are the shortest
@@ -199,14 +199,19 @@ fn json_error(error: &serde_json::Error, field: String) -> HullFileError {
 
 /// Main dimensions and conventions that no ship has.
 fn faults(p: &PrincipalParticulars, conventions: &Conventions) -> Vec<String> {
-    let dimensions =
-        [("Lpp", p.length_between_perpendiculars), ("B", p.breadth), ("T", p.draught), ("D", p.depth)].into_iter();
+    let dimensions = [
+        ("Lpp", Some(p.length_between_perpendiculars)),
+        ("B", Some(p.breadth)),
+        ("T", p.draught),
+        ("D", Some(p.depth)),
+    ];
     let mut list: Vec<String> = dimensions
-        .filter(|(_, value)| *value <= 0.0)
+        .into_iter()
+        .filter_map(|(key, value)| Some((key, value.filter(|value| *value <= 0.0)?)))
         .map(|(key, value)| format!("particulars.{key} is {value} m, expected more than 0"))
         .collect();
-    if list.is_empty() && p.draught_exceeds_depth() {
-        list.push(format!("particulars.T is {} m, expected at most particulars.D, {} m", p.draught, p.depth));
+    if let Some(draught) = p.draught.filter(|_| list.is_empty() && p.draught_exceeds_depth()) {
+        list.push(format!("particulars.T is {draught} m, expected at most particulars.D, {} m", p.depth));
     }
     list.extend(conventions.faults().into_iter().map(|fault| format!("conventions.{fault}")));
     list
@@ -243,7 +248,11 @@ pub fn read_hull(text: &str) -> Result<HullFile, HullFileError> {
         return Err(HullFileError::Version(head.version));
     }
     let record: Record = json(text)?;
-    let particulars = PrincipalParticulars::from(&record.particulars);
+    let mut particulars = PrincipalParticulars::from(&record.particulars);
+    // Older programs supplied a draught that nobody had stated, and marked it.
+    if record.conventions.design_draught_assumed {
+        particulars.draught = None;
+    }
     let conventions: Conventions = record.conventions.into();
     let faults = faults(&particulars, &conventions);
     if !faults.is_empty() {

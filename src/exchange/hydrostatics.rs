@@ -24,9 +24,9 @@ pub(super) struct ConventionsRecord {
     keel_thickness: Option<f64>,
     #[serde(rename = "KG")]
     kg: Option<f64>,
-    /// Written only where it is so.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    design_draught_assumed: bool,
+    /// Of older files: nobody stated the draught of the hull. Not written any more.
+    #[serde(skip_serializing)]
+    pub(super) design_draught_assumed: bool,
     /// Symbols of the other main dimensions that were assumed; written only where there are some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     dimensions_assumed: Vec<String>,
@@ -95,8 +95,8 @@ impl From<&Conventions> for ConventionsRecord {
             },
             keel_thickness: Some(c.keel_thickness),
             kg: c.centre_of_gravity_height,
-            design_draught_assumed: c.assumed.draught,
-            dimensions_assumed: c.assumed.besides_draught().into_iter().map(str::to_owned).collect(),
+            design_draught_assumed: false,
+            dimensions_assumed: c.assumed.symbols().into_iter().map(str::to_owned).collect(),
             station_spaces: Some(c.stations.spaces).filter(|&spaces| spaces != StationNumbers::default().spaces),
             station_zero: c.stations.from_forward.then_some(LcbWord::ForwardPerpendicular),
         }
@@ -133,7 +133,6 @@ impl From<ConventionsRecord> for Conventions {
             assumed: Assumed {
                 length: assumed("L_PP"),
                 breadth: assumed("B"),
-                draught: record.design_draught_assumed,
                 depth: assumed("D"),
             },
             stations: StationNumbers {

@@ -14,9 +14,9 @@ pub struct Particulars {
     /// Breadth.
     #[serde(rename = "B")]
     pub b: f64,
-    /// Design draught.
-    #[serde(rename = "T")]
-    pub t: f64,
+    /// Design draught; left out where nobody stated one.
+    #[serde(rename = "T", default, skip_serializing_if = "Option::is_none")]
+    pub t: Option<f64>,
     /// Depth.
     #[serde(rename = "D")]
     pub d: f64,

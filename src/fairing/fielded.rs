@@ -234,7 +234,7 @@ impl Prepared {
         };
         let volume = error(&Constraint::Displacement(Constraint::Displacement(0.0).value(hull)));
         let narrower = |quantity: &Constraint| match quantity {
-            Constraint::CentreOfBuoyancy(_) => (1.0 - volume).max(0.0),
+            Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfVolume { .. } => (1.0 - volume).max(0.0),
             _ => 1.0,
         };
         quantities.iter().map(|quantity| error(quantity) * quantity.scale(hull) * narrower(quantity)).collect()

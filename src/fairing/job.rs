@@ -32,7 +32,8 @@ const EMPTY: f64 = 1e-9;
 /// What is held of the hull.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Holding {
-    /// Displacement, LCB and C_M of the table's own surface.
+    /// Displacement, LCB and C_M of the table's own surface; where no draught is stated, volume and centre of volume below
+    /// [`Hull::reference_height`].
     Table,
     /// These.
     Given(Vec<Constraint>),
@@ -47,14 +48,29 @@ pub enum Holding {
 
 impl Holding {
     /// The constraints, of the surface through the table where they are its own; without its own C_M where midship is not
-    /// known ([`Hull::counts_from_aft_perpendicular`]). Where displacement and C_B, or the area
+    /// known ([`Hull::counts_from_aft_perpendicular`]). Where no draught is stated, volume and its centre below
+    /// [`Hull::reference_height`] take the place of the table's displacement and LCB. Where displacement and C_B, or the area
     /// amidships and C_M, say the same to the digits in which the coefficient is written, the coefficient is left out.
     ///
     /// # Errors
-    /// [`JobError::Apart`] where they do not.
+    /// [`JobError::Apart`] where they do not; [`JobError::NoDraught`] where a target needs a draught and none is stated.
     pub(super) fn constraints(&self, before: &Hull) -> Result<Vec<Constraint>, JobError> {
-        let valued = |constraint: &Constraint| constraint.with_target(constraint.value(before));
         let p = before.particulars();
+        let below = before.reference_height();
+        // Without a draught nothing is held at one.
+        let afloat = |constraint: &Constraint| match constraint {
+            _ if p.draught.is_some() => Some(*constraint),
+            Constraint::Displacement(volume) => Some(Constraint::Volume { volume: *volume, below }),
+            Constraint::CentreOfBuoyancy(x) => Some(Constraint::CentreOfVolume { x: *x, below }),
+            other => (!other.needs_draught()).then_some(*other),
+        };
+        let valued = |constraint: Constraint| constraint.with_target(constraint.value(before));
+        if let (None, Self::Given(given) | Self::Both { given, .. }) = (p.draught, self) {
+            let words: Vec<String> = given.iter().filter(|c| c.needs_draught()).map(Constraint::words).collect();
+            if !words.is_empty() {
+                return Err(JobError::NoDraught(words.join(", ")));
+            }
+        }
         // The section amidships of a hull whose midship is not known is any section.
         let counts = before.counts_from_aft_perpendicular();
         let known_place = |constraint: &&Constraint| counts || !matches!(constraint, Constraint::MidshipCoefficient(_));
@@ -62,20 +78,22 @@ impl Holding {
             Self::Given(list) => list.clone(),
             Self::Both { own: list, given } => {
                 // A section above the water has no area.
-                let least = EMPTY * p.breadth * p.draught;
+                let least = EMPTY * p.breadth * below;
                 let there = |c: &Constraint| !matches!(c, Constraint::SectionArea { area, .. } if *area <= least);
-                let own = list.iter().filter(known_place).map(valued).filter(there);
+                let own = list.iter().filter(known_place).filter_map(afloat).map(valued).filter(there);
                 own.chain(given.iter().copied()).collect()
             }
             Self::Table => {
                 [Constraint::Displacement(0.0), Constraint::CentreOfBuoyancy(0.0), Constraint::MidshipCoefficient(0.0)]
                     .iter()
                     .filter(known_place)
+                    .filter_map(afloat)
                     .map(valued)
                     .collect()
             }
         };
-        let [length, breadth, draught] = [p.length_between_perpendiculars, p.breadth, p.draught];
+        // What says a coefficient again is at a draught.
+        let [length, breadth, draught] = [p.length_between_perpendiculars, p.breadth, below];
         // What says a coefficient again: the coefficient that it is, and itself in words.
         let said = |coefficient: &Constraint, other: &Constraint| match (coefficient, other) {
             (Constraint::BlockCoefficient(asked), Constraint::Displacement(volume)) => {
@@ -222,6 +240,9 @@ pub enum JobError {
         /// Depth \[m\].
         depth: f64,
     },
+    /// Targets need a draught, and none is stated.
+    #[error("{0}: no draught is stated; give --draught (T under [dimensions])")]
+    NoDraught(String),
     /// B is no breadth of this hull.
     #[error(
         "half-breadths up to {greatest:.3} m do not go with B = {breadth:?} m: state the moulded breadth of this hull (B under [dimensions])"

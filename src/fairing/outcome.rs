@@ -1,5 +1,6 @@
 //! What a job comes to: every offset with its move, what is held, what bends, and what is to be told of it.
 
+use super::constraint::Constraint;
 use super::fair::Faired;
 use super::grades::Taken;
 use super::held::{Held, HeldRule};
@@ -183,6 +184,29 @@ pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) ->
 }
 
 impl Outcome {
+    /// The height \[m\] below which volume and its centre are held where no draught is stated, and what is held there in
+    /// words; none where a draught is stated, or neither is held.
+    #[must_use]
+    pub fn held_below(&self) -> Option<(f64, String)> {
+        let find = |of: fn(&Constraint) -> Option<f64>| self.held.iter().find_map(|held| of(&held.constraint));
+        let volume = find(|constraint| match constraint {
+            Constraint::Volume { below, .. } => Some(*below),
+            _ => None,
+        });
+        let centre = find(|constraint| match constraint {
+            Constraint::CentreOfVolume { below, .. } => Some(*below),
+            _ => None,
+        });
+        let what = match (volume, centre) {
+            (Some(_), Some(_)) => "volume and centre of volume",
+            (Some(_), None) => "volume",
+            _ => "centre of volume",
+        };
+        let below = volume.or(centre)?;
+        Some((below, format!("{what} below z = {below:.3} m (no draught is stated)")))
+    }
+
+
     /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a
     /// drawing.
     #[must_use]

@@ -166,8 +166,8 @@ impl<'a> Run<'a> {
             },
             counted(surface.start.len(), "control value")
         ));
-        let (draught, depth) = (before.particulars().draught, before.particulars().depth);
-        if draught > depth * (1.0 + 1e-9) {
+        let depth = before.particulars().depth;
+        if let Some(draught) = before.particulars().draught.filter(|draught| *draught > depth * (1.0 + 1e-9)) {
             return Err(JobError::Draught { draught, depth });
         }
         let (breadth, widest) = (before.particulars().breadth, surface.start.iter().copied().fold(0.0, f64::max));

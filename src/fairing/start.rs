@@ -329,7 +329,7 @@ impl Modelled {
         let volume = Constraint::Displacement(0.0);
         let p = self.before.particulars();
         let apart = (volume.value(&own) - volume.value(&self.before)).abs();
-        Ok(apart / (2.0 * p.length_between_perpendiculars * p.draught))
+        Ok(apart / (2.0 * p.length_between_perpendiculars * self.before.reference_height()))
     }
 
     /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.

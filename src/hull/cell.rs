@@ -145,7 +145,7 @@ impl From<&PrincipalParticulars> for StatedParticulars {
         Self {
             length_between_perpendiculars: Some(p.length_between_perpendiculars),
             breadth: Some(p.breadth),
-            draught: Some(p.draught),
+            draught: p.draught,
             depth: Some(p.depth),
         }
     }

@@ -162,15 +162,19 @@ impl Hull {
         deck: BsplineCurve<2>,
     ) -> Result<Self, HullError> {
         let p = particulars;
-        for (label, value) in
-            [("Lpp", p.length_between_perpendiculars), ("B", p.breadth), ("T", p.draught), ("D", p.depth)]
-        {
-            if !(value.is_finite() && value > 0.0) {
+        let dimensions = [
+            ("Lpp", Some(p.length_between_perpendiculars)),
+            ("B", Some(p.breadth)),
+            ("T", p.draught),
+            ("D", Some(p.depth)),
+        ];
+        for (label, value) in dimensions {
+            if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
                 return Err(HullError::Dimension { name: label, value });
             }
         }
-        if p.draught_exceeds_depth() {
-            return Err(HullError::Draught { draught: p.draught, depth: p.depth });
+        if let Some(draught) = p.draught.filter(|_| p.draught_exceeds_depth()) {
+            return Err(HullError::Draught { draught, depth: p.depth });
         }
         let [rows, columns] = surface.shape();
         let (mut level, mut upright) = (true, true);
@@ -246,6 +250,15 @@ impl Hull {
     #[must_use]
     pub fn with_name(self, name: String) -> Self {
         Self { name, ..self }
+    }
+
+    /// The same hull with a design draught \[m\] above the base line.
+    ///
+    /// # Errors
+    /// [`HullError`] when it is not positive or lies above D.
+    pub fn with_draught(self, draught: f64) -> Result<Self, HullError> {
+        let particulars = PrincipalParticulars { draught: Some(draught), ..self.particulars };
+        Self::new(&self.name, particulars, self.surface, self.deck)
     }
 
     /// The main dimensions.
@@ -379,7 +392,24 @@ impl Hull {
         let elsewhere = |[aft, fore]: [f64; 2]| {
             (fore - aft - length).abs() <= SAME_LENGTH * length && aft.abs() > FROM_PERPENDICULAR * length
         };
-        ![self.endings(self.particulars.draught), Some(hull)].into_iter().flatten().any(elsewhere)
+        let afloat = self.particulars.draught.and_then(|draught| self.endings(draught));
+        ![afloat, Some(hull)].into_iter().flatten().any(elsewhere)
+    }
+
+    /// The height up to which volume, centres and areas of the hull are taken \[m\]: T, or where no draught is stated the
+    /// highest waterline that every station between the ends has. That is the least height of the deck at side on the
+    /// breakpoints between its ends, at most the top of the surface.
+    #[must_use]
+    pub fn reference_height(&self) -> f64 {
+        self.particulars.draught.unwrap_or_else(|| {
+            let mut places = self.deck.knots().breakpoints();
+            if places.len() > 2 {
+                places = places[1..places.len() - 1].to_vec();
+            }
+            let heights = places.into_iter().map(|t| self.deck.eval(t)[1]);
+            let least = heights.fold(self.top, f64::min);
+            if least > self.bottom { least } else { self.top }
+        })
     }
 
     /// Height of the deck at side at `x` \[m\]; beyond the ends of the deck, the height of its end.

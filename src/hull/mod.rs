@@ -40,12 +40,13 @@ pub(crate) use immersion::{Immersion, Piece, UpperEnd};
 pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, LEAST_ANGLE, MeshError, MeshReport, Region, SharpCorner, whole_volume};
 pub use offsets::{
-    OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_stations, default_waterlines,
+    OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_diagonals, default_stations,
+    default_waterlines,
     keel_height,
 };
 pub use outlines::section_stations;
 pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};
-pub use particulars::PrincipalParticulars;
+pub use particulars::{NO_DRAUGHT, PrincipalParticulars};
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};
 pub use subdivision::{NetEdge, NetFace, NetLayer, NetPointKind, SubdivisionNet};

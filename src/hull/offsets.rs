@@ -382,30 +382,40 @@ pub fn default_stations(hull: &Hull, numbers: StationNumbers) -> Vec<OffsetStati
 
 /// Default waterlines \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten, at least seven to the design
 /// draught, up to the highest point of the deck; half the step in the first space; the bottom and the design draught
-/// itself (other lines nearer to it than a fifth of the step are left out).
+/// itself (other lines nearer to it than a fifth of the step are left out). Where no draught is stated, at least seven to
+/// [`Hull::reference_height`].
 #[must_use]
 pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     let draught = hull.particulars().draught;
     // A hull that hardly draws water has no more lines than one that does.
-    let step = nice_step((draught / 7.0).max((hull.top() - hull.bottom()) / 200.0));
+    let step = nice_step((hull.reference_height() / 7.0).max((hull.top() - hull.bottom()) / 200.0));
     let highest = hull.deck().points().iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max).min(hull.top());
     let bottom = hull.bottom();
     let first = (bottom / step).ceil() as i64;
     let last = ((highest + 1e-9 * step) / step).floor() as i64;
     let mut lines = vec![bottom];
     let mut add = |z: f64| {
-        if z > bottom + 0.2 * step && z <= highest + 1e-9 * step && (z - draught).abs() > 0.2 * step {
+        if z > bottom + 0.2 * step && z <= highest + 1e-9 * step && draught.is_none_or(|draught| (z - draught).abs() > 0.2 * step) {
             lines.push(z);
         }
     };
     add((first as f64 + 0.5) * step);
     (first..=last).for_each(|k| add(k as f64 * step));
-    if draught > bottom && draught <= highest {
-        lines.push(draught);
-    }
+    lines.extend(draught.filter(|&draught| draught > bottom && draught <= highest));
     lines.sort_by(f64::total_cmp);
     lines.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * step);
     lines
+}
+
+/// Heights of the default diagonals on the centreplane \[m\], and their angle below the horizontal \[rad\]: through 0.7, 1
+/// and 1.3 T, as far as that is below D, parallel to the line from there to the bilge, atan(T / (B/2)). Where no draught is
+/// stated, through 0.5, 0.7 and 0.9 of [`Hull::reference_height`] in place of T.
+#[must_use]
+pub fn default_diagonals(hull: &Hull) -> (Vec<f64>, f64) {
+    let (p, height) = (hull.particulars(), hull.reference_height());
+    let parts = if p.draught.is_some() { [0.7, 1.0, 1.3] } else { [0.5, 0.7, 0.9] };
+    let heights = parts.into_iter().map(|part| part * height).filter(|&height| height < p.depth).collect();
+    (heights, height.atan2(0.5 * p.breadth))
 }
 
 /// Default buttocks \[m\]: multiples of a step of 1, 2, 2.5 or 5 times a power of ten inside the half-breadth, at least

@@ -1,5 +1,9 @@
 //! Principal particulars.
 
+/// What a page says where nobody stated a draught.
+pub const NO_DRAUGHT: &str =
+    "no draught is stated: give --draught (T under [dimensions]) for displacement and coefficients";
+
 /// Moulded main dimensions \[m\]. The aft perpendicular is at x = 0, the forward one at x =
 /// `length_between_perpendiculars`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -8,8 +12,8 @@ pub struct PrincipalParticulars {
     pub length_between_perpendiculars: f64,
     /// B, moulded, both sides \[m\]
     pub breadth: f64,
-    /// T, design draught above the base line \[m\]
-    pub draught: f64,
+    /// T, design draught above the base line \[m\]; none where nobody stated one
+    pub draught: Option<f64>,
     /// D, depth to the deck at side amidships \[m\]
     pub depth: f64,
 }
@@ -19,6 +23,6 @@ impl PrincipalParticulars {
     /// the design waterline may be as far from it.
     #[must_use]
     pub fn draught_exceeds_depth(&self) -> bool {
-        self.draught > 1.01 * self.depth
+        self.draught.is_some_and(|draught| draught > 1.01 * self.depth)
     }
 }

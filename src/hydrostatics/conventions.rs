@@ -132,8 +132,6 @@ pub struct Assumed {
     pub length: bool,
     /// B.
     pub breadth: bool,
-    /// T, the design draught.
-    pub draught: bool,
     /// D.
     pub depth: bool,
 }
@@ -146,14 +144,13 @@ impl Assumed {
         Self {
             length: open(stated.length_between_perpendiculars),
             breadth: open(stated.breadth),
-            draught: !stated.states_draught(),
             depth: open(stated.depth),
         }
     }
 
-    /// Symbols of those that were assumed besides the design draught: of `L_PP`, `B` and `D`.
+    /// Symbols of those that were assumed: of `L_PP`, `B` and `D`. A draught never is.
     #[must_use]
-    pub fn besides_draught(&self) -> Vec<&'static str> {
+    pub fn symbols(&self) -> Vec<&'static str> {
         let all = [("L_PP", self.length), ("B", self.breadth), ("D", self.depth)];
         all.into_iter().filter(|(_, assumed)| *assumed).map(|(symbol, _)| symbol).collect()
     }
@@ -210,12 +207,6 @@ impl Conventions {
             Some(format!("{name} is {value}{unit}, expected {} to {}", range.start(), range.end()))
         };
         values.into_iter().filter_map(fault).collect()
-    }
-
-    /// ` (assumed)` where the design draught is, for what follows the draught in a line of text.
-    #[must_use]
-    pub fn draught_mark(&self) -> &'static str {
-        assumed_mark(self.assumed.draught)
     }
 
     /// What the numbers of a table are referred to, one statement a line; to be printed with every table.
@@ -278,13 +269,10 @@ impl Conventions {
             ),
             say("position of the largest section", "x_AX is the middle of the parallel middle body where there is one"),
         ];
-        if self.assumed.draught {
-            list.push(say("design draught", "assumed: the table that the hull was laid through states none"));
-        }
-        let others = self.assumed.besides_draught();
-        if !others.is_empty() {
+        let assumed = self.assumed.symbols();
+        if !assumed.is_empty() {
             let text =
-                format!("{} assumed: the table that the hull was laid through does not state them", others.join(", "));
+                format!("{} assumed: the table that the hull was laid through does not state them", assumed.join(", "));
             list.push(say("main dimensions", &text));
         }
         list

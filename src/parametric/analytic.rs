@@ -34,7 +34,7 @@ impl Dimensions {
         PrincipalParticulars {
             length_between_perpendiculars: self.length,
             breadth: self.breadth,
-            draught: self.draught,
+            draught: Some(self.draught),
             depth: self.depth,
         }
     }

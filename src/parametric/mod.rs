@@ -133,7 +133,7 @@ pub struct Generated {
 fn achieved(hull: &crate::hull::Hull) -> [f64; 4] {
     use crate::hull::Functional;
     let p = *hull.particulars();
-    let (l, b, t) = (p.length_between_perpendiculars, p.breadth, p.draught);
+    let (l, b, t) = (p.length_between_perpendiculars, p.breadth, hull.reference_height());
     let volume = Functional::Volume.value(hull, t);
     [
         volume / (l * b * t),

@@ -222,7 +222,7 @@ pub fn generate(name: &str, parameters: &Parameters) -> Result<Generated, Vec<In
         let particulars = PrincipalParticulars {
             length_between_perpendiculars: p.length,
             breadth: p.breadth,
-            draught: p.draught,
+            draught: Some(p.draught),
             depth: p.depth,
         };
         loft::level_hull(name, particulars, loft::surface(&u, &v, &x, &y, &z)?)

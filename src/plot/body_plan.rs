@@ -5,7 +5,6 @@ use super::canvas::{Anchor, Canvas, Rectangle, TextStyle};
 use super::fairing::midship_of;
 use super::label::{FLAT, LabelPlacer, Preference, length, places_over};
 use super::lines_grid::{GridPlane, LinesGrid};
-use super::profile::name_assumed;
 use super::view::{BASE, DESIGN, DIAGONAL_PLANE, GRID, OUTLINE, STATION, THREAD, View};
 
 /// Room beside the sections for the names of waterlines [mm].
@@ -56,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     let [centre, _] = view.origin;
     let frame = Rectangle::new(centre - half_width, top, centre + half_width, bottom);
     canvas.begin_group("body-plan");
-    draw_grid(canvas, inputs, grid, view, &frame, text_size);
+    draw_grid(canvas, grid, view, &frame, text_size);
 
     let mut placer = LabelPlacer::default();
     for text in canvas.texts() {
@@ -167,30 +166,19 @@ fn name_diagonals(
     }
 }
 
-fn draw_grid(
-    canvas: &mut Canvas,
-    inputs: &FigureInputs,
-    grid: &LinesGrid,
-    view: &View,
-    frame: &Rectangle,
-    text_size: f64,
-) {
+fn draw_grid(canvas: &mut Canvas, grid: &LinesGrid, view: &View, frame: &Rectangle, text_size: f64) {
     let [centre, base] = view.origin;
     let mut names = LabelPlacer::default();
     let room = frame.grown(SIDE_ROOM + BEYOND);
     let style = TextStyle::new(text_size, Anchor::End);
-    let design = &grid.design_waterline;
-    for plane in [design].into_iter().chain(&grid.waterlines) {
+    for plane in grid.design_waterline.iter().chain(&grid.waterlines) {
         let y = view.at([0.0, plane.at])[1];
-        let pen = if plane.name == design.name { &DESIGN } else { &GRID };
+        let pen = if grid.is_design(plane) { &DESIGN } else { &GRID };
         canvas.line([frame.left, y], [frame.right, y], pen);
         let label = grid.waterline_label(plane);
         names.name_point(canvas, &label, &style, &[[frame.left - 1.0, y]], &room);
         let right = TextStyle { anchor: Anchor::Start, ..style };
         names.name_point(canvas, &label, &right, &[[frame.right + 1.0, y]], &room);
-        if plane.name == design.name {
-            name_assumed(canvas, inputs, &mut names, frame, y, (text_size, true));
-        }
     }
     // Name and distance side by side, in two rows, or the name alone, the same for all.
     let caption = TextStyle { anchor: Anchor::Middle, ..style };

@@ -65,8 +65,8 @@ impl BonjeanTable {
         let step = nice_step(p.depth, ROWS);
         let count = (hull.top() / step + 1e-9).floor() as usize;
         let mut heights: Vec<f64> = (1..=count).map(|k| k as f64 * step).collect();
-        if heights.iter().all(|z| (z - p.draught).abs() > 1e-9) {
-            heights.push(p.draught);
+        if let Some(draught) = p.draught.filter(|draught| heights.iter().all(|z| (z - draught).abs() > 1e-9)) {
+            heights.push(draught);
             heights.sort_by(f64::total_cmp);
         }
         Self::new(hull, &stations, &heights)
@@ -125,18 +125,20 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     );
     canvas.text([0.5 * ROOM[0], 15.0], &words, &TextStyle::new(LETTERS, Anchor::Middle));
     let names = TextStyle::new(LETTERS, Anchor::End);
+    let is_design = |z: f64| p.draught.is_some_and(|draught| (z - draught).abs() < 1e-9);
     for &z in &table.heights {
-        let design = (z - p.draught).abs() < 1e-9;
-        canvas.line(at(low, z), at(end, z), if design { &DESIGN } else { &GRID });
+        canvas.line(at(low, z), at(end, z), if is_design(z) { &DESIGN } else { &GRID });
     }
     let right = TextStyle::new(LETTERS, Anchor::Start);
     // The design waterline bears its height on the other side, where it takes no place from those beside it.
-    let [x, y] = at(end, p.draught);
-    for (row, words) in ["DWL".to_owned(), format!("{:.2} m", p.draught)].iter().enumerate() {
-        canvas.text([x + 1.5, y + 3.8 * row as f64], words, &right);
+    if let Some(draught) = p.draught {
+        let [x, y] = at(end, draught);
+        for (row, words) in ["DWL".to_owned(), format!("{draught:.2} m")].iter().enumerate() {
+            canvas.text([x + 1.5, y + 3.8 * row as f64], words, &right);
+        }
     }
     let mut named: Option<f64> = None;
-    for &z in table.heights.iter().filter(|z| (**z - p.draught).abs() > 1e-9 || is_round(**z)) {
+    for &z in table.heights.iter().filter(|z| !is_design(**z) || is_round(**z)) {
         let y = at(low, z)[1];
         if named.is_none_or(|other| (other - y).abs() >= 3.6) {
             canvas.text([left - 2.0, y], &format!("{z:.2} m"), &names);
@@ -189,7 +191,7 @@ pub(super) fn compose(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
 }
 
 /// Areas of the stations, the highest waterline on top.
-fn draw_table(canvas: &mut Canvas, (table, heads): (&BonjeanTable, &[String]), design: f64, top: f64) {
+fn draw_table(canvas: &mut Canvas, (table, heads): (&BonjeanTable, &[String]), design: Option<f64>, top: f64) {
     let columns = table.stations.len() as f64;
     let (left, first) = (10.0, 30.0);
     let width = (ROOM[0] - 2.0 * left - first) / columns;
@@ -209,7 +211,7 @@ fn draw_table(canvas: &mut Canvas, (table, heads): (&BonjeanTable, &[String]), d
         canvas.text([left + first + width * (k + 1) as f64 - 1.0, y(0)], name, &style);
     }
     for (row, (z, areas)) in table.heights.iter().zip(&table.areas).rev().enumerate() {
-        let mark = if (z - design).abs() < 1e-9 { "  DWL" } else { "" };
+        let mark = if design.is_some_and(|design| (z - design).abs() < 1e-9) { "  DWL" } else { "" };
         canvas.text([left + 1.0, y(row + 1)], &format!("{z:.3}{mark}"), &head);
         for (k, area) in areas.iter().enumerate() {
             if let Some(area) = area {

@@ -57,7 +57,7 @@ pub(super) fn dimensions(inputs: &FigureInputs) -> String {
 
 /// What the stars mean, after `gap`; nothing where there are none.
 pub(super) fn assumed_note(inputs: &FigureInputs, gap: &str) -> String {
-    let none = inputs.curves.conventions.assumed.besides_draught().is_empty();
+    let none = inputs.curves.conventions.assumed.symbols().is_empty();
     if none { String::new() } else { format!("{gap}* assumed") }
 }
 
@@ -68,14 +68,14 @@ pub(super) fn stations(inputs: &FigureInputs) -> String {
     format!("stations L_PP / {} = {spacing:.3} m from {}", numbers.spaces, numbers.zero())
 }
 
-/// The design draught, `T 7.70 m`, and whether it was assumed.
+/// The design draught, `T 7.70 m`, or that none is stated.
 pub(super) fn draught(inputs: &FigureInputs) -> String {
-    format!("T {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())
+    inputs.design.map_or("no draught is stated".to_owned(), |design| format!("T {:.2} m", design.draught))
 }
 
-/// The design waterline, `DWL 7.70 m`, and whether it was assumed.
+/// The design waterline, `DWL 7.70 m`, or that no draught is stated.
 pub(super) fn design_waterline(inputs: &FigureInputs) -> String {
-    format!("DWL {:.2} m{}", inputs.design.draught, inputs.curves.conventions.draught_mark())
+    inputs.design.map_or("no draught is stated".to_owned(), |design| format!("DWL {:.2} m", design.draught))
 }
 
 /// Where curves end because the deck edge goes under.

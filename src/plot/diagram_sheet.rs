@@ -119,7 +119,8 @@ impl Curve {
         Some(if self.axis == Axis::MidshipOfPosition { value - midship } else { value })
     }
 
-    /// The value that fixes the scale; `rows` rise in draught, `draught` is the design draught [m].
+    /// The value that fixes the scale; `rows` rise in draught, `draught` is the design draught, or the greatest of the
+    /// rows where none is stated [m].
     fn scaling_value(&self, rows: &[Hydrostatics], midship: f64, draught: f64) -> f64 {
         // Centres that stay at midship are not blown up: their scale is for a hundredth of L_PP / 2 at least.
         let least = if self.axis == Axis::MidshipOfPosition { 0.01 * midship } else { 0.0 };
@@ -165,8 +166,8 @@ fn track(curve: &Curve, scale: f64, rows: &[Hydrostatics], midship: f64) -> Vec<
 pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let rows = inputs.dense_rows()?;
     let midship = 0.5 * inputs.hull.particulars().length_between_perpendiculars;
-    let draught = inputs.design.draught;
-    let highest = rows.iter().map(|row| row.draught).fold(draught, f64::max);
+    let draught = inputs.design.map(|design| design.draught);
+    let highest = rows.iter().map(|row| row.draught).chain(draught).fold(f64::NEG_INFINITY, f64::max);
     let draught_scale = sheet_scale(highest, HEIGHT);
     let frame_height = (5.0 * (highest / draught_scale / 5.0).ceil()).min(HEIGHT);
     let frame = Rectangle::new(CORNER[0], CORNER[1], CORNER[0] + WIDTH, CORNER[1] + frame_height);
@@ -184,7 +185,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let mut placer = LabelPlacer::default();
     draw_rulers(&mut canvas, &frame, draught_scale);
 
-    let scales = scales(&rows, midship, draught);
+    let scales = scales(&rows, midship, draught.unwrap_or(highest));
     canvas.begin_clip(&frame);
     for (curve, scale) in CURVES.iter().zip(scales) {
         let points: Vec<[f64; 2]> =
@@ -193,9 +194,11 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
         placer.add_curve(&points);
     }
     canvas.end_group();
-    let design = caption::design_waterline(inputs);
-    let level = Level { at: height(draught), name: &design, pen: DESIGN };
-    draw_level(&mut canvas, &mut placer, &frame, &level, 2.7);
+    if let Some(draught) = draught {
+        let design = caption::design_waterline(inputs);
+        let level = Level { at: height(draught), name: &design, pen: DESIGN };
+        draw_level(&mut canvas, &mut placer, &frame, &level, 2.7);
+    }
     if let Some(at) = inputs.immersed_edge(&rows) {
         let edge = caption::immersed_edge(at);
         draw_level(&mut canvas, &mut placer, &frame, &Level { at: height(at), name: &edge, pen: EDGE }, 2.7);

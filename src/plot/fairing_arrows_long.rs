@@ -20,7 +20,6 @@ use super::{PlotError, Svg, caption, outline};
 use crate::fairing::inspect::Planes;
 use crate::fairing::record::FairRecord;
 use crate::hull::Cut;
-use crate::hydrostatics::Conventions;
 
 /// Room above the profile, between the views and below them \[mm\].
 const HEAD: f64 = 33.0;
@@ -39,12 +38,12 @@ fn middle_of(line: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// Draws both views; `conventions` say whether the draught was assumed.
+/// Draws both views.
 ///
 /// # Errors
 /// [`PlotError::Chart`] for a table without offsets.
-pub fn fairing_arrows_long(record: &FairRecord, conventions: &Conventions, sheet: Sheet) -> Result<Svg, PlotError> {
-    Ok(Svg::new(compose(record, conventions, sheet)?.finish("fairing-arrows-long")))
+pub fn fairing_arrows_long(record: &FairRecord, sheet: Sheet) -> Result<Svg, PlotError> {
+    Ok(Svg::new(compose(record, sheet)?.finish("fairing-arrows-long")))
 }
 
 /// One of the views: which coordinate of the ship stands upright on it, and how.
@@ -97,7 +96,7 @@ fn risen(before: &[Vec<[f64; 3]>], after: &[Vec<[f64; 3]>], x: f64, height: f64)
     pairs.filter(|[_, by]| by.abs() <= 0.02 * height).collect()
 }
 
-pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: Sheet) -> Result<Canvas, PlotError> {
+pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotError> {
     let paper = sheet.room();
     let Some((x, breadth, z)) = extent(record) else {
         return Err(PlotError::Chart("the table has no offsets".to_owned()));
@@ -156,10 +155,10 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     }
     // Heights of the waterlines, that of the draught before all.
     let style = TextStyle::new(LETTERS, Anchor::End);
-    let draught = record.after.particulars().draught;
+    let draught = record.after.particulars().draught.filter(|draught| (z[0]..=z[1]).contains(draught));
     let window = Rectangle::new(4.0, 18.0, paper[0] - 4.0, paper[1] - 12.0);
     let [aft, fore] = [x[0], x[1]].map(|x| move |z: f64| [x, 0.0, z]);
-    if (z[0]..=z[1]).contains(&draught) {
+    if let Some(draught) = draught {
         let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
         canvas.line(from, to, &DESIGN);
     }
@@ -241,9 +240,9 @@ pub(super) fn compose(record: &FairRecord, conventions: &Conventions, sheet: She
     for view in [&profile, &plan] {
         placer.add_curve(&[view.at([x[0], 0.0, base(z)]), view.at([x[1], 0.0, base(z)])]);
     }
-    if (z[0]..=z[1]).contains(&draught) {
+    if let Some(draught) = draught {
         // Over the line, where it meets fewest others.
-        let words = format!("DWL {draught:.2} m{}", conventions.draught_mark());
+        let words = format!("DWL {draught:.2} m");
         let style = TextStyle::new(LETTERS, Anchor::Start).halo();
         let [from, to] = [profile.at(aft(draught)), profile.at(fore(draught))];
         let places: Vec<[f64; 2]> =

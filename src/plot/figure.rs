@@ -19,6 +19,9 @@ pub enum PlotError {
     /// The table of hydrostatics has fewer than two draughts.
     #[error("curves need hydrostatics at two draughts at least; there are {0}")]
     TooFewDraughts(usize),
+    /// The figure is one at the design draught, and none is stated.
+    #[error("the figure is one at the design draught: give --draught")]
+    NoDraught,
     /// The axes of a chart could not be drawn.
     #[error("the chart could not be drawn: {0}")]
     Chart(String),
@@ -57,8 +60,8 @@ pub struct FigureInputs<'a> {
     pub before: Option<&'a Hull>,
     /// The faired table that the hull comes from, where there is one: what lies beyond its offsets is dashed.
     pub record: Option<&'a FairRecord>,
-    /// Hydrostatics at the design draught.
-    pub design: &'a Hydrostatics,
+    /// Hydrostatics at the design draught; none where no draught is stated.
+    pub design: Option<&'a Hydrostatics>,
     /// Hydrostatics over the draughts of interest: their range and conventions.
     pub curves: &'a CurvesOfForm,
     /// What the hull was read from, for title blocks: name of the file and the first digits of its SHA-256.
@@ -180,6 +183,12 @@ impl Figure {
         }
     }
 
+    /// Whether the figure is one at the design draught, so that there is none without.
+    #[must_use]
+    pub fn needs_draught(self) -> bool {
+        self == Self::SectionalArea
+    }
+
     /// Resolution at which the picture of the figure is read well on a screen: about 3300 pixels across for the lines
     /// plan, 1800 to 2000 for the others.
     #[must_use]
@@ -204,7 +213,7 @@ impl Figure {
     /// let conventions = Conventions::default();
     /// let design = CurvesOfForm::new(&hull, &[6.25], &conventions);
     /// let curves = CurvesOfForm::new(&hull, &[1.25, 9.0], &conventions);
-    /// let inputs = FigureInputs { hull: &hull, before: None, record: None, design: &design.rows[0], curves: &curves, source: None, dense: None };
+    /// let inputs = FigureInputs { hull: &hull, before: None, record: None, design: design.rows.first(), curves: &curves, source: None, dense: None };
     /// let lines = Figure::Lines.draw(&inputs)?;
     /// assert!(lines.as_str().starts_with("<svg"));
     /// assert!(lines.to_png(Figure::Lines.dots_per_inch())?.starts_with(b"\x89PNG"));

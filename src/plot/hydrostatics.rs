@@ -114,12 +114,16 @@ impl Panel {
 /// Draws the panels.
 pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     let rows = inputs.dense_rows()?;
-    let draught = inputs.design.draught;
-    let (low, high) = rows.iter().fold((draught, draught), |(a, b), row| (a.min(row.draught), b.max(row.draught)));
+    let draught = inputs.design.map(|design| design.draught);
+    let (low, high) = rows
+        .iter()
+        .map(|row| row.draught)
+        .chain(draught)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), draught| (a.min(draught), b.max(draught)));
     let left = Axis::new("draught T [m]", if low < 0.35 * high { 0.0 } else { low }, high, 10.0);
-    let (design, immersed) = (format!("DWL {:.2} m", inputs.design.draught), inputs.immersed_edge(&rows));
+    let (design, immersed) = (caption::design_waterline(inputs), inputs.immersed_edge(&rows));
     let edge = immersed.map_or(String::new(), caption::immersed_edge);
-    let mut levels = vec![Level { at: draught, name: &design, pen: DESIGN }];
+    let mut levels: Vec<Level> = draught.map(|at| Level { at, name: &design, pen: DESIGN }).into_iter().collect();
     levels.extend(immersed.map(|at| Level { at, name: &edge, pen: EDGE }));
     let mut canvas = Canvas::new(SHEET[0], SHEET[1]);
     let title = format!("HYDROSTATIC CURVES – {}", caption::plain(inputs.hull.name()));

@@ -269,7 +269,7 @@ pub(super) fn draw(inputs: &FigureInputs, sheet: Sheet) -> Result<Canvas, PlotEr
     let view = View::new([origin_x, centre], layout.scale);
     if let Some(before) = &before {
         draw_before(&mut canvas, &view, &before.waterlines, |p, _| [p[0], p[1]]);
-        draw_before(&mut canvas, &view, std::slice::from_ref(&before.design_waterline), |p, _| [p[0], p[1]]);
+        draw_before(&mut canvas, &view, before.design_waterline.as_slice(), |p, _| [p[0], p[1]]);
         draw_before(&mut canvas, &view, &before.diagonals, |p, plane| {
             let [x, s] = LinesGrid::expanded(p, plane.at);
             [x, -s]

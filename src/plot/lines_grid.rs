@@ -4,7 +4,7 @@ use super::fairing::short;
 use super::scale::{decimals, multiples, nice_step};
 use super::{caption, outline};
 use crate::fairing::record::TableLines;
-use crate::hull::{Branch, Cut, Face, Hull, OffsetStation, StationNumbers, default_buttocks};
+use crate::hull::{Branch, Cut, Face, Hull, OffsetStation, StationNumbers, default_buttocks, default_diagonals};
 
 /// Stations closer than this to the perpendiculars stand at half intervals [intervals].
 const HALF_STATIONS: i32 = 2;
@@ -41,8 +41,8 @@ pub(super) struct LinesGrid {
     pub(super) stations: Vec<GridPlane>,
     /// From the base line up; the design waterline is not among them.
     pub(super) waterlines: Vec<GridPlane>,
-    /// The design waterline.
-    pub(super) design_waterline: GridPlane,
+    /// The design waterline; none where no draught is stated.
+    pub(super) design_waterline: Option<GridPlane>,
     /// From the centreplane out.
     pub(super) buttocks: Vec<GridPlane>,
     /// From the lowest up.
@@ -196,7 +196,7 @@ impl LinesGrid {
         let deck = outline::deck_at_side(hull);
         let ends = [outline::end_profile(hull, false), outline::end_profile(hull, true)];
         let length = outline::overall_length(hull);
-        let top = deck.iter().map(|point| point[2]).fold(p.draught, f64::max);
+        let top = deck.iter().map(|point| point[2]).fold(hull.reference_height(), f64::max);
         let height = [hull.bottom(), top];
 
         let station_spacing = numbers.spacing(p.length_between_perpendiculars);
@@ -225,7 +225,7 @@ impl LinesGrid {
                 if ended { in_one_piece(found) } else { found }
             })
             .collect();
-        let waterline_spacing = nice_step(p.draught, 8.0);
+        let waterline_spacing = nice_step(hull.reference_height(), 8.0);
         let known = table.map(|lines| {
             let inside = |z: &f64| *z >= height[0] - 1e-9 && *z <= height[1] + 1e-9;
             lines.waterlines.iter().copied().filter(inside).collect::<Vec<f64>>()
@@ -247,24 +247,22 @@ impl LinesGrid {
         };
         let waterlines: Vec<_> = marks
             .into_iter()
-            .filter(|mark| (mark.0 - p.draught).abs() > 1e-6 * waterline_spacing)
+            .filter(|mark| p.draught.is_none_or(|draught| (mark.0 - draught).abs() > 1e-6 * waterline_spacing))
             .map(|mark| {
                 let z = mark.0;
                 marked(mark, Cut::Waterline { z })
             })
             .collect();
-        let design_waterline = plane(p.draught, "DWL".to_owned(), Cut::Waterline { z: p.draught });
-        let half_breadth = widest(waterlines.iter().chain([&design_waterline]), &deck);
+        let design_waterline = p.draught.map(|z| plane(z, "DWL".to_owned(), Cut::Waterline { z }));
+        let half_breadth = widest(waterlines.iter().chain(&design_waterline), &deck);
         // Those of the tables of heights.
         let distances = default_buttocks(hull);
         let buttock_spacing = distances.first().copied().unwrap_or(0.5 * p.breadth);
         let buttocks =
             distances.into_iter().enumerate().map(|(k, y)| plane(y, roman(k + 1), Cut::Buttock { y })).collect();
-        let diagonal_angle = p.draught.atan2(0.5 * p.breadth);
-        let diagonals = [0.7, 1.0, 1.3]
+        let (heights, diagonal_angle) = default_diagonals(hull);
+        let diagonals = heights
             .into_iter()
-            .map(|part| part * p.draught)
-            .filter(|&height| height < p.depth)
             .enumerate()
             .map(|(k, height)| plane(height, format!("D{}", k + 1), Cut::Diagonal { height, angle: diagonal_angle }))
             .collect();
@@ -288,20 +286,25 @@ impl LinesGrid {
         }
     }
 
+    /// Whether a plane is that of the design waterline.
+    pub(super) fn is_design(&self, plane: &GridPlane) -> bool {
+        self.design_waterline.as_ref().is_some_and(|design| design.name == plane.name)
+    }
+
     /// The same planes with curves whose chords stay within another `deviation` [m].
     pub(super) fn refined(mut self, deviation: f64) -> Self {
         let Self { stations, waterlines, design_waterline, buttocks, diagonals, .. } = &mut self;
         let lists = [stations, waterlines, buttocks, diagonals].into_iter().flatten();
-        for plane in lists.chain([design_waterline]) {
+        for plane in lists.chain(design_waterline) {
             plane.curves = plane.branches.iter().map(|branch| branch.polyline(deviation)).collect();
         }
-        self.half_breadth = widest(self.waterlines.iter().chain([&self.design_waterline]), &self.deck);
+        self.half_breadth = widest(self.waterlines.iter().chain(&self.design_waterline), &self.deck);
         self
     }
 
     /// Name and height of a waterline: `WL 3  1.50 m`.
     pub(super) fn waterline_label(&self, plane: &GridPlane) -> String {
-        if self.of_table[1] && plane.name != self.design_waterline.name {
+        if self.of_table[1] && !self.is_design(plane) {
             return format!("{} m", plane.name);
         }
         let step = if plane.whole { self.waterline_spacing } else { 0.5 * self.waterline_spacing };

@@ -149,21 +149,6 @@ fn name_ends(
     }
 }
 
-/// Under the name of the design waterline, whether the draught was assumed.
-pub(super) fn name_assumed(
-    canvas: &mut Canvas,
-    inputs: &FigureInputs,
-    names: &mut LabelPlacer,
-    frame: &Rectangle,
-    y: f64,
-    (text_size, both): (f64, bool),
-) {
-    let text = inputs.curves.conventions.draught_mark().trim();
-    if !text.is_empty() {
-        name_ends(canvas, names, frame, y + 1.15 * text_size, text, (text_size, both));
-    }
-}
-
 /// The profile, bow to the right; the origin of `view` is AP on the base line.
 pub(super) fn draw_profile(
     canvas: &mut Canvas,
@@ -178,9 +163,8 @@ pub(super) fn draw_profile(
     canvas.begin_group("profile");
     draw_stations(canvas, hull, grid, view, &frame, text_size);
     let mut names = LabelPlacer::default();
-    let design = &grid.design_waterline;
-    for plane in [design].into_iter().chain(&grid.waterlines) {
-        let pen = if plane.name == design.name {
+    for plane in grid.design_waterline.iter().chain(&grid.waterlines) {
+        let pen = if grid.is_design(plane) {
             &DESIGN
         } else if plane.at.abs() < 1e-9 {
             &BASE
@@ -190,9 +174,6 @@ pub(super) fn draw_profile(
         let y = view.at([0.0, plane.at])[1];
         let name = if style.naming.has_distances() { grid.waterline_label(plane) } else { plane.name.clone() };
         draw_level(canvas, &mut names, &frame, y, pen, &name, style);
-        if plane.name == design.name && style.naming.has_distances() {
-            name_assumed(canvas, inputs, &mut names, &frame, y, (text_size, style.naming.is_at_both_ends()));
-        }
     }
     let mut placer = LabelPlacer::default();
     let mut owners = Vec::new();
@@ -251,8 +232,8 @@ pub(super) fn draw_half_breadths(canvas: &mut Canvas, hull: &Hull, grid: &LinesG
     }
     let mut placer = LabelPlacer::default();
     let mut owners: Vec<Option<(&GridPlane, &Pen)>> = Vec::new();
-    for plane in [&grid.design_waterline].into_iter().chain(&grid.waterlines) {
-        let pen = if plane.name == grid.design_waterline.name { &DESIGN_WATERLINE } else { &WATERLINE };
+    for plane in grid.design_waterline.iter().chain(&grid.waterlines) {
+        let pen = if grid.is_design(plane) { &DESIGN_WATERLINE } else { &WATERLINE };
         for (k, curve) in plane.curves.iter().enumerate() {
             placer.add_curve(&view.draw(canvas, curve.iter().map(|p| [p[0], p[1]]), pen));
             owners.push((k < plane.on_side).then_some((plane, pen)));

@@ -87,7 +87,7 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
             hull: &hull,
             before: None,
             record: None,
-            design: &table.rows[0],
+            design: table.rows.first(),
             curves: &table,
             source: None,
             dense: None,

@@ -8,7 +8,7 @@ use super::sheet::LEAST_LETTERS;
 use super::{FigureInputs, PlotError, caption, outline};
 use crate::fairing::record::SectionTarget;
 use crate::hull::SectionalAreaCurve;
-use crate::hydrostatics::CurvesOfForm;
+use crate::hydrostatics::{CurvesOfForm, Hydrostatics};
 
 /// Size of the sheet [mm].
 const SHEET: [f64; 2] = [300.0, 170.0];
@@ -27,7 +27,7 @@ const CENTRE_ASKED: [&str; 2] = ["#007a59", "#007a59"];
 
 /// Draws the curve.
 pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
-    let (hull, design) = (inputs.hull, inputs.design);
+    let (hull, design) = (inputs.hull, inputs.design.ok_or(PlotError::NoDraught)?);
     let length = hull.particulars().length_between_perpendiculars;
     let [aft, fore] = outline::immersed_length(hull, design.draught);
     // A hair inside the ends, so that a transom or a blunt bow begins with its area.
@@ -116,7 +116,7 @@ pub(super) fn draw(inputs: &FigureInputs) -> Result<Canvas, PlotError> {
     for section in asked.iter().flat_map(|asked| &asked.sections) {
         mark_section(&mut canvas, &mut placer, &chart, section);
     }
-    canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs), &TextStyle::new(3.0, Anchor::Middle));
+    canvas.text([0.5 * SHEET[0], SHEET[1] - 11.0], &coefficients(inputs, design), &TextStyle::new(3.0, Anchor::Middle));
     canvas.text([SHEET[0] - 6.0, SHEET[1] - 4.0], &caption::program(), &TextStyle::new(LEAST_LETTERS, Anchor::End));
     Ok(canvas)
 }
@@ -214,8 +214,7 @@ fn mark_centre(
 }
 
 /// What the curve amounts to, in one line.
-fn coefficients(inputs: &FigureInputs) -> String {
-    let design = inputs.design;
+fn coefficients(inputs: &FigureInputs, design: &Hydrostatics) -> String {
     let mut parts = vec![caption::draught(inputs), format!("∇ {} m³", volume_of(design.displacement_volume))];
     parts.push(match design.maximum_section_position {
         Some(x) => format!("A_X {:.2} m² at x {x:.2} m", design.maximum_section_area),

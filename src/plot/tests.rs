@@ -54,7 +54,7 @@ fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
         hull,
         before: None,
         record: None,
-        design: &design.rows[0],
+        design: design.rows.first(),
         curves: &curves,
         source: None,
         dense: None,
@@ -111,7 +111,7 @@ fn every_waterline_is_named_in_the_half_breadth_plan() {
         let mut canvas = Canvas::new(420.0, 297.0);
         let style = LongStyle { text_size: 3.0, naming: Naming::Full };
         profile::draw_half_breadths(&mut canvas, hull, &grid, &View::new([40.0, 150.0], scale), style);
-        for plane in grid.waterlines.iter().chain([&grid.design_waterline]).filter(|plane| plane.on_side > 0) {
+        for plane in grid.waterlines.iter().chain(&grid.design_waterline).filter(|plane| plane.on_side > 0) {
             let named = canvas.texts().iter().any(|text| text.content == plane.name);
             assert!(named, "{}: {} bears no name", hull.name(), plane.name);
         }
@@ -258,7 +258,7 @@ fn curves_need_two_draughts() {
         hull: &hull,
         before: None,
         record: None,
-        design: &table.rows[0],
+        design: table.rows.first(),
         curves: &table,
         source: None,
         dense: None,
@@ -277,7 +277,7 @@ fn curves_end_where_the_deck_edge_goes_under() {
         hull: &hull,
         before: None,
         record: None,
-        design: &table.rows[1],
+        design: table.rows.get(1),
         curves: &table,
         source: None,
         dense: None,

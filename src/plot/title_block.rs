@@ -40,35 +40,40 @@ pub(super) fn draw(canvas: &mut Canvas, inputs: &FigureInputs, grid: &LinesGrid,
     let body = if scales.body == scales.long { String::new() } else { format!("   body plan 1 : {}", scales.body) };
     let printed = |key: &str| {
         let quantity = Quantity::of(key);
-        let value = quantity.and_then(|q| Some((q, (q.value)(design)?)));
+        let value = quantity.and_then(|q| Some((q, (q.value)(design?)?)));
         value.map_or("-".to_owned(), |(q, value)| format!("{value:.0$}", q.decimals_of(value)))
     };
     let coefficient =
         |symbol: &str, value: Option<f64>| value.map_or(String::new(), |value| format!("{symbol} {value:.4}"));
     let assumed = inputs.curves.conventions.assumed;
     let star = |assumed: bool| if assumed { "*" } else { "" };
-    let left_column = [
+    let mut left_column = vec![
         format!("scale 1 : {}{body}", scales.long),
         format!("L_OA {:.2} m{}    {}", grid.length[1] - grid.length[0], star(assumed.length), caption::length(inputs)),
         format!("{}    {}{}", caption::breadth(inputs), caption::depth(inputs), caption::assumed_note(inputs, "    ")),
-        format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
-        format!(
-            "{}    {}{}",
-            coefficient("C_B", design.block_coefficient),
-            coefficient("C_P", design.prismatic_coefficient),
-            match inputs.curves.conventions.coefficient_length {
-                CoefficientLength::Waterline => " on L_WL",
-                CoefficientLength::BetweenPerpendiculars => "",
-            }
-        ),
-        format!(
-            "∇ {0} m³{2}    Δ {1} t{2}    ρ {3:.3} t/m³",
-            printed("DISPVOL"),
-            printed("DISPM"),
-            star(assumed.length),
-            inputs.curves.conventions.density
-        ),
     ];
+    match design {
+        Some(design) => left_column.extend([
+            format!("{}    L_WL {:.2} m", caption::draught(inputs), design.waterline_length),
+            format!(
+                "{}    {}{}",
+                coefficient("C_B", design.block_coefficient),
+                coefficient("C_P", design.prismatic_coefficient),
+                match inputs.curves.conventions.coefficient_length {
+                    CoefficientLength::Waterline => " on L_WL",
+                    CoefficientLength::BetweenPerpendiculars => "",
+                }
+            ),
+            format!(
+                "∇ {0} m³{2}    Δ {1} t{2}    ρ {3:.3} t/m³",
+                printed("DISPVOL"),
+                printed("DISPM"),
+                star(assumed.length),
+                inputs.curves.conventions.density
+            ),
+        ]),
+        None => left_column.push(caption::draught(inputs)),
+    }
     let right_column = [
         format!("sheet {}, moulded, metres", scales.sheet.as_str()),
         if grid.numbered {
@@ -244,7 +249,7 @@ fn waterlines(grid: &LinesGrid) -> Vec<&GridPlane> {
 
 /// Waterlines and the design waterline, from the base line up.
 fn sorted<'a>(planes: impl Iterator<Item = &'a GridPlane>, grid: &'a LinesGrid) -> Vec<&'a GridPlane> {
-    let mut planes: Vec<_> = planes.chain([&grid.design_waterline]).collect();
+    let mut planes: Vec<_> = planes.chain(&grid.design_waterline).collect();
     planes.sort_by(|a, b| a.at.total_cmp(&b.at));
     planes
 }

@@ -71,7 +71,7 @@ pub fn convert_table(path: &Path, overrides: &Overrides, writing: TableWriting) 
 }
 
 /// Whether a file is a hull or a design by its name.
-fn is_hull(path: &Path) -> bool {
+pub(super) fn is_hull(path: &Path) -> bool {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     path.is_dir() || matches!(extension.as_str(), "json" | "toml" | "hgf" | "huf")
 }
@@ -138,6 +138,11 @@ pub fn convert_file(
             && let (table, notes) = read_table_file_with(path, overrides)?
             && let Some(write) = takes(only_sections(&table))
         {
+            let mut table = table;
+            table.stated.draught = table.stated.draught.or(settings.draught);
+            if format == ExportFormat::Delftship && !table.stated.states_draught() {
+                return Err(Failure::Usage("delftship needs a draught, and none is stated: give --draught".to_owned()));
+            }
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }
         if let (ExportFormat::Ftm, true) = (format, overrides.keys.is_empty())

@@ -164,6 +164,11 @@ impl ExportFormat {
         matches!(self, Self::Ghs | Self::Britfair | Self::Pias | Self::Pdstrip | Self::Freeship)
     }
 
+    /// Whether the file goes up to a waterline or names one, so that it needs a draught.
+    const fn needs_draught(self) -> bool {
+        self.is_panels() || matches!(self, Self::Pdstrip | Self::Michlet | Self::Delftship)
+    }
+
     const fn is_panels(self) -> bool {
         matches!(self, Self::Gdf | Self::Nemoh | Self::Pnl)
     }
@@ -183,7 +188,7 @@ pub struct ExportSettings {
     pub across: usize,
     /// Height that is z = 0 in the files, above the base line \[m\]; in panels it is the waterline.
     pub datum: f64,
-    /// Draught of panels above the base line \[m\]; none: that of the hull.
+    /// Draught of panels, and of files for Michlet and PDSTRIP, above the base line \[m\]; none: that of the hull.
     pub draught: Option<f64>,
     /// Length of the sides of panels \[m\]; none: a fiftieth of the length between perpendiculars, or less, down to a
     /// quarter of that, until the volume of the panels is within half a per cent of the hull's.
@@ -297,7 +302,7 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
 /// The panels and their line on the page.
 fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
     let particulars = hull.particulars();
-    let draught = settings.draught.unwrap_or(particulars.draught);
+    let draught = draught_of(hull, settings)?;
     let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
     let of_size = |size: f64| {
         let asked = PanelSettings { draught, size, flatness: settings.flatness };
@@ -346,7 +351,7 @@ fn subdivision(hull: &Hull, title: &str, deviation: f64) -> (String, String) {
 
 /// Half-breadths of the immersed hull for Michlet, and their line on the page.
 fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(String, String), Failure> {
-    let draught = settings.draught.unwrap_or(hull.particulars().draught);
+    let draught = draught_of(hull, settings)?;
     let table = OffsetTable::of_immersed(hull, draught, MICHLET)
         .ok_or_else(|| Failure::Usage(format!("nothing of the hull is below the draught of {draught} m")))?;
     let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
@@ -359,10 +364,27 @@ fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(Strin
     Ok((write_michlet(&table, title, row.displacement_volume), line))
 }
 
+/// The draught of what goes up to a waterline \[m\].
+fn draught_of(hull: &Hull, settings: &ExportSettings) -> Result<f64, Failure> {
+    let none = || Failure::Usage("no draught is stated: give --draught".to_owned());
+    settings.draught.or(hull.particulars().draught).ok_or_else(none)
+}
+
 /// Whether formats and settings are such as can be meant.
 fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) -> Result<(), Failure> {
     if let Some((_, twice)) = formats.iter().enumerate().find(|(k, format)| formats[..*k].contains(format)) {
         return Err(Failure::Usage(format!("--format names {} twice, expected each format once", twice.name())));
+    }
+    if settings.draught.or(hull.particulars().draught).is_none() {
+        let needy: Vec<&str> = formats.iter().filter(|f| f.needs_draught()).map(|f| f.name()).collect();
+        if !needy.is_empty() {
+            let message = format!(
+                "--format {} {} a draught, and none is stated: give --draught",
+                needy.join(","),
+                if needy.len() == 1 { "needs" } else { "need" }
+            );
+            return Err(Failure::Usage(message));
+        }
     }
     let (breadth, depth) = (hull.particulars().breadth, hull.particulars().depth);
     let least = LEAST_DEVIATION * breadth;
@@ -393,7 +415,7 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 ///
 /// # Errors
 /// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the
-/// draught, a format is named twice, the deviation is less than a millionth of the breadth, more than a tenth of the
+/// draught, a format needs a draught that nobody states, a format is named twice, the deviation is less than a millionth of the breadth, more than a tenth of the
 /// lesser of breadth and depth or asks for too many triangles, or the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,
@@ -403,7 +425,6 @@ pub fn export(
 ) -> Result<Exported, Failure> {
     sensible(hull, formats, settings)?;
     let deviation = settings.deviation.unwrap_or(DEVIATION * hull.particulars().breadth);
-    let draught = settings.draught.unwrap_or(hull.particulars().draught);
     let volume = whole_volume(hull);
     let (mut files, mut page) = (Vec::new(), Vec::new());
     let title = if hull.name().is_empty() { name } else { hull.name() };
@@ -457,7 +478,7 @@ pub fn export(
         OffsetTable::default()
     };
     if formats.iter().any(|format| matches!(format, ExportFormat::Pdstrip | ExportFormat::Michlet)) {
-        floats_at(hull, draught).map_err(|error| Failure::Usage(error.to_string()))?;
+        floats_at(hull, draught_of(hull, settings)?).map_err(|error| Failure::Usage(error.to_string()))?;
     }
     for &format in formats {
         let file = format!("{name}{}", format.ending());
@@ -467,11 +488,15 @@ pub fn export(
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
             (ExportFormat::Pdstrip, ..) => {
                 let mut below = sections.clone();
-                below.stated.draught = Some(draught);
+                below.stated.draught = Some(draught_of(hull, settings)?);
                 write_pdstrip(&below).into_bytes()
             }
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
-            (ExportFormat::Delftship, ..) => write_delftship(&OffsetTable::with_defaults(hull)).into_bytes(),
+            (ExportFormat::Delftship, ..) => {
+                let mut table = OffsetTable::with_defaults(hull);
+                table.stated.draught = table.stated.draught.or(settings.draught);
+                write_delftship(&table).into_bytes()
+            }
             (ExportFormat::Ftm, ..) => {
                 let (text, line) = subdivision(hull, title, deviation);
                 page.push(line);

@@ -59,8 +59,8 @@ pub struct FairOutputs {
     pub outcome: Outcome,
     /// What writing the table in its notation did.
     pub rounding: RoundingEffect,
-    /// Hydrostatics at the design draught, before and after.
-    pub rows: [Hydrostatics; 2],
+    /// Hydrostatics at the design draught, before and after; none where no draught is stated.
+    pub rows: Option<[Hydrostatics; 2]>,
     /// The contents of `fairing.json`.
     pub certificate: Value,
     /// The files, in the order of their names; the manifest is the last.
@@ -146,11 +146,20 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
         let rows = curve.points.iter().filter_map(|p| Some([p.x, p.y?, p.tolerance.unwrap_or(band)]));
         request.section_areas.extend(rows.map(|row| (row, place.clone())));
     }
-    let job = request.for_table(&table, length).map_err(Failure::Input)?;
+    let job = request.for_table(&table, length).map_err(|problems| refused_targets(&request, &table, problems))?;
     let density = request.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
     Ok(FairJob { table, job, reading, conventions, grades: false, table_file, sidecar, request, inputs, files })
+}
+
+/// The problems of a job; those of options alone that need a draught which nobody states are of the command.
+fn refused_targets(request: &JobFile, table: &OffsetTable, problems: Vec<Diagnostic>) -> Failure {
+    let of_options = problems == request.at_no_draught(table) && problems.iter().all(|p| p.file.starts_with("--"));
+    if !of_options {
+        return Failure::Input(problems);
+    }
+    Failure::Usage(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
 }
 
 /// The surface through a table.
@@ -278,7 +287,7 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
         let mut table = table.clone();
         table.stated = job.table.stated;
         let hull = fitted(&table).ok()?;
-        Some(Functional::Volume.value(&hull, hull.particulars().draught))
+        Some(Functional::Volume.value(&hull, hull.reference_height()))
     };
     let exact = volume(&outcome.table);
     let written = back.as_ref().and_then(volume);
@@ -291,6 +300,7 @@ fn rounded(job: &FairJob, outcome: &Outcome, name: &str, text: &str) -> (Roundin
 fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
     match error {
         JobError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+        JobError::NoDraught(_) => &["dimensions.T"],
         JobError::Breadth { .. } => &["dimensions.B"],
         JobError::Length { .. } => &["dimensions.Lpp"],
         JobError::Fit(FitError::Hull(hull)) | JobError::Hull(hull) | JobError::Fair(FairError::Hull(hull)) => {
@@ -347,10 +357,9 @@ pub(super) fn refused(job: &FairJob, error: &JobError) -> Failure {
     refusal(&job.request, &job.job.lines, &job.table_file, error)
 }
 
-/// Hydrostatics at the design draught.
-pub(super) fn row(job: &FairJob, hull: &Hull) -> Result<Hydrostatics, Failure> {
-    let mut rows = CurvesOfForm::new(hull, &[hull.particulars().draught], &job.conventions).rows;
-    rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))
+/// Hydrostatics at the design draught; none where none is stated.
+pub(super) fn row(job: &FairJob, hull: &Hull) -> Option<Hydrostatics> {
+    CurvesOfForm::new(hull, &[hull.particulars().draught?], &job.conventions).rows.pop()
 }
 
 fn hull_text(job: &FairJob, name: &str, hull: &Hull) -> Result<OutputFile, Failure> {
@@ -386,7 +395,7 @@ pub fn fair_outputs_with_progress(
     let grades = job.grades.then(|| fair_grades::grade_files(job, &outcome, figures, progress)).transpose()?;
     // What reading the table had to guess decides the hull as much.
     outcome.notes.splice(0..0, job.warnings().map(remark));
-    let rows = [row(job, &outcome.before)?, row(job, &outcome.after)?];
+    let rows = row(job, &outcome.before).zip(row(job, &outcome.after)).map(|(before, after)| [before, after]);
     let name = offsets_name(job);
     let written = write_table(&with_texts(job, &outcome), TableWriting::default());
     let (effect, back) = rounded(job, &outcome, &name, &written.text);
@@ -401,7 +410,7 @@ pub fn fair_outputs_with_progress(
     let hull = hull_file(job, "hull.json", &outcome)?;
     let name_of_hull = marked_name(outcome.after.name(), compromise);
     outcome.after = outcome.after.with_name(name_of_hull);
-    let summary = summary(job, &outcome, &rows, &rounding);
+    let summary = summary(job, &outcome, rows.as_ref(), &rounding);
     let mut files = vec![
         hull,
         hull_text(job, "fitted-hull.json", &outcome.before)?,
@@ -437,8 +446,9 @@ pub fn fair_outputs_with_progress(
 }
 
 /// Contents of `summary.json`.
-fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding: &RoundingEffect) -> Value {
+fn summary(job: &FairJob, outcome: &Outcome, rows: Option<&[Hydrostatics; 2]>, rounding: &RoundingEffect) -> Value {
     let of_the_table = |held: &Held| match &job.job.holding {
+        _ if !held.constraint.needs_draught() => true,
         Holding::Table => true,
         Holding::Given(_) => false,
         Holding::Both { own, .. } => own.iter().any(|own| own.words() == held.constraint.words()),
@@ -462,8 +472,8 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: &[Hydrostatics; 2], rounding:
         "status": status_word(outcome.status),
         "inputs": job.inputs,
         "particulars": Particulars::from(outcome.after.particulars()),
-        "design": row_json(&rows[1]),
-        "before": row_json(&rows[0]),
+        "design": rows.map(|[_, after]| row_json(after)),
+        "before": rows.map(|[before, _]| row_json(before)),
         "targets": targets,
         "moves": { "rms": rms, "max": max, "excluded": outcome.changes.iter().filter(|c| c.suspect).count() },
         "inflections": inflections,

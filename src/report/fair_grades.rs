@@ -34,8 +34,9 @@ pub(super) fn grade_files(
 ) -> Result<Vec<OutputFile>, Failure> {
     let run = job.job.run_grades(&job.table, asked, &Fairness::whole(), progress);
     let grades = run.map_err(|error| refused(job, &error))?;
-    let rows = grades.iter().map(|outcome| row(job, &outcome.after)).collect::<Result<Vec<_>, _>>()?;
-    let table: Vec<(&Outcome, &Hydrostatics)> = grades.iter().zip(&rows).collect();
+    let rows = grades.iter().map(|outcome| row(job, &outcome.after)).collect::<Vec<_>>();
+    let table: Vec<(&Outcome, Option<&Hydrostatics>)> =
+        grades.iter().zip(rows.iter().map(Option::as_ref)).collect();
     let mut files = vec![OutputFile::text(TABLE, grades_csv(&table))];
     for outcome in &grades {
         files.push(hull_file(job, &hull_name(outcome.fairness), outcome)?);

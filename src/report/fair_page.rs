@@ -3,7 +3,7 @@
 use super::fair::{FairJob, FairOutputs};
 use super::fair_refused::line_name;
 use super::fair_short::headline;
-use super::page::{WIDTH, fixed, fixed_sign, wrapped};
+use super::page::{WIDTH, fixed, fixed_sign, no_draught, wrapped};
 use super::verdict::more_than;
 use crate::exchange::{priced, reached, status_word};
 use crate::fairing::constraint::{Constraint, Rule};
@@ -186,16 +186,20 @@ fn signed(length: f64) -> String {
 fn held_line(held: &Held, length: Option<f64>, nearest: bool) -> String {
     let target = held.constraint.target();
     let (unit, decimals) = match held.constraint {
-        Constraint::Displacement(_) => (" m3", 3),
+        Constraint::Displacement(_) | Constraint::Volume { .. } => (" m3", 3),
         Constraint::CentreOfBuoyancy(_)
         | Constraint::CentreOfFlotation(_)
+        | Constraint::CentreOfVolume { .. }
         | Constraint::HeightOfBuoyancy(_)
         | Constraint::Metacentre { .. } => (" m", 4),
         Constraint::WaterplaneArea(_) | Constraint::SectionArea { .. } | Constraint::WettedSurface(_) => (" m2", 3),
         _ => ("", 6),
     };
     let percent = match (held.constraint, length) {
-        (Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_), Some(length)) => {
+        (
+            Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) | Constraint::CentreOfVolume { .. },
+            Some(length),
+        ) => {
             format!(" ({:+.3} % L)", 100.0 * (held.after / length - 0.5))
         }
         _ => String::new(),
@@ -270,18 +274,27 @@ fn more_than_asked(outputs: &FairOutputs) -> String {
 
 /// Displacement, LCB, KB and C_M of both hulls.
 fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
-    let [before, after] = &outputs.rows;
-    let mass = |row: &crate::hydrostatics::Hydrostatics| super::page::value(row, "DISPM");
-    let change = match (before.displacement_volume, after.displacement_volume) {
-        (a, b) if a.abs() > 0.0 => format!(" ({})", fixed_sign(100.0 * (b / a - 1.0), 3, " %")),
-        _ => String::new(),
-    };
-    let mut line = format!("Displacement {} -> {} t{change}.", mass(before), mass(after));
     let length = outputs.outcome.after.particulars().length_between_perpendiculars;
     let from_midship = outputs.outcome.before.counts_from_aft_perpendicular().then_some(length);
-    if let (Some(a), Some(b)) = (before.lcb, after.lcb) {
-        line.push_str(&format!(" LCB {}.", fixed_sign(100.0 * (b - a) / length, 3, " % L")));
-    }
+    let moved = |a: f64, b: f64| fixed_sign(100.0 * (b - a) / length, 3, " % L");
+    let mut line = match &outputs.rows {
+        Some([before, after]) => {
+            let mass = |row: &crate::hydrostatics::Hydrostatics| super::page::value(row, "DISPM");
+            let change = share(before.displacement_volume, after.displacement_volume);
+            let lcb = before.lcb.zip(after.lcb).map_or(String::new(), |(a, b)| format!(" LCB {}.", moved(a, b)));
+            format!("Displacement {} -> {} t{change}.{lcb}", mass(before), mass(after))
+        }
+        None => {
+            let (below, [volumes, centres]) = volumes(&outputs.outcome);
+            let change = share(volumes[0], volumes[1]);
+            format!(
+                "Volume below z = {below:.3} m (no draught is stated) {} -> {} m3{change}. Its centre {}.",
+                fixed(volumes[0], 1),
+                fixed(volumes[1], 1),
+                moved(centres[0], centres[1])
+            )
+        }
+    };
     let turns = ["waterline", "station", "buttock", "diagonal"].map(|kind| outputs.outcome.inflections(kind));
     let sum = |side: usize| turns.iter().map(|counts| counts[side]).sum::<usize>();
     line.push_str(&format!(" Inflections {} -> {}:", sum(0), sum(1)));
@@ -358,6 +371,19 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     }
 }
 
+/// A change in parts of what was before, ` (+0.012 %)`; nothing where there was nothing.
+pub(super) fn share(before: f64, after: f64) -> String {
+    if before.abs() > 0.0 { format!(" ({})", fixed_sign(100.0 * (after / before - 1.0), 3, " %")) } else { String::new() }
+}
+
+/// The height \[m\] of [`Hull::reference_height`](crate::hull::Hull::reference_height) of the surface through the table,
+/// and below it the volume \[m^3\] and its centre \[m\] before and after.
+pub(super) fn volumes(outcome: &Outcome) -> (f64, [[f64; 2]; 2]) {
+    let below = outcome.held_below().map_or_else(|| outcome.before.reference_height(), |(below, _)| below);
+    let quantities = [Constraint::Volume { volume: 0.0, below }, Constraint::CentreOfVolume { x: 0.0, below }];
+    (below, quantities.map(|quantity| [&outcome.before, &outcome.after].map(|hull| quantity.value(hull))))
+}
+
 /// The page of `fair` with everything, but for the first line at most 80 columns wide.
 #[must_use]
 pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
@@ -400,9 +426,10 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     );
     page.push_str(&wrapped(&proof, 2));
     let rounding = &outputs.rounding;
+    let of = if outputs.rows.is_some() { "displacement" } else { "volume" };
     let volume = match rounding.volume_share {
-        Some(share) => format!("displacement {}", fixed_sign(100.0 * share, 4, " %")),
-        None => "displacement not known".to_owned(),
+        Some(share) => format!("{of} {}", fixed_sign(100.0 * share, 4, " %")),
+        None => format!("{of} not known"),
     };
     page.push_str(&wrapped(
         &format!(
@@ -437,9 +464,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
 
 /// The dimensions of a hull.
 pub(super) fn dimensions(outcome: &Outcome) -> String {
-    let p = outcome.after.particulars();
-    let length = p.length_between_perpendiculars;
-    format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n", p.breadth, p.draught, p.depth)
+    super::page::dimensions(outcome.after.particulars())
 }
 
 /// The dimensions that nobody stated.
@@ -448,7 +473,6 @@ pub(super) fn not_stated(job: &FairJob) -> Vec<&'static str> {
     let dimensions = [
         ("Lpp", stated.length_between_perpendiculars),
         ("B", stated.breadth),
-        ("T (displacement is held up to it)", stated.draught),
         ("D", stated.depth),
     ];
     dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect()
@@ -462,6 +486,12 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
     } else {
         wrapped(&format!("Not stated, so assumed (see the notes): {}.", names.join(", ")), 2)
     };
+    if outcome.before.particulars().draught.is_none() {
+        text.push_str(&wrapped(&no_draught(), 2));
+    }
+    if let Some((_, held)) = outcome.held_below() {
+        text.push_str(&wrapped(&format!("Held: {held}."), 2));
+    }
     if !outcome.before.counts_from_aft_perpendicular() {
         let line = "x does not count from AP and no Lpp is stated: midship is not known, C_M is not held and LCB not related to it.";
         text.push_str(&wrapped(line, 2));
@@ -548,14 +578,20 @@ pub fn fair_line(outputs: &FairOutputs) -> String {
     let (rms, largest, _) = outcome.moves();
     let turns = ["waterline", "station", "buttock", "diagonal"].map(|kind| outcome.inflections(kind));
     let after: usize = turns.iter().map(|counts| counts[1]).sum();
-    let row = &outputs.rows[1];
-    let value = |key: &str| super::page::value(row, key);
+    let form = match &outputs.rows {
+        Some([_, row]) => {
+            let value = |key: &str| super::page::value(row, key);
+            format!("displacement {} t, CB {}, XCB {} m", value("DISPM"), value("CB"), value("XCB"))
+        }
+        None => {
+            let (below, [volumes, centres]) = volumes(outcome);
+            let (volume, centre) = (fixed(volumes[1], 1), fixed(centres[1], 3));
+            format!("volume below z = {below:.3} m {volume} m3, its centre {centre} m")
+        }
+    };
     format!(
-        "{}: displacement {} t, CB {}, XCB {} m; moves {} mm RMS, {} mm at most; {after} inflections\n",
+        "{}: {form}; moves {} mm RMS, {} mm at most; {after} inflections\n",
         status_word(outcome.status),
-        value("DISPM"),
-        value("CB"),
-        value("XCB"),
         millimetres(rms),
         millimetres(largest)
     )

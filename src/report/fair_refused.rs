@@ -196,7 +196,13 @@ impl Refused<'_> {
         let each = found.reaches.iter().filter_map(|reach| {
             let held = self.outputs.outcome.held.get(reach.constraint)?;
             let off = held.missed().abs() > NEAR * held.scale;
-            let always = matches!(held.constraint, Constraint::Displacement(_) | Constraint::CentreOfBuoyancy(_));
+            let always = matches!(
+                held.constraint,
+                Constraint::Displacement(_)
+                    | Constraint::CentreOfBuoyancy(_)
+                    | Constraint::Volume { .. }
+                    | Constraint::CentreOfVolume { .. }
+            );
             let told = cheapest == Some(reach);
             ((off && cheapest.is_none() || always) && !told).then_some(())?;
             let given = if reach.missing.is_some() { "with" } else { "without" };
@@ -242,7 +248,9 @@ fn placed(words: String, place: Option<&Location>) -> String {
 /// The unit of what is held after a number, and where it is counted from.
 fn unit(constraint: &Constraint) -> String {
     let from = match constraint {
-        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) => " from AP",
+        Constraint::CentreOfBuoyancy(_) | Constraint::CentreOfFlotation(_) | Constraint::CentreOfVolume { .. } => {
+            " from AP"
+        }
         _ => "",
     };
     if constraint.unit() == "-" { String::new() } else { format!(" {}{from}", constraint.unit()) }

@@ -1,10 +1,11 @@
 //! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
 
 use super::fair::{FairJob, FairOutputs};
-use super::fair_page::{MOST_AREAS, dimensions, limit, millimetres, not_stated, place, tolerances};
-use super::page::{WIDTH, fixed_sign, value};
+use super::fair_page::{MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volumes};
+use super::page::{WIDTH, fixed, fixed_sign, value};
 use crate::exchange::status_word;
 use crate::fairing::outcome::{Change, Outcome};
+use crate::hull::NO_DRAUGHT;
 use crate::qp::Status;
 use crate::units::counted;
 
@@ -66,14 +67,15 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
 
 /// Which dimensions nobody stated.
 fn assumed(job: &FairJob, outcome: &Outcome) -> String {
-    let names: Vec<&str> = not_stated(job).iter().filter_map(|name| name.split(' ').next()).collect();
-    let names = match names.as_slice() {
+    let names = match not_stated(job).as_slice() {
         [] => "These dimensions are stated".to_owned(),
         names => format!("Not stated, so assumed: {}", names.join(", ")),
     };
+    let draught =
+        outcome.before.particulars().draught.map_or_else(|| format!("; {NO_DRAUGHT}"), |_| String::new());
     let midship =
-        if outcome.before.counts_from_aft_perpendicular() { "" } else { "; midship is not known, C_M is not held" };
-    format!("{names}{midship}.")
+        if outcome.before.counts_from_aft_perpendicular() || outcome.before.particulars().draught.is_none() { "" } else { "; midship is not known, C_M is not held" };
+    format!("{names}{draught}{midship}.")
 }
 
 /// How many offsets stayed, and their tolerances.
@@ -118,14 +120,23 @@ fn suspects(job: &FairJob, outcome: &Outcome) -> String {
 
 /// Displacement and LCB before and after, and what is not held.
 fn held(outputs: &FairOutputs) -> String {
-    let ([before, after], outcome) = (&outputs.rows, &outputs.outcome);
-    let share = 100.0 * (after.displacement_volume / before.displacement_volume - 1.0);
-    let share = if share.is_finite() { format!(" ({})", fixed_sign(share, 3, " %")) } else { String::new() };
-    let mut line = format!("Displacement {} > {} t{share}", value(before, "DISPM"), value(after, "DISPM"));
+    let outcome = &outputs.outcome;
     let length = outcome.after.particulars().length_between_perpendiculars;
-    if let (Some(a), Some(b)) = (before.lcb, after.lcb) {
-        line.push_str(&format!(", LCB {}", fixed_sign(100.0 * (b - a) / length, 3, " % L")));
-    }
+    let moved = |a: f64, b: f64| fixed_sign(100.0 * (b - a) / length, 3, " % L");
+    let mut line = match &outputs.rows {
+        Some([before, after]) => {
+            let share = share(before.displacement_volume, after.displacement_volume);
+            let lcb = before.lcb.zip(after.lcb).map_or(String::new(), |(a, b)| format!(", LCB {}", moved(a, b)));
+            format!("Displacement {} > {} t{share}{lcb}", value(before, "DISPM"), value(after, "DISPM"))
+        }
+        None => {
+            let (below, [volumes, centres]) = volumes(outcome);
+            let share = share(volumes[0], volumes[1]);
+            let [a, b] = volumes.map(|volume| fixed(volume, 1));
+            let centre = moved(centres[0], centres[1]);
+            format!("Volume below z = {below:.3} m (no draught is stated) {a} > {b} m3{share}, its centre {centre}")
+        }
+    };
     let targets = outcome.held.iter().filter(|held| !held.is_had()).map(|held| held.constraint.words());
     let rules = outcome.rules.iter().filter(|held| held.given_up).map(|held| held.rule.words());
     let missed: Vec<String> = targets.chain(rules).collect();

@@ -11,7 +11,7 @@ use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::generate::{figure_files, json_file, manifest_entry, manifest_file};
 use super::overshoot;
-use super::page::{WIDTH, conventions_line, quantities, wrapped};
+use super::page::{WIDTH, conventions_line, dimensions, no_draught, quantities, wrapped};
 use super::result_files::source_words;
 use super::source::{is_toml, read_bytes, read_table_stated, remark, ship_name, source_files, utf8};
 use crate::config::{self, Diagnostic, METHODS, MethodFile, Severity};
@@ -59,12 +59,13 @@ impl FitJob {
 pub struct FitOutputs {
     /// The hull, its cells and what was assumed.
     pub fitted: Fitted,
-    /// How well the table determines the volume at the design draught.
+    /// How well the table determines the volume at the design draught, or below the highest waterline that every station
+    /// has where none is stated.
     pub estimate: VolumeEstimate,
     /// Where the surface leaves its data.
     pub warnings: Vec<String>,
-    /// Hydrostatics at the design draught.
-    pub design_row: Hydrostatics,
+    /// Hydrostatics at the design draught; none where none is stated.
+    pub design_row: Option<Hydrostatics>,
     /// The hydrostatic table.
     pub table: CurvesOfForm,
     /// The contents of `fit.json`.
@@ -188,7 +189,7 @@ fn summary(
     fitted: &Fitted,
     estimate: &VolumeEstimate,
     warnings: &[String],
-    row: &Hydrostatics,
+    row: Option<&Hydrostatics>,
     conventions: &Conventions,
 ) -> Value {
     let misfit = fitted.misfit();
@@ -231,7 +232,7 @@ fn summary(
         "warnings": warnings,
         "notes": fitted.notes,
         "reading": job.reading.iter().map(remark).collect::<Vec<_>>(),
-        "design": row_json(row),
+        "design": row.map(row_json),
         "conventions": conventions_json(conventions),
     })
 }
@@ -248,12 +249,12 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
     let particulars = fitted.hull.particulars();
     // All draughts in one pass over the surface.
     let mut draughts = default_draughts(particulars.draught, particulars.depth);
-    draughts.push(particulars.draught);
+    draughts.extend(particulars.draught);
     let mut table = CurvesOfForm::new(&fitted.hull, &draughts, &conventions);
-    let design_row = table.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
-    let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, particulars.draught);
-    let warnings = overshoot::warnings(&job.table, &fitted.hull, &design_row);
-    let summary = summary(job, &fitted, &estimate, &warnings, &design_row, &conventions);
+    let design_row = particulars.draught.and_then(|_| table.rows.pop());
+    let estimate = VolumeEstimate::new(&job.table, &job.method.method, &fitted.hull, fitted.hull.reference_height());
+    let warnings = overshoot::warnings(&job.table, &fitted.hull, design_row.as_ref());
+    let summary = summary(job, &fitted, &estimate, &warnings, design_row.as_ref(), &conventions);
 
     let surface = fitted.surface_table(&job.table);
     let endings = surface.endings.iter().flatten().any(Option::is_some);
@@ -271,7 +272,7 @@ pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failu
         hull: &fitted.hull,
         before: None,
         record: None,
-        design: &design_row,
+        design: design_row.as_ref(),
         curves: &table,
         source,
         dense,
@@ -341,9 +342,13 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
     let name: String = job.table.name.chars().take(WIDTH - 40).collect();
     let mut page = format!("{name} ({}, {} chart)\n", job.method.method.as_str(), chart_word(fitted.chart));
     let length = p.length_between_perpendiculars;
-    page.push_str(&format!("Lpp {length:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.breadth, p.draught, p.depth));
+    page.push_str(&(dimensions(p) + "\n"));
     page.push_str(&misfit_lines(job, fitted));
-    page.push_str(&wrapped(&format!("{}.", outputs.estimate.words()), 2));
+    let below = match p.draught {
+        Some(_) => String::new(),
+        None => format!(" below z = {:.3} m", fitted.hull.reference_height()),
+    };
+    page.push_str(&wrapped(&format!("{}{below}.", outputs.estimate.words()), 2));
     let suspects = suspects_line(&job.table, &job.suspects);
     for warning in outputs.warnings.iter().chain(&suspects) {
         page.push_str(&wrapped(&format!("WARNING: {warning}"), 2));
@@ -359,7 +364,10 @@ pub fn fit_page(job: &FitJob, outputs: &FitOutputs, folder: &str) -> String {
         page.push_str(&format!("- {} about the table: fit.json, \"reading\"\n", counted(more, "more remark")));
     }
     page.push('\n');
-    page.push_str(&quantities(&outputs.design_row, conventions, length));
+    match &outputs.design_row {
+        Some(row) => page.push_str(&quantities(row, conventions, length)),
+        None => page.push_str(&wrapped(&no_draught(), 2)),
+    }
     page.push('\n');
     page.push_str(&wrapped(&conventions_line(conventions), 2));
     let names: Vec<&str> = outputs.files.iter().map(|file| file.name.as_str()).collect();

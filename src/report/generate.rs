@@ -69,7 +69,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
         design.output.draughts.clone().unwrap_or_else(|| default_draughts(particulars.draught, particulars.depth));
     // All draughts in one pass over the surface: those of the table, the design draught, those of the reference.
     let mut all = draughts.clone();
-    all.push(particulars.draught);
+    all.push(hull.reference_height());
     all.extend(design.reference.iter().flat_map(|reference| reference.rows.iter().map(|row| row.draught)));
     let mut table = CurvesOfForm::new(&hull, &all, &design.conventions);
     let reference_rows = table.rows.split_off(draughts.len() + 1);
@@ -127,7 +127,7 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     let (source, dense) = (source_words(&manifest_entry(input.0, input.1)), OnceLock::new());
     let (source, dense) = (Some(source.as_str()), Some(&dense));
     let inputs =
-        FigureInputs { hull: &hull, before: None, record: None, design: &design_row, curves: &table, source, dense };
+        FigureInputs { hull: &hull, before: None, record: None, design: Some(&design_row), curves: &table, source, dense };
     files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };
@@ -150,7 +150,7 @@ pub(super) fn json_file(name: &str, value: &impl serde::Serialize) -> Result<Out
     Ok(OutputFile::text(name, text + "\n"))
 }
 
-/// The figures as files.
+/// The figures as files, without those at a draught that nobody stated.
 pub(super) fn figure_files(inputs: &FigureInputs<'_>, figures: &[Figure]) -> Result<Vec<OutputFile>, Failure> {
     let file = |figure: &Figure| {
         let svg = figure.draw(inputs).map_err(|e| internal(figure.key(), &e))?;
@@ -163,7 +163,8 @@ pub(super) fn figure_files(inputs: &FigureInputs<'_>, figures: &[Figure]) -> Res
             },
         })
     };
-    figures.iter().map(file).collect()
+    let there = |figure: &&Figure| inputs.design.is_some() || !figure.needs_draught();
+    figures.iter().filter(there).map(file).collect()
 }
 
 /// The entry of a file that was read.

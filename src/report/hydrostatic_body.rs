@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use super::convert::is_hull;
 use super::failure::Failure;
 use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
 use crate::exchange::{ReadBody, read_body};
 use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
-use crate::hydrostatics::{Conventions, CurvesOfForm};
+use crate::hydrostatics::{Conventions, CurvesOfForm, default_draughts};
 
 /// A body with the conventions of its tables.
 #[derive(Debug, Clone)]
@@ -35,6 +36,19 @@ impl HydrostaticBody {
             BodyShape::Hull(hull) => Some(hull),
             BodyShape::Triangles(_) => None,
         }
+    }
+
+    /// Draughts of its table where none are asked for \[m\], of [`default_draughts`].
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for a body without a height.
+    pub fn default_draughts(&self) -> Result<Vec<f64>, Failure> {
+        let list = default_draughts(self.particulars.draught, self.particulars.depth);
+        if list.is_empty() {
+            let message = "the body has no height from which draughts follow: give --draught or --draughts";
+            return Err(Failure::Usage(message.to_owned()));
+        }
+        Ok(list)
     }
 
     /// Hydrostatics at draughts above the base line \[m\].
@@ -88,6 +102,25 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
     Ok(HydrostaticBody { body, particulars, conventions: source.conventions, notes: source.notes })
 }
 
+/// The same with a design draught \[m\] above the base line, over that of the file.
+///
+/// # Errors
+/// Those of [`read_hydrostatic_body_with`]; [`Failure::Usage`] when the draught is none of the body.
+pub fn read_hydrostatic_body_at(path: &Path, overrides: &Overrides, draught: f64) -> Result<HydrostaticBody, Failure> {
+    if !is_hull(path) {
+        let mut overrides = overrides.clone();
+        overrides.keys.push(("T", format!("{draught} m")));
+        return read_hydrostatic_body_with(path, &overrides);
+    }
+    let mut body = read_hydrostatic_body_with(path, overrides)?;
+    if let BodyShape::Hull(hull) = body.body {
+        let hull = hull.with_draught(draught).map_err(|error| Failure::Usage(error.to_string()))?;
+        body.particulars = *hull.particulars();
+        body.body = BodyShape::Hull(Box::new(hull));
+    }
+    Ok(body)
+}
+
 fn of_body(read: ReadBody) -> HydrostaticBody {
     let [least, greatest] = read.meshes.first().and_then(TriangleMesh::bounds).unwrap_or_default();
     let extent = |k: usize| greatest[k] - least[k];
@@ -95,7 +128,7 @@ fn of_body(read: ReadBody) -> HydrostaticBody {
     let mut particulars = PrincipalParticulars {
         length_between_perpendiculars: stated.length_between_perpendiculars.unwrap_or(extent(0)),
         breadth: stated.breadth.unwrap_or(extent(1)),
-        draught: stated.draught.unwrap_or(extent(2)),
+        draught: stated.draught.filter(|_| stated.states_draught()),
         depth: stated.depth.unwrap_or(extent(2)),
     };
     let conventions = Conventions::default();

@@ -32,7 +32,8 @@ fn write_page(
     let summary = &outputs.summary;
     let p = summary.particulars;
     writeln!(page, "# {}\n", summary.name)?;
-    writeln!(page, "Family {}; Lpp {:.3} m, B {:.3} m, T {:.3} m, D {:.3} m.\n", summary.family, p.lpp, p.b, p.t, p.d)?;
+    let draught = p.t.map_or(String::new(), |draught| format!(" T {draught:.3} m,"));
+    writeln!(page, "Family {}; Lpp {:.3} m, B {:.3} m,{draught} D {:.3} m.\n", summary.family, p.lpp, p.b, p.d)?;
     if !summary.targets.is_empty() {
         writeln!(page, "| | requested | achieved | error | origin |\n|---|---|---|---|---|")?;
         for t in &summary.targets {

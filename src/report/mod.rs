@@ -42,7 +42,9 @@ pub use fair_short::fair_summary;
 pub use files::{Destination, OutputFile, same_path};
 pub use fit::{FitJob, FitOutputs, fit_outputs, fit_page, read_fit};
 pub use generate::{Outputs, generate_outputs};
-pub use hydrostatic_body::{HydrostaticBody, read_hydrostatic_body, read_hydrostatic_body_with};
+pub use hydrostatic_body::{
+    HydrostaticBody, read_hydrostatic_body, read_hydrostatic_body_at, read_hydrostatic_body_with,
+};
 pub use inspect::{inspection_json, inspection_page};
 pub use page::{hydrostatics_page, self_test_page, summary_page};
 pub use result::{JobResult, read_result};

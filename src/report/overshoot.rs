@@ -22,9 +22,9 @@ fn greatest(table: &OffsetTable) -> f64 {
     cells.chain(decks).chain(points).chain(stated).filter(|y| y.is_finite()).fold(0.0, f64::max)
 }
 
-/// What is wrong with `hull`, the fit of `table`; `design` is its row of hydrostatics at the design draught. Empty when
-/// nothing is.
-pub(super) fn warnings(table: &OffsetTable, hull: &Hull, design: &Hydrostatics) -> Vec<String> {
+/// What is wrong with `hull`, the fit of `table`; `design` is its row of hydrostatics at the design draught, where one is
+/// stated. Empty when nothing is.
+pub(super) fn warnings(table: &OffsetTable, hull: &Hull, design: Option<&Hydrostatics>) -> Vec<String> {
     let surface = hull.surface();
     let (along, around) = (surface.u().domain(), surface.v().domain());
     let at = |(from, to): (f64, f64), k: u32, n: u32| from + (to - from) * f64::from(k) / f64::from(n);
@@ -57,7 +57,7 @@ pub(super) fn warnings(table: &OffsetTable, hull: &Hull, design: &Hydrostatics) 
         ));
     }
     for quantity in QUANTITIES.iter().filter(|quantity| matches!(quantity.key, "CVP" | "CWP" | "CX")) {
-        if let Some(value) = (quantity.value)(design).filter(|value| *value > 1.0 + 1e-9) {
+        if let Some(value) = design.and_then(quantity.value).filter(|value| *value > 1.0 + 1e-9) {
             list.push(format!(
                 "the {} at the design draught is {value:.4}, above 1: Lpp, B or T do not suit the offsets, or the surface swells",
                 quantity.name

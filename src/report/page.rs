@@ -2,6 +2,7 @@
 
 use super::generate::Outputs;
 use super::self_test::SelfCheck;
+use crate::hull::{NO_DRAUGHT, PrincipalParticulars};
 use crate::hydrostatics::{
     CoefficientLength, Conventions, CurvesOfForm, Hydrostatics, LcbReference, PrismaticSection, Quantity, Shell,
 };
@@ -86,8 +87,18 @@ pub(super) fn conventions_line(c: &Conventions) -> String {
         None => "MTC from BML".to_owned(),
     };
     let lcb = c.lcb_reference.statement();
-    let draught = if c.assumed.draught { "; the design draught is assumed, none is stated" } else { "" };
-    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}{draught}.", c.density)
+    format!("Coefficients on {length}, CP on {section}; {} t/m3{shell}; {trim}; x from AP; {lcb}.", c.density)
+}
+
+/// The main dimensions in one line, without a draught that nobody stated.
+pub(super) fn dimensions(p: &PrincipalParticulars) -> String {
+    let draught = p.draught.map_or(String::new(), |draught| format!("   T {draught:.3} m"));
+    format!("Lpp {:.3} m   B {:.3} m{draught}   D {:.3} m\n", p.length_between_perpendiculars, p.breadth, p.depth)
+}
+
+/// What to do where nobody stated a draught, as a sentence.
+pub(super) fn no_draught() -> String {
+    format!("{}{}.", NO_DRAUGHT[..1].to_uppercase(), &NO_DRAUGHT[1..])
 }
 
 /// The summary of the main job: at most 24 lines of 80 columns.
@@ -97,7 +108,7 @@ pub fn summary_page(outputs: &Outputs, conventions: &Conventions, folder: &str) 
     let p = summary.particulars;
     let name: String = summary.name.chars().take(WIDTH - 14).collect();
     let mut page = format!("{name} ({})\n", summary.family);
-    page.push_str(&format!("Lpp {:.3} m   B {:.3} m   T {:.3} m   D {:.3} m\n\n", p.lpp, p.b, p.t, p.d));
+    page.push_str(&(dimensions(&(&p).into()) + "\n"));
     if !summary.targets.is_empty() {
         page.push_str(&format!("{:<6}{:>14}{:>14}{:>12}  {}\n", "", "requested", "achieved", "error", "origin"));
         for target in &summary.targets {
@@ -143,16 +154,19 @@ pub(super) fn quantities(row: &Hydrostatics, conventions: &Conventions, length: 
     page
 }
 
-/// A hydrostatic table in blocks of 80 columns; `length` is Lpp \[m\].
+/// A hydrostatic table in blocks of 80 columns.
 #[must_use]
-pub fn hydrostatics_page(table: &CurvesOfForm, length: f64) -> String {
-    let conventions = &table.conventions;
+pub fn hydrostatics_page(table: &CurvesOfForm, particulars: &PrincipalParticulars) -> String {
+    let (conventions, length) = (&table.conventions, particulars.length_between_perpendiculars);
     let blocks: [&[&str]; 3] = [
         &["T", "DISPVOL", "DISPM", "LCB", "KB", "AWL", "XWL", "TPC"],
         &["T", "MTC", "BMT", "BML", "KMT", "KML", "LWL", "BWL"],
         &["T", "CB", "CM", "CX", "CP", "CWP", "CVP", "S"],
     ];
     let mut page = wrapped(&conventions_line(conventions), 2);
+    if particulars.draught.is_none() {
+        page.push_str("No design draught is stated (--draught).\n");
+    }
     for block in blocks {
         page.push('\n');
         let row = |cell: &dyn Fn(&str) -> String| {

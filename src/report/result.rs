@@ -294,12 +294,22 @@ fn spans(changes: &[Change]) -> bool {
 fn another_ship(before: &Hull, after: &Hull) -> Option<String> {
     let dimensions = |hull: &Hull| {
         let p = hull.particulars();
-        [("Lpp", p.length_between_perpendiculars), ("B", p.breadth), ("T", p.draught), ("D", p.depth)]
+        [
+            ("Lpp", Some(p.length_between_perpendiculars)),
+            ("B", Some(p.breadth)),
+            ("T", p.draught),
+            ("D", Some(p.depth)),
+        ]
     };
+    let apart = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
+        (Some(found), Some(expected)) => (found - expected).abs() > 1e-6 * expected,
+        (found, expected) => found.is_some() || expected.is_some(),
+    };
+    let shown = |value: Option<f64>| value.map_or("none".to_owned(), |value| format!("{value} m"));
     let pairs = dimensions(before).into_iter().zip(dimensions(after));
     let other: Vec<String> = pairs
-        .filter(|((_, found), (_, expected))| (found - expected).abs() > 1e-6 * expected)
-        .map(|((key, found), (_, expected))| format!("{key} {found} m where hull.json has {expected} m"))
+        .filter(|((_, found), (_, expected))| apart(*found, *expected))
+        .map(|((key, found), (_, expected))| format!("{key} {} where hull.json has {}", shown(found), shown(expected)))
         .collect();
     if other.is_empty() {
         return None;

@@ -17,7 +17,7 @@ use super::result_page::{
 use super::verdict::{accuracy_words, verdict};
 use crate::exchange::read_texts;
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::{Conventions, Hydrostatics};
+use crate::hydrostatics::Hydrostatics;
 use crate::plot::{
     FairingCombs, Figure, FigureInputs, PlotError, Sheet, SurfaceMapKind, SurfaceMaps, Svg, bonjean_figure,
     convergence_figure, deviation_figure, fairing_arrows, fairing_arrows_long, fairing_body_plan, fairing_buttocks,
@@ -110,7 +110,6 @@ fn fairing_jobs<'a>(
     record: &'a FairRecord,
     fairing: &'a Value,
     combs: &'a FairingCombs,
-    conventions: &'a Conventions,
 ) -> Vec<Job<'a>> {
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
@@ -150,7 +149,7 @@ fn fairing_jobs<'a>(
                 "Half-breadths move, heights do not: the arrows of the profile are what the buttocks make of it. A field of one \
                  direction along a line is a change of form; arrows that turn from station to station take noise out.",
             ],
-            one(move |sheet| fairing_arrows_long(record, conventions, sheet).map(Some)),
+            one(|sheet| fairing_arrows_long(record, sheet).map(Some)),
         ),
         scaled(
             [
@@ -360,7 +359,7 @@ fn verdict_figure(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]) ->
 /// The design condition, that before fairing beside it.
 fn condition_figure(result: &JobResult, inputs: &FigureInputs, before: Option<&Hydrostatics>) -> Option<Svg> {
     let title = format!("DESIGN CONDITION – {}", result.hull.name().replace('_', " "));
-    sheet(&title, &printed_conventions(inputs), condition(result, inputs.design, before))
+    sheet(&title, &printed_conventions(inputs), condition(result, inputs.design?, before))
 }
 
 /// The conventions with symbols as they are printed.
@@ -373,7 +372,7 @@ fn printed_conventions(inputs: &FigureInputs) -> String {
 
 /// The quantities over the draughts, as many columns a sheet as are read easily, the draught first on each.
 fn hydrostatic_sheets(result: &JobResult, inputs: &FigureInputs) -> Vec<Svg> {
-    let table = hydrostatics(inputs.curves, inputs.design.draught);
+    let table = hydrostatics(inputs.curves, inputs.design.map(|design| design.draught));
     let count = table.heads.len().saturating_sub(1);
     let each = count.div_ceil(count.div_ceil(COLUMNS).max(1)).max(1);
     let name = result.hull.name().replace('_', " ");
@@ -400,7 +399,7 @@ fn jobs<'a>(
         .fairing
         .iter()
         .zip(combs)
-        .flat_map(|((record, fairing), combs)| fairing_jobs(record, fairing, combs, &inputs.curves.conventions))
+        .flat_map(|((record, fairing), combs)| fairing_jobs(record, fairing, combs))
         .collect();
     let came = [
         "verdict",
@@ -411,7 +410,7 @@ fn jobs<'a>(
         0,
         Job {
             words: came,
-            draw: one(move |_| Ok(verdict_figure(result, [before, Some(inputs.design)]))),
+            draw: one(move |_| Ok(verdict_figure(result, [before, inputs.design]))),
             scaled: false,
         },
     );
@@ -420,7 +419,8 @@ fn jobs<'a>(
         draw: one(move |sheet| figure.draw_on(inputs, sheet).map(Some)),
         scaled: matches!(figure, Figure::Lines | Figure::Sections),
     };
-    jobs.extend(Figure::ALL.map(standard));
+    let there = |figure: &Figure| inputs.design.is_some() || !figure.needs_draught();
+    jobs.extend(Figure::ALL.into_iter().filter(there).map(standard));
     jobs.push(Job {
         words: ["design-condition", "Design condition", "Every hydrostatic quantity at the design draught, and what was asked for where something was: value and target agree in all digits (coefficients that are asked for on L_PP are on the length of the others here)."],
         draw: one(move |_| Ok(condition_figure(result, inputs, before))),

@@ -44,12 +44,12 @@ pub(super) fn source_words(entry: &ManifestEntry) -> String {
 pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<Vec<OutputFile>, Failure> {
     let hull = &result.hull;
     let mut draughts = result.draughts.clone();
-    draughts.push(hull.particulars().draught);
+    draughts.extend(hull.particulars().draught);
     let chosen = comb_lines(result, settings)?;
     let combs = || result.fairing.as_ref().map(|(record, _)| FairingCombs::new(record, &chosen));
     // The combs take as long as the curves of form.
     let (combs, mut curves) = join(combs, || CurvesOfForm::new(hull, &draughts, &result.conventions));
-    let design = curves.rows.pop().ok_or_else(|| Failure::Internal("no row of hydrostatics".to_owned()))?;
+    let design = hull.particulars().draught.and_then(|_| curves.rows.pop());
     let start = result.fairing.as_ref().map(|(record, _)| &record.before);
     let (source, dense) =
         (result.origin.as_ref().or(result.inputs.first()).map_or(String::new(), source_words), OnceLock::new());
@@ -57,7 +57,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         hull,
         before: start,
         record: result.fairing.as_ref().map(|(record, _)| record),
-        design: &design,
+        design: design.as_ref(),
         curves: &curves,
         source: Some(&source),
         dense: Some(&dense),
@@ -65,7 +65,8 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
     let before = result
         .fairing
         .as_ref()
-        .and_then(|(record, _)| CurvesOfForm::new(&record.before, &[design.draught], &result.conventions).rows.pop());
+        .zip(hull.particulars().draught)
+        .and_then(|((record, _), draught)| CurvesOfForm::new(&record.before, &[draught], &result.conventions).rows.pop());
     let figures = report_figures(result, &inputs, before.as_ref(), combs.as_ref(), settings)?;
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let pages: Vec<Page<'_>> = figures
@@ -83,7 +84,7 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         || {
             let tables = report_tables(result, &curves);
             let offsets = tables.as_ref().map_or_else(|_| Vec::new(), |files| page_tables(result, files));
-            (report_page(result, (&design, before.as_ref()), &curves, &figures, &offsets), tables)
+            (report_page(result, (design.as_ref(), before.as_ref()), &curves, &figures, &offsets), tables)
         },
     );
     let pdf = pdf.map_err(internal)?;

@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
-use super::page::{fixed, unit};
+use super::page::{fixed, no_draught, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
@@ -76,8 +76,8 @@ impl Table {
     }
 }
 
-/// Every quantity over the draughts; the design draught is marked.
-pub(super) fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
+/// Every quantity over the draughts; the design draught is marked where one is stated.
+pub(super) fn hydrostatics(curves: &CurvesOfForm, design: Option<f64>) -> Table {
     let defined = |q: &&crate::hydrostatics::Quantity| curves.rows.iter().any(|row| (q.value)(row).is_some());
     let quantities: Vec<_> = QUANTITIES.iter().filter(defined).collect();
     let head = |q: &&crate::hydrostatics::Quantity| match printed_unit(q.unit) {
@@ -87,7 +87,7 @@ pub(super) fn hydrostatics(curves: &CurvesOfForm, design: f64) -> Table {
     let heads = quantities.iter().map(head).collect();
     let row = |row: &Hydrostatics| {
         let cells = quantities.iter().map(|q| (q.value)(row).map_or(String::new(), |v| fixed(v, q.decimals_of(v))));
-        ((row.draught - design).abs() < 1e-9, cells.collect())
+        (design.is_some_and(|design| (row.draught - design).abs() < 1e-9), cells.collect())
     };
     Table { heads, words: 0, rows: curves.rows.iter().map(row).collect() }
 }
@@ -467,7 +467,7 @@ fn scene(result: &JobResult) -> String {
 /// The page.
 pub(super) fn report_page(
     result: &JobResult,
-    (design, before): (&Hydrostatics, Option<&Hydrostatics>),
+    (design, before): (Option<&Hydrostatics>, Option<&Hydrostatics>),
     curves: &CurvesOfForm,
     drawn: &[ReportFigure],
     offsets: &[(&'static str, &'static str, Table)],
@@ -492,8 +492,10 @@ pub(super) fn report_page(
         let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
         sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing, false).html())));
     }
-    sections.push(("condition", "Design condition", condition(result, design, before).html()));
-    sections.push(("table", "Hydrostatic table", hydrostatics(curves, design.draught).html()));
+    if let Some(design) = design {
+        sections.push(("condition", "Design condition", condition(result, design, before).html()));
+    }
+    sections.push(("table", "Hydrostatic table", hydrostatics(curves, p.draught).html()));
     let told = "<p>Metres; x forward of AP, z from the base line, y and distances from the centreplane, diagonals by their height there.</p>\n";
     for (id, title, table) in offsets {
         sections.push((id, title, format!("{told}{}", table.html())));
@@ -505,20 +507,22 @@ pub(super) fn report_page(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n\
          <link rel=\"icon\" href=\"data:,\"><title>{name}</title>\n<style>\n@font-face {{ font-family: \"DejaVu Sans\"; src: url(\"data:font/ttf;base64,{}\"); }}\n\
          {STYLE}</style></head><body>\n<header><h1>{name}</h1>\n\
-         <p>L<sub>PP</sub> {:.3} m{} &nbsp; B {:.3} m{} &nbsp; T {:.3} m{} &nbsp; D {:.3} m{} &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
+         <p>L<sub>PP</sub> {:.3} m{} &nbsp; B {:.3} m{} &nbsp; {} &nbsp; D {:.3} m{} &nbsp; ρ {:.3} t/m³ &nbsp; moulded; x forward \
          from AP, z up from the base line</p>\n",
         STANDARD.encode(FONT),
         p.length_between_perpendiculars,
         assumed_mark(result.conventions.assumed.length),
         p.breadth,
         assumed_mark(result.conventions.assumed.breadth),
-        p.draught,
-        assumed_mark(result.conventions.assumed.draught),
+        p.draught.map_or("T not stated".to_owned(), |draught| format!("T {draught:.3} m")),
         p.depth,
         assumed_mark(result.conventions.assumed.depth),
         result.conventions.density
     );
-    for (bad, line) in verdict(result, [before, Some(design)]) {
+    if p.draught.is_none() {
+        html.push_str(&format!("<p>{}</p>\n", lowered(&no_draught())));
+    }
+    for (bad, line) in verdict(result, [before, design]) {
         html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, lowered(&line)));
     }
     for note in &result.notes {

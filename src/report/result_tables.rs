@@ -56,7 +56,7 @@ fn conventions(result: &JobResult) -> Vec<(String, String)> {
             micrometres(p.length_between_perpendiculars).to_string(),
         ),
         line(&format!("B [m]{}", assumed_mark(assumed.breadth)), micrometres(p.breadth).to_string()),
-        line(&format!("T [m]{}", assumed_mark(assumed.draught)), micrometres(p.draught).to_string()),
+        line("T [m]", p.draught.map_or("not stated".to_owned(), |draught| micrometres(draught).to_string())),
         line(&format!("D [m]{}", assumed_mark(assumed.depth)), micrometres(p.depth).to_string()),
         line("frame", "x forward from AP, y to port, z up from the moulded base line; moulded".to_owned()),
         line("in short", conventions_line(&result.conventions)),

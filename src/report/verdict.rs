@@ -8,7 +8,7 @@ use super::result::JobResult;
 use super::result_page::{figures, list, text};
 use crate::fairing::outcome::Change;
 use crate::fairing::record::FairRecord;
-use crate::hydrostatics::{Conventions, Hydrostatics};
+use crate::hydrostatics::Hydrostatics;
 use crate::units::{Notation, counted};
 
 /// Curves whose inflections are counted, as files name them.
@@ -18,14 +18,13 @@ const KINDS: [&str; 4] = ["waterlines", "stations", "buttocks", "diagonals"];
 const NAMED: usize = 6;
 
 /// Displacement and LCB at the design draught before and after.
-fn displacement(before: &Hydrostatics, after: &Hydrostatics, conventions: &Conventions) -> String {
+fn displacement(before: &Hydrostatics, after: &Hydrostatics) -> String {
     let share = 100.0 * (after.displacement_mass / before.displacement_mass - 1.0);
     let lcb = |row: &Hydrostatics| row.lcb.map_or("-".to_owned(), |x| fixed(x, 3));
     let moved = after.lcb.zip(before.lcb).map_or(String::new(), |(a, b)| format!(" ({})", fixed_sign(a - b, 3, " m")));
     format!(
-        "At T {} m{}: displacement {} → {} t ({}), LCB {} → {} m from AP{moved}.",
+        "At T {} m: displacement {} → {} t ({}), LCB {} → {} m from AP{moved}.",
         fixed(after.draught, 3),
-        conventions.draught_mark(),
         fixed(before.displacement_mass, 1),
         fixed(after.displacement_mass, 1),
         fixed_sign(share, 3, " %"),
@@ -192,15 +191,19 @@ pub(super) fn verdict(result: &JobResult, conditions: [Option<&Hydrostatics>; 2]
     lines.push((false, kept(record)));
     lines.push((false, settings(result, record, fairing)));
     if let [Some(before), Some(after)] = conditions {
-        lines.push((false, displacement(before, after, &result.conventions)));
+        lines.push((false, displacement(before, after)));
+    }
+    if let Some(held) = fairing["held_below"]["words"].as_str() {
+        lines.push((false, format!("Held: {held}.")));
     }
     if let Some(share) = fairing["rounding"]["volume_share"].as_f64() {
         lines.push((
             false,
             format!(
-                "The table as it is written is rounded by {} mm at most, which is {} of displacement.",
+                "The table as it is written is rounded by {} mm at most, which is {} of {}.",
                 fixed(1e3 * fairing["rounding"]["largest"].as_f64().unwrap_or(0.0), 2),
-                fixed_sign(100.0 * share, 4, " %")
+                fixed_sign(100.0 * share, 4, " %"),
+                if result.hull.particulars().draught.is_some() { "displacement" } else { "the volume" }
             ),
         ));
     }

@@ -5,12 +5,12 @@ use super::{compressed, equal};
 use crate::hull::{Functional, Hull};
 
 pub(super) fn section(hull: &Hull, x: f64) -> f64 {
-    Functional::SectionArea { x }.value(hull, hull.particulars().draught)
+    Functional::SectionArea { x }.value(hull, hull.reference_height())
 }
 
 fn midship(hull: &Hull) -> (f64, f64) {
     let p = hull.particulars();
-    (0.5 * p.length_between_perpendiculars, p.breadth * p.draught)
+    (0.5 * p.length_between_perpendiculars, p.breadth * hull.reference_height())
 }
 
 pub(super) fn midship_coefficient(hull: &Hull) -> f64 {
@@ -20,12 +20,12 @@ pub(super) fn midship_coefficient(hull: &Hull) -> f64 {
 
 pub(super) fn midship_limit(hull: &Hull, target: f64) -> Limit {
     let (x, rectangle) = midship(hull);
-    let row = Functional::SectionArea { x }.row(hull, hull.particulars().draught);
+    let row = Functional::SectionArea { x }.row(hull, hull.reference_height());
     equal(&row, target * rectangle, rectangle)
 }
 
 pub(super) fn section_limit(hull: &Hull, x: f64, area: f64, band: f64) -> Limit {
     let scale = midship(hull).1;
-    let row = compressed(&Functional::SectionArea { x }.row(hull, hull.particulars().draught), 1.0 / scale);
+    let row = compressed(&Functional::SectionArea { x }.row(hull, hull.reference_height()), 1.0 / scale);
     Limit { row, lower: (area - band) / scale, upper: (area + band) / scale }
 }

@@ -4,30 +4,30 @@ use super::super::model::Limit;
 use super::centred;
 use crate::hull::{Functional, Hull};
 
-fn ratio(hull: &Hull, moment: Functional) -> f64 {
-    let draught = hull.particulars().draught;
-    moment.value(hull, draught) / Functional::Volume.value(hull, draught)
+fn ratio(hull: &Hull, moment: Functional, below: f64) -> f64 {
+    moment.value(hull, below) / Functional::Volume.value(hull, below)
 }
 
-pub(super) fn longitudinal(hull: &Hull) -> f64 {
-    ratio(hull, Functional::LongitudinalMoment)
+pub(super) fn longitudinal(hull: &Hull, below: f64) -> f64 {
+    ratio(hull, Functional::LongitudinalMoment, below)
 }
 
 pub(super) fn vertical(hull: &Hull) -> f64 {
-    ratio(hull, Functional::VerticalMoment)
+    ratio(hull, Functional::VerticalMoment, hull.reference_height())
 }
 
-fn limit(hull: &Hull, moment: Functional, target: f64, length: f64) -> Limit {
-    let draught = hull.particulars().draught;
-    let volume = Functional::Volume.row(hull, draught);
-    let scale = Functional::Volume.value(hull, draught) * length;
-    centred(&moment.row(hull, draught), &volume, target, scale)
+fn limit(hull: &Hull, moment: Functional, below: f64, target: f64, length: f64) -> Limit {
+    let volume = Functional::Volume.row(hull, below);
+    let scale = Functional::Volume.value(hull, below) * length;
+    centred(&moment.row(hull, below), &volume, target, scale)
 }
 
-pub(super) fn longitudinal_limit(hull: &Hull, target: f64) -> Limit {
-    limit(hull, Functional::LongitudinalMoment, target, hull.particulars().length_between_perpendiculars)
+pub(super) fn longitudinal_limit(hull: &Hull, below: f64, target: f64) -> Limit {
+    let length = hull.particulars().length_between_perpendiculars;
+    limit(hull, Functional::LongitudinalMoment, below, target, length)
 }
 
 pub(super) fn vertical_limit(hull: &Hull, target: f64) -> Limit {
-    limit(hull, Functional::VerticalMoment, target, hull.particulars().draught)
+    let below = hull.reference_height();
+    limit(hull, Functional::VerticalMoment, below, target, below)
 }

@@ -9,13 +9,13 @@ use crate::hull::{Functional, Hull, transverse_inertia, transverse_inertia_gradi
 
 /// KM_T \[m\].
 pub(super) fn height(hull: &Hull) -> f64 {
-    let draught = hull.particulars().draught;
+    let draught = hull.reference_height();
     let moment = Functional::VerticalMoment.value(hull, draught) + transverse_inertia(hull, draught);
     moment / Functional::Volume.value(hull, draught)
 }
 
 pub(super) fn limit(hull: &Hull, target: f64) -> Limit {
-    let draught = hull.particulars().draught;
+    let draught = hull.reference_height();
     let volume = Functional::Volume.row(hull, draught);
     let moment = Functional::VerticalMoment.row(hull, draught);
     let gradient = transverse_inertia_gradient(hull, draught);

@@ -59,6 +59,20 @@ pub enum Constraint {
     },
     /// Wetted surface \[m^2\] below the design draught. Not linear.
     WettedSurface(f64),
+    /// Volume \[m^3\] below a height, where no draught is stated.
+    Volume {
+        /// Target \[m^3\].
+        volume: f64,
+        /// The height above the base line \[m\].
+        below: f64,
+    },
+    /// Longitudinal centre of the volume below a height, where no draught is stated \[m\] forward of x = 0.
+    CentreOfVolume {
+        /// Target \[m\].
+        x: f64,
+        /// The height above the base line \[m\].
+        below: f64,
+    },
 }
 
 impl Constraint {
@@ -78,6 +92,8 @@ impl Constraint {
             Self::Metacentre { gravity, .. } if *gravity > 0.0 => "gm",
             Self::Metacentre { .. } => "km",
             Self::WettedSurface(_) => "wetted_surface",
+            Self::Volume { .. } => "volume",
+            Self::CentreOfVolume { .. } => "centre_of_volume",
         }
     }
 
@@ -97,6 +113,8 @@ impl Constraint {
             Self::Metacentre { gravity, .. } if *gravity > 0.0 => format!("GM_T for KG {gravity:.3} m"),
             Self::Metacentre { .. } => "KM_T".to_owned(),
             Self::WettedSurface(_) => "wetted surface".to_owned(),
+            Self::Volume { below, .. } => format!("volume below z = {below:.3} m"),
+            Self::CentreOfVolume { below, .. } => format!("centre of the volume below z = {below:.3} m"),
         }
     }
 
@@ -104,11 +122,12 @@ impl Constraint {
     #[must_use]
     pub fn unit(&self) -> &'static str {
         match self {
-            Self::Displacement(_) => "m3",
+            Self::Displacement(_) | Self::Volume { .. } => "m3",
             Self::WaterplaneArea(_) | Self::SectionArea { .. } | Self::WettedSurface(_) => "m2",
             Self::CentreOfBuoyancy(_)
             | Self::CentreOfFlotation(_)
             | Self::HeightOfBuoyancy(_)
+            | Self::CentreOfVolume { .. }
             | Self::Metacentre { .. } => "m",
             Self::BlockCoefficient(_) | Self::WaterplaneCoefficient(_) | Self::MidshipCoefficient(_) => "-",
         }
@@ -118,7 +137,7 @@ impl Constraint {
     #[must_use]
     pub fn relative_to(&self) -> &'static str {
         match self {
-            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => "L_PP",
+            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) | Self::CentreOfVolume { .. } => "L_PP",
             Self::HeightOfBuoyancy(_) => "T",
             Self::MidshipCoefficient(_) | Self::SectionArea { .. } => "B T",
             Self::Metacentre { .. } => "KM_T",
@@ -140,6 +159,8 @@ impl Constraint {
             | Self::MidshipCoefficient(value)
             | Self::WettedSurface(value)
             | Self::Metacentre { height: value, .. }
+            | Self::Volume { volume: value, .. }
+            | Self::CentreOfVolume { x: value, .. }
             | Self::SectionArea { area: value, .. } => value,
         }
     }
@@ -159,16 +180,25 @@ impl Constraint {
             Self::SectionArea { x, band, .. } => Self::SectionArea { x, area: target, band },
             Self::Metacentre { gravity, .. } => Self::Metacentre { height: target, gravity },
             Self::WettedSurface(_) => Self::WettedSurface(target),
+            Self::Volume { below, .. } => Self::Volume { volume: target, below },
+            Self::CentreOfVolume { below, .. } => Self::CentreOfVolume { x: target, below },
         }
     }
 
-    /// The quantity of a hull, in its unit.
+    /// Whether the quantity is one at a draught, so that it needs one that is stated.
+    #[must_use]
+    pub fn needs_draught(&self) -> bool {
+        !matches!(self, Self::Volume { .. } | Self::CentreOfVolume { .. })
+    }
+
+    /// The quantity of a hull, in its unit. What [needs a draught](Self::needs_draught) is taken at
+    /// [`Hull::reference_height`].
     #[must_use]
     pub fn value(&self, hull: &Hull) -> f64 {
         match *self {
-            Self::Displacement(_) => volume::volume(hull),
+            Self::Displacement(_) => volume::volume(hull, hull.reference_height()),
             Self::BlockCoefficient(_) => volume::block_coefficient(hull),
-            Self::CentreOfBuoyancy(_) => centre::longitudinal(hull),
+            Self::CentreOfBuoyancy(_) => centre::longitudinal(hull, hull.reference_height()),
             Self::HeightOfBuoyancy(_) => centre::vertical(hull),
             Self::WaterplaneArea(_) => waterplane::area(hull),
             Self::WaterplaneCoefficient(_) => waterplane::coefficient(hull),
@@ -177,6 +207,8 @@ impl Constraint {
             Self::SectionArea { x, .. } => area::section(hull, x),
             Self::Metacentre { gravity, .. } => metacentre::height(hull) - gravity,
             Self::WettedSurface(_) => wetted::surface(hull),
+            Self::Volume { below, .. } => volume::volume(hull, below),
+            Self::CentreOfVolume { below, .. } => centre::longitudinal(hull, below),
         }
     }
 
@@ -185,10 +217,12 @@ impl Constraint {
     pub fn scale(&self, hull: &Hull) -> f64 {
         let p = hull.particulars();
         match *self {
-            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) => p.length_between_perpendiculars,
-            Self::HeightOfBuoyancy(_) => p.draught,
+            Self::CentreOfBuoyancy(_) | Self::CentreOfFlotation(_) | Self::CentreOfVolume { .. } => {
+                p.length_between_perpendiculars
+            }
+            Self::HeightOfBuoyancy(_) => hull.reference_height(),
             Self::MidshipCoefficient(_) => 1.0,
-            Self::SectionArea { .. } => p.breadth * p.draught,
+            Self::SectionArea { .. } => p.breadth * hull.reference_height(),
             // GM_T may be small.
             Self::Metacentre { .. } => metacentre::height(hull),
             _ => self.target().abs(),
@@ -236,9 +270,9 @@ impl Constraint {
     #[must_use]
     pub fn limit(&self, hull: &Hull) -> Limit {
         match *self {
-            Self::Displacement(target) => volume::displacement(hull, target),
+            Self::Displacement(target) => volume::limit(hull, hull.reference_height(), target),
             Self::BlockCoefficient(target) => volume::block(hull, target),
-            Self::CentreOfBuoyancy(target) => centre::longitudinal_limit(hull, target),
+            Self::CentreOfBuoyancy(target) => centre::longitudinal_limit(hull, hull.reference_height(), target),
             Self::HeightOfBuoyancy(target) => centre::vertical_limit(hull, target),
             Self::WaterplaneArea(target) => waterplane::area_limit(hull, target),
             Self::WaterplaneCoefficient(target) => waterplane::coefficient_limit(hull, target),
@@ -247,6 +281,8 @@ impl Constraint {
             Self::SectionArea { x, area, band } => area::section_limit(hull, x, area, band),
             Self::Metacentre { height, gravity } => metacentre::limit(hull, height + gravity),
             Self::WettedSurface(target) => wetted::limit(hull, target),
+            Self::Volume { volume, below } => volume::limit(hull, below, volume),
+            Self::CentreOfVolume { x, below } => centre::longitudinal_limit(hull, below, x),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{centred, equal};
 use crate::hull::{Functional, Hull};
 
 pub(super) fn area(hull: &Hull) -> f64 {
-    Functional::WaterplaneArea.value(hull, hull.particulars().draught)
+    Functional::WaterplaneArea.value(hull, hull.reference_height())
 }
 
 /// L_PP B \[m^2\].
@@ -18,11 +18,11 @@ pub(super) fn coefficient(hull: &Hull) -> f64 {
 }
 
 pub(super) fn centre(hull: &Hull) -> f64 {
-    Functional::WaterplaneMoment.value(hull, hull.particulars().draught) / area(hull)
+    Functional::WaterplaneMoment.value(hull, hull.reference_height()) / area(hull)
 }
 
 pub(super) fn area_limit(hull: &Hull, target: f64) -> Limit {
-    equal(&Functional::WaterplaneArea.row(hull, hull.particulars().draught), target, target)
+    equal(&Functional::WaterplaneArea.row(hull, hull.reference_height()), target, target)
 }
 
 pub(super) fn coefficient_limit(hull: &Hull, target: f64) -> Limit {
@@ -30,7 +30,7 @@ pub(super) fn coefficient_limit(hull: &Hull, target: f64) -> Limit {
 }
 
 pub(super) fn centre_limit(hull: &Hull, target: f64) -> Limit {
-    let draught = hull.particulars().draught;
+    let draught = hull.reference_height();
     let size = Functional::WaterplaneArea.row(hull, draught);
     let scale = area(hull) * hull.particulars().length_between_perpendiculars;
     centred(&Functional::WaterplaneMoment.row(hull, draught), &size, target, scale)

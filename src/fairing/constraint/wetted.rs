@@ -7,11 +7,11 @@ use crate::hydrostatics::{wetted_surface, wetted_surface_gradient};
 
 /// S \[m^2\].
 pub(super) fn surface(hull: &Hull) -> f64 {
-    wetted_surface(hull, hull.particulars().draught)
+    wetted_surface(hull, hull.reference_height())
 }
 
 pub(super) fn limit(hull: &Hull, target: f64) -> Limit {
-    let gradient = wetted_surface_gradient(hull, hull.particulars().draught);
+    let gradient = wetted_surface_gradient(hull, hull.reference_height());
     let along: f64 = gradient.iter().zip(hull.surface().points()).map(|(g, p)| g * p[1]).sum();
     equal(&gradient, target - surface(hull) + along, target)
 }

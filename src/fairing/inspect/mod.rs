@@ -33,7 +33,9 @@ pub use polygon::{NetLine, ON_CHORD, PolygonSigns, Side, changes_and_enclosed, n
 pub use profile::{Counts, Findings, Local, Place, Profile, Stretch};
 pub use regions::gaussian_regions;
 
-use crate::hull::{Cut, Face, Hull, StationNumbers, default_buttocks, default_stations, default_waterlines};
+use crate::hull::{
+    Cut, Face, Hull, StationNumbers, default_buttocks, default_diagonals, default_stations, default_waterlines,
+};
 use contour::{Breadth, Locator, Trace};
 pub(super) use contour::{motion_rates, swept};
 
@@ -91,18 +93,17 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// The stations, waterlines and buttocks of a table of offsets of the hull, and three diagonals: through 0.7, 1 and
-    /// 1.3 T on the centreplane, parallel to the line from there to the bilge, atan(T / (B/2)).
+    /// The stations, waterlines and buttocks of a table of offsets of the hull, and the diagonals of
+    /// [`default_diagonals`].
     #[must_use]
     pub fn with_defaults(hull: &Hull) -> Self {
-        let p = hull.particulars();
-        let diagonals = [0.7, 1.0, 1.3].map(|part| part * p.draught);
+        let (diagonals, diagonal_angle) = default_diagonals(hull);
         Self {
             stations: default_stations(hull, StationNumbers::default()).into_iter().map(|station| station.x).collect(),
             waterlines: default_waterlines(hull),
             buttocks: default_buttocks(hull),
-            diagonals: diagonals.into_iter().filter(|&height| height < p.depth).collect(),
-            diagonal_angle: p.draught.atan2(0.5 * p.breadth),
+            diagonals,
+            diagonal_angle,
             others: Vec::new(),
         }
     }

@@ -5,36 +5,7 @@ use super::FitError;
 use super::rows::Row;
 use crate::numeric::median;
 use crate::spline::KnotVector;
-use crate::units::{counted, decimal};
-
-/// Design draught over the height of the table where none is stated.
-const DRAUGHT_SHARE: f64 = 0.7;
-
-/// The lowest of the upper edges of the sections: deck at side or highest offset \[m\]; stations that the table gives
-/// only a part of (fewer than half as many offsets as the fullest) do not count.
-pub(super) fn lowest_edge(table: &OffsetTable) -> Option<f64> {
-    let edges: Vec<(usize, f64)> = table
-        .stations
-        .iter()
-        .filter_map(|station| {
-            let given = station.half_breadths.iter().zip(&table.waterlines).filter(|(c, _)| c.value().is_some());
-            let points = station.outlines.iter().flatten();
-            let count = given.clone().count() + points.clone().count();
-            let highest = given.map(|(_, &z)| z).chain(points.map(|p| p.z)).fold(f64::NEG_INFINITY, f64::max);
-            let edge = station.deck_height.filter(|z| z.is_finite()).unwrap_or(highest);
-            (count > 0 && edge.is_finite()).then_some((count, edge))
-        })
-        .collect();
-    let fullest = edges.iter().map(|e| e.0).max()?;
-    edges.iter().filter(|e| 2 * e.0 >= fullest).map(|e| e.1).min_by(f64::total_cmp)
-}
-
-/// A design draught for a body from `bottom` (or the base line, where it lies below that) up to `edge`.
-pub(super) fn draught_guess(bottom: f64, edge: f64) -> f64 {
-    let base = bottom.max(0.0);
-    let guess = decimal(base + DRAUGHT_SHARE * (edge - base));
-    if guess > 0.0 { guess } else { edge - bottom }
-}
+use crate::units::counted;
 
 /// How [`length_by_stations`] comes to it, in words.
 pub(super) const BY_STATIONS: &str = "from the station at x = 0 to the outermost at a whole number of station spacings";
@@ -57,9 +28,12 @@ pub(super) fn length_by_stations(table: &OffsetTable, length: f64) -> Option<f64
     (from_aft && step > 0.0 && last >= PERPENDICULARS * length).then_some(last)
 }
 
+/// How L_PP comes from the ends of the hull, in words.
+pub(super) const BY_ENDS: &str = "between the ends of the hull";
+
 /// L_PP, B, T and D: stated, or L_PP by the stations ([`length_by_stations`]), else between the ends of the waterline
-/// at T, B twice the greatest half-breadth, T seven tenths of the height up to the lowest upper edge of a section, D
-/// the top. What was not stated is noted.
+/// at T, or of the hull where no T is stated, B twice the greatest half-breadth, D the top. No T is taken from the
+/// lines. What was taken from them is noted.
 pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<String>) -> PrincipalParticulars {
     let stated = &table.stated;
     let usable = |value: Option<f64>| value.filter(|v| v.is_finite() && *v > 0.0);
@@ -68,27 +42,29 @@ pub(super) fn particulars(table: &OffsetTable, rows: &[Row], notes: &mut Vec<Str
         notes.push(format!("no depth is stated: D = {top:.3} m, the highest waterline"));
         if top > 0.0 { top } else { top - bottom }
     });
-    let draught = usable(stated.draught).unwrap_or_else(|| {
-        let guess = draught_guess(bottom, lowest_edge(table).unwrap_or(top).clamp(bottom, top));
-        notes.push(format!(
-            "no draught is stated: T = {guess:.3} m, seven tenths of the height up to the lowest upper edge of a section"
-        ));
-        guess
-    });
+    let draught = usable(stated.draught);
     let breadth = usable(stated.breadth).unwrap_or_else(|| {
         let half = rows.iter().flat_map(|r| r.sites.iter().map(|s| s.y).chain(r.ends.map(|e| e.y))).fold(0.0, f64::max);
         notes.push(format!("no breadth is stated: B = {:.3} m, twice the greatest half-breadth", 2.0 * half));
         2.0 * half
     });
     let length = usable(stated.length_between_perpendiculars).unwrap_or_else(|| {
-        // Ends of the waterline at T, between the rows around it.
-        let k = rows.partition_point(|r| r.z < draught).clamp(1, rows.len() - 1);
-        let (a, b) = (&rows[k - 1], &rows[k]);
-        let share = ((draught - a.z) / (b.z - a.z)).clamp(0.0, 1.0);
-        let at = |side: usize| a.ends[side].x + share * (b.ends[side].x - a.ends[side].x);
-        let length = at(1) - at(0);
-        let (length, how) = length_by_stations(table, length)
-            .map_or((length, "that of the waterline at T"), |length| (length, BY_STATIONS));
+        let (length, how) = match draught {
+            Some(draught) => {
+                // Ends of the waterline at T, between the rows around it.
+                let k = rows.partition_point(|r| r.z < draught).clamp(1, rows.len() - 1);
+                let (a, b) = (&rows[k - 1], &rows[k]);
+                let share = ((draught - a.z) / (b.z - a.z)).clamp(0.0, 1.0);
+                let at = |side: usize| a.ends[side].x + share * (b.ends[side].x - a.ends[side].x);
+                (at(1) - at(0), "that of the waterline at T")
+            }
+            None => {
+                let aft = rows.iter().map(|r| r.ends[0].x).fold(f64::INFINITY, f64::min);
+                let fore = rows.iter().map(|r| r.ends[1].x).fold(f64::NEG_INFINITY, f64::max);
+                (fore - aft, BY_ENDS)
+            }
+        };
+        let (length, how) = length_by_stations(table, length).map_or((length, how), |length| (length, BY_STATIONS));
         notes.push(format!("no length is stated: L_PP = {length:.3} m, {how}"));
         length
     });

@@ -34,7 +34,7 @@ mod published;
 mod tests;
 
 use super::features::{self, FlatOfSide};
-use super::particulars::{BY_STATIONS, draught_guess, length_by_stations, lowest_edge, shorter_than_broad};
+use super::particulars::{BY_ENDS, BY_STATIONS, length_by_stations, shorter_than_broad};
 use super::{CellResidual, Chart, FitError, Fitted};
 use crate::hull::cell::{Entry, FeatureLine, LineKind};
 use crate::hull::form::Hull;
@@ -223,7 +223,7 @@ pub(super) fn particulars(
     let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
     let length = last.x - first.x;
     let (length, how) =
-        length_by_stations(table, length).map_or((length, "between the ends of the hull"), |l| (l, BY_STATIONS));
+        length_by_stations(table, length).map_or((length, BY_ENDS), |l| (l, BY_STATIONS));
     let (length, lowest) = (length, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
     let top = lowest + size.depth;
     let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
@@ -232,17 +232,11 @@ pub(super) fn particulars(
             guess
         })
     };
-    let edge = lowest_edge(table).unwrap_or(top).clamp(lowest, top);
     let stated = &table.stated;
     let particulars = PrincipalParticulars {
         length_between_perpendiculars: or(stated.length_between_perpendiculars, "length", length, how),
         breadth: or(stated.breadth, "breadth", 2.0 * size.breadth, "twice the greatest half-breadth"),
-        draught: or(
-            stated.draught,
-            "draught",
-            draught_guess(lowest, edge),
-            "seven tenths of the height up to the lowest upper edge of a section",
-        ),
+        draught: stated.draught.filter(|_| stated.states_draught()),
         depth: or(stated.depth, "depth", if top > 0.0 { top } else { size.depth }, "the highest point"),
     };
     notes.extend(shorter_than_broad(particulars.length_between_perpendiculars, particulars.breadth));

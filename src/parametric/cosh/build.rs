@@ -310,7 +310,7 @@ impl Resolved {
 
         let (l, b, t) = (self.length, self.breadth, self.draught);
         let particulars =
-            PrincipalParticulars { length_between_perpendiculars: l, breadth: b, draught: t, depth: self.depth };
+            PrincipalParticulars { length_between_perpendiculars: l, breadth: b, draught: Some(t), depth: self.depth };
         let at_midship = form.aft_shoulder <= 0.5 * l && form.fore_shoulder >= 0.5 * l;
         let station = if at_midship { 0.5 * l } else { 0.5 * (form.aft_shoulder + form.fore_shoulder) };
         let exact = Exact {

@@ -236,7 +236,7 @@ fn attempt(folder: &Path, file: &str, name: &str, reference: &Reference) -> Resu
     let fitted = Hull::fit(&table, &FitMethod::default()).map_err(|error| error.to_string())?;
     notes.extend(fitted.notes.iter().cloned());
     let rows = rows(&fitted.hull, &draughts);
-    let thinned = Thinned::new(&table, &FitMethod::default(), fitted.hull.particulars().draught);
+    let thinned = Thinned::new(&table, &FitMethod::default(), fitted.hull.reference_height());
     let thinner: Vec<Vec<Hydrostatics>> = [&thinned.stations, &thinned.waterlines]
         .into_iter()
         .flatten()

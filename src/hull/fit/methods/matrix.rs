@@ -152,10 +152,6 @@ impl Matrix {
         let length = self.xs[self.xs.len() - 1] - self.xs[0];
         let s = &table.stated;
         let depth = or(s.depth, "D", top, "the highest waterline");
-        // The waterline nearest to three quarters of the depth.
-        let wanted = 0.75 * depth;
-        let draught =
-            self.zs.iter().copied().min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs())).unwrap_or(wanted);
         PrincipalParticulars {
             length_between_perpendiculars: or(
                 s.length_between_perpendiculars,
@@ -164,7 +160,7 @@ impl Matrix {
                 "from the first station to the last",
             ),
             breadth: or(s.breadth, "B", 2.0 * widest, "twice the largest half-breadth"),
-            draught: or(s.draught, "T", draught, "the waterline nearest to 0.75 D"),
+            draught: s.draught.filter(|_| s.states_draught()),
             depth,
         }
     }

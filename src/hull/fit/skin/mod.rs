@@ -65,7 +65,8 @@ pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let mut assumed = Vec::new();
     let mut particulars = upright::particulars(table, &surface, &profiles, &mut assumed);
     let mut hull = Hull::new(&table.name, particulars, surface, deck)?;
-    if let (false, Some([aft, fore])) = (stated, hull.endings(particulars.draught)) {
+    let afloat = particulars.draught.and_then(|draught| hull.endings(draught));
+    if let (false, Some([aft, fore])) = (stated, afloat) {
         let (length, how) = length_by_stations(table, fore - aft)
             .map_or((fore - aft, "that of the waterline at T"), |length| (length, BY_STATIONS));
         particulars.length_between_perpendiculars = length;
