@@ -20,7 +20,7 @@ fn hull_24x14() -> Option<Hull> {
         .collect();
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).ok()?, vec![[0.0, 10.0], [100.0, 10.0]]).ok()?;
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 14.0, draught: 6.0, depth: 10.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 14.0, draught: Some(6.0), depth: 10.0 };
     Hull::new("bench", particulars, BsplineSurface::new(u, v, points).ok()?, deck).ok()
 }
 

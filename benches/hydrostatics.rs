@@ -28,7 +28,8 @@ fn hull(slanting: bool) -> Hull {
     }
     let line = KnotVector::uniform(1, 1).unwrap();
     let deck = BsplineCurve::new(line, vec![[-10.0, depth], [110.0, depth]]).unwrap();
-    let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: 6.0, depth };
+    let particulars =
+        PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: Some(6.0), depth };
     Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 
@@ -48,7 +49,8 @@ fn canoe(mixed: bool) -> Hull {
     }
     let line = KnotVector::uniform(1, 1).unwrap();
     let deck = BsplineCurve::new(line, vec![[-10.0, depth], [110.0, depth]]).unwrap();
-    let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: 6.0, depth };
+    let particulars =
+        PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: Some(6.0), depth };
     Hull::new("bench", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 

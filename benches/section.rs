@@ -28,7 +28,7 @@ fn wigley() -> Hull {
     let particulars = PrincipalParticulars {
         length_between_perpendiculars: LENGTH,
         breadth: BREADTH,
-        draught: DRAUGHT,
+        draught: Some(DRAUGHT),
         depth: DRAUGHT,
     };
     Hull::new("wigley", particulars, surface, deck).unwrap()

@@ -48,7 +48,8 @@ impl Product {
         let top = self.heights[self.heights.len() - 1];
         let line = KnotVector::uniform(1, 1).unwrap();
         let deck = BsplineCurve::new(line, vec![[-length, top], [2.0 * length, top]]).unwrap();
-        let particulars = PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth: top };
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: Some(draught), depth: top };
         Hull::new("body", particulars, BsplineSurface::new(self.u, self.v, points).unwrap(), deck).unwrap()
     }
 }

@@ -23,7 +23,9 @@ fn files(folder: &Path, hull: &Hull, name: &str, formats: &[ExportFormat]) -> Ve
     let exported = export(hull, name, formats, &ExportSettings { deviation, ..ExportSettings::default() }).unwrap();
     let beside = format!(
         "[table]\nLpp = {}\nB = {}\nT = {}\nx_origin = 0\n",
-        particulars.length_between_perpendiculars, particulars.breadth, particulars.draught
+        particulars.length_between_perpendiculars,
+        particulars.breadth,
+        hull.reference_height()
     );
     let write = |file: &loftsman::report::OutputFile| {
         let path = folder.join(&file.name);
@@ -41,7 +43,7 @@ const PANELS: [ExportFormat; 3] = [ExportFormat::Gdf, ExportFormat::Nemoh, Expor
 #[test]
 fn panels_and_scenes_are_read_back() {
     let hull = config("seed002-frigate");
-    let draught = hull.particulars().draught;
+    let draught = hull.reference_height();
     let settings = PanelSettings {
         draught,
         size: hull.particulars().length_between_perpendiculars / 50.0,
@@ -102,7 +104,7 @@ fn main_quantities(row: &Hydrostatics) -> [f64; 9] {
 fn exported_meshes_float_as_their_hulls() {
     for name in ["box", "bulk-carrier", "seed002-frigate", "yacht"] {
         let hull = config(name);
-        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
+        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.reference_height());
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(name);
         for path in files(&folder, &hull, name, &MESHES) {
@@ -127,7 +129,7 @@ fn exported_meshes_float_as_their_hulls() {
 fn exported_surfaces_float_as_their_hulls_to_a_millionth() {
     for name in ["box", "wigley"] {
         let hull = config(name);
-        let draughts = [0.4, 0.75].map(|share| share * hull.particulars().draught);
+        let draughts = [0.4, 0.75].map(|share| share * hull.reference_height());
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("surfaces-{name}"));
         for path in files(&folder, &hull, name, &[ExportFormat::Step, ExportFormat::Iges]) {
@@ -174,7 +176,7 @@ fn a_mesh_is_fitted_like_a_table() {
     let (table, _) = loftsman::report::read_table_file(&path).unwrap();
     assert_eq!(table.stations.len(), 41);
     let fitted = Hull::fit(&table, &FitMethod::default()).unwrap().hull;
-    let draught = [hull.particulars().draught];
+    let draught = [hull.reference_height()];
     let volume = |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
     let error = volume(&fitted) / volume(&hull) - 1.0;
     assert!(error.abs() < 2e-3, "{error:e}");
@@ -376,7 +378,7 @@ fn faults_of_cad_files_name_their_record() {
 fn control_nets_float_as_their_hulls_and_come_back_as_they_are() {
     for name in ["box", "seed002-frigate", "fishing-vessel"] {
         let hull = config(name);
-        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.particulars().draught);
+        let draughts = [0.4, 0.75, 1.0].map(|share| share * hull.reference_height());
         let exact = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         let folder = folder(&format!("nets-{name}"));
         let path = files(&folder, &hull, name, &[ExportFormat::Ftm]).remove(0);

@@ -32,7 +32,7 @@ fn level_deck(length: f64, height: f64) -> BsplineCurve<2> {
 }
 
 fn particulars(length: f64, breadth: f64, draught: f64, depth: f64) -> PrincipalParticulars {
-    PrincipalParticulars { length_between_perpendiculars: length, breadth, draught, depth }
+    PrincipalParticulars { length_between_perpendiculars: length, breadth, draught: Some(draught), depth }
 }
 
 fn row(hull: &Hull, draught: f64) -> Hydrostatics {
@@ -424,7 +424,7 @@ fn files_and_figures_of_a_canoe_body() {
                 hull: &hull,
                 before: None,
                 record: None,
-                design: &design,
+                design: Some(&design),
                 curves: &curves,
                 source: None,
                 dense: None,

@@ -39,8 +39,9 @@ fn files_are_not_overwritten_unasked() {
     let heights = text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f64>().ok());
     let (least, most) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
     let particulars = *read_source(&config("box.toml")).unwrap().hull.particulars();
-    assert!((least + particulars.draught).abs() < 1e-12, "{least}");
-    assert!((most + particulars.draught - particulars.depth).abs() < 1e-12, "{most}");
+    let draught = particulars.draught.unwrap();
+    assert!((least + draught).abs() < 1e-12, "{least}");
+    assert!((most + draught - particulars.depth).abs() < 1e-12, "{most}");
     let again = program(&arguments);
     assert_eq!(again.status.code(), Some(6));
     assert_eq!(folder.read("box.obj"), text);
@@ -92,7 +93,7 @@ fn panels_have_the_volume_of_the_hull_and_converge() {
     for name in ["bulk-carrier", "fishing-vessel", "seed002-frigate", "wigley", "yacht"] {
         let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
         let length = hull.particulars().length_between_perpendiculars;
-        let draught = 0.9 * hull.particulars().draught;
+        let draught = 0.9 * hull.reference_height();
         let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0);
         let mut last = [f64::NAN; 2];
         for parts in [25.0, 50.0, 100.0] {
@@ -137,7 +138,7 @@ fn corners_of(gdf: &[u8]) -> Vec<[[f64; 3]; 4]> {
 fn panels_are_planar_and_small_enough_where_nothing_is_said() {
     for name in ["box", "bulk-carrier", "wigley", "yacht"] {
         let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
-        let draught = hull.particulars().draught;
+        let draught = hull.reference_height();
         let exact = CurvesOfForm::new(&hull, &[draught], &Conventions::default()).rows.remove(0).displacement_volume;
         let written = export(&hull, name, &[ExportFormat::Gdf], &ExportSettings::default()).unwrap();
         let (mut volume, mut quadrilaterals) = (0.0, 0);
@@ -194,7 +195,7 @@ fn what_cannot_be_meant_is_refused() {
 fn sections_and_tables_are_read_back_as_the_hull() {
     for (name, allowed) in [("bulk-carrier", 2e-3_f64), ("seed002-frigate", 2e-3), ("yacht", 3e-3)] {
         let hull = read_source(&config(&format!("{name}.toml"))).unwrap().hull;
-        let draught = [hull.particulars().draught];
+        let draught = [hull.reference_height()];
         let volume =
             |hull: &Hull| CurvesOfForm::new(hull, &draught, &Conventions::default()).rows[0].displacement_volume;
         let formats: Vec<ExportFormat> = ["ghs", "britfair", "pias", "freeship", "delftship", "csv", "xlsx"]

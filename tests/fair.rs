@@ -18,7 +18,23 @@ use crate::support::{Folder, carried, command, folder, json, names_in, program, 
 const TABLE: &str = "tests/data/series60_cb060/offsets.csv";
 const YACHT: &str = "tests/data/pdstrip_yacht/offsets.csv";
 
+/// Design draughts of tables that state none, between their waterlines.
+const DRAUGHTS: [(&str, &str); 3] = [("series60", "6.828 m"), ("s175", "7.7 m"), ("yacht", "0.673 m")];
+
+/// The option that states the draught of a table.
+fn draught(table: &Path) -> Option<&'static str> {
+    let name = table.display().to_string();
+    DRAUGHTS.iter().find(|(table, _)| name.contains(table) && name.ends_with(".csv")).map(|(_, draught)| *draught)
+}
+
+/// Faired with the options, at the draught of the table where they state none.
 fn faired(input: &Path, options: &[(&str, &str, &str)]) -> (FairJob, FairOutputs) {
+    let stated = options.iter().any(|(_, key, _)| *key == "dimensions.T");
+    let at = draught(input).filter(|_| !stated).map(|draught| ("--draught", "dimensions.T", draught));
+    faired_as_it_is(input, &[options, at.as_slice()].concat())
+}
+
+fn faired_as_it_is(input: &Path, options: &[(&str, &str, &str)]) -> (FairJob, FairOutputs) {
     let options: Vec<_> = options.iter().map(|(option, key, value)| (*option, *key, (*value).to_owned())).collect();
     let job = read_fair(input, &options).unwrap_or_else(|failure| panic!("{failure}"));
     let outputs = fair_outputs(&job, false).unwrap_or_else(|failure| panic!("{failure}"));
@@ -38,7 +54,11 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn displacement_and_block_coefficient_may_both_be_asked_for() {
     let options = |cb| {
-        let stated = [("--displacement", "hold.displacement", "8170 m3"), ("--cb", "hold.Cb", cb)];
+        let stated = [
+            ("--displacement", "hold.displacement", "8170 m3"),
+            ("--cb", "hold.Cb", cb),
+            ("--draught", "dimensions.T", "6.828 m"),
+        ];
         stated.map(|(option, key, value): (&str, &str, &str)| (option, key, value.to_owned()))
     };
     let job = read_fair(&carried(TABLE), &options("0.60")).unwrap();
@@ -54,7 +74,7 @@ fn displacement_and_block_coefficient_may_both_be_asked_for() {
 fn with_midship_coefficient(coefficient: &str) -> Result<FairOutputs, String> {
     let path = folder(coefficient);
     let text = format!(
-        "table.file = {:?}\n[hold]\nsection_areas = [[60.96, 106]]\nCm = {coefficient}\n[tolerance]\ntable = \"60 mm\"\n",
+        "table.file = {:?}\n[hold]\nsection_areas = [[60.96, 106]]\nCm = {coefficient}\n[tolerance]\ntable = \"60 mm\"\n[dimensions]\nT = 6.828\n",
         carried(TABLE)
     );
     let job = path.write("j.toml", text);
@@ -96,7 +116,8 @@ fn a_target_at_the_end_of_its_interval_is_no_fault_of_the_table() {
 fn a_table_becomes_a_fair_hull_with_its_files() {
     let path = folder("files");
     let out = path.join("out");
-    let arguments = ["fair", &carried(TABLE).display().to_string(), "-o", out.to_str().unwrap()];
+    let table = carried(TABLE).display().to_string();
+    let arguments = ["fair", &table, "-o", out.to_str().unwrap(), "--draught", "6.828"];
     let output = program(&arguments);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let page = stdout(&output);
@@ -128,6 +149,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         "lcurve.svg",
         "manifest.json",
         "offsets.csv",
+        "offsets.toml",
         "summary.json",
     ];
     assert_eq!(names, expected);
@@ -160,7 +182,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     // Nobody stated the displacement: that of the hull that was written is within two standard errors of the field's.
     let written = read_source(&out.join("hull.json")).unwrap().hull;
     let held = &certificate["constraints"][0];
-    let volume = loftsman::hull::Functional::Volume.value(&written, written.particulars().draught);
+    let volume = loftsman::hull::Functional::Volume.value(&written, written.reference_height());
     let [low, high] = ["low", "high"].map(|key| number(&held[key]));
     assert!((low..=high).contains(&volume) && low < number(&held["target"]), "{volume} {held}");
     assert!((5e-5..1e-3).contains(&(high / low - 1.0)) && number(&held["residual"]).abs() < 1e-12, "{held}");
@@ -168,7 +190,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     assert!((number(&held["after"]) / number(&held["before"]) - 1.0).abs() < 2e-3, "{held}");
     // The same bytes once more; what is there is not overwritten unasked.
     let again = path.join("again");
-    let second = program(&["fair", arguments[1], "-o", again.to_str().unwrap(), "-q"]);
+    let second = program(&["fair", arguments[1], "-o", again.to_str().unwrap(), "-q", "--draught", "6.828"]);
     assert!(second.status.success() && second.stdout.is_empty(), "{}", stdout(&second));
     assert!(stderr(&second).lines().all(|line| line.starts_with("W402")), "{}", stderr(&second));
     for name in &names {
@@ -273,8 +295,8 @@ fn infeasible_targets_end_with_4_and_are_written() {
     let folder = folder("infeasible");
     let out = folder.join("out");
     let table = carried(TABLE).display().to_string();
-    let arguments = ["fair", &table, "-o", out.to_str().unwrap(), "--cb", "0.7", "--tolerance", "1 mm", "--no-figures"];
-    let output = program(&arguments);
+    let options = ["--cb", "0.7", "--tolerance", "1 mm", "--draught", "6.828", "--no-figures"];
+    let output = program(&[&["fair", &table, "-o", out.to_str().unwrap()][..], &options].concat());
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     assert!(stderr(&output).contains("E401"), "{}", stderr(&output));
     let certificate = json(read_text(out.join("fairing.json")));
@@ -408,7 +430,8 @@ fn absurd_numbers_are_not_taken_for_an_answer() {
     let table = carried(TABLE).display().to_string();
     let run = |name: &str, option: &str, value: &str| {
         let out = folder.join(name).display().to_string();
-        program(&["fair", &table, "-o", &out, option, value, "--no-figures"])
+        let options = if option == "--draught" { &[][..] } else { &["--draught", "6.828"] };
+        program(&[&["fair", &table, "-o", &out, option, value, "--no-figures"][..], options].concat())
     };
     let output = run("1e9", "--displacement", "1e9");
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
@@ -466,7 +489,7 @@ fn refusals_name_the_line_of_the_job() {
             "E180 job.toml:5:1 lines.tangent: the waterline at 0.1 m cannot",
         ),
         (TABLE, "[dimensions]\nT = 50\n", &[], "E175 job.toml:4:5 dimensions.T: the design draught of 50.000 m"),
-        (TABLE, "[dimensions]\nD = 1\n", &[], "E175 job.toml:4:5 dimensions.D: the design draught of"),
+        (TABLE, "[dimensions]\nT = 6\nD = 1\n", &[], "E175 job.toml:4:5 dimensions.T: the design draught of 6.000 m"),
         (TABLE, "[dimensions]\nB = 1\n", &[], "E175 job.toml:4:5 dimensions.B: half-breadths up to"),
         (TABLE, "", &["--draught", "50"], "E175 --draught dimensions.T: the design draught of 50.000 m"),
     ];
@@ -484,7 +507,8 @@ fn what_is_infeasible_names_the_line_of_the_job() {
     let (code, words) = answer_to_job(&folder, TABLE, text, &[]);
     let expected = "given up was the waterline at z = 6.502 m convex (job.toml:7), the waterline at z = 6.502 m concave (job.toml:9)";
     assert!(code == Some(4) && words.contains(expected) && words.contains("no tolerances were found"), "{words}");
-    let (code, words) = answer_to_job(&folder, TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "9300 t"]);
+    let (code, words) =
+        answer_to_job(&folder, TABLE, "[hold]\nLCB = \"+3 %\"\n", &["--displacement", "9300 t", "--draught", "6.828"]);
     assert_eq!(code, Some(4));
     assert!(
         words.contains(" LCB (job.toml:4) without") && words.contains(" displacement (--displacement) w"),
@@ -501,7 +525,11 @@ fn the_least_tolerances_for_a_section_area_are_found() {
         let (job, out) = (folder.join("job.toml"), folder.join("out"));
         let table = carried(TABLE).display().to_string();
         let hold = "[hold]\nsection_areas = [[30.48, 70, 5]]";
-        fs::write(&job, format!("[table]\nfile = {table:?}\n[tolerance]\ntable = {tolerance}\n{hold}\n")).unwrap();
+        fs::write(
+            &job,
+            format!("[table]\nfile = {table:?}\n[dimensions]\nT = 6.828\n[tolerance]\ntable = {tolerance}\n{hold}\n"),
+        )
+        .unwrap();
         let (job, to) = (job.display().to_string(), out.display().to_string());
         let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures"]);
         let certificate = json(read_text(out.join("fairing.json")));
@@ -549,7 +577,7 @@ fn a_sectional_area_curve_is_held() {
     let run = |areas: &str| {
         let (job, out) = (folder.join("job.toml"), folder.join("out"));
         let table = carried(TABLE).display().to_string();
-        fs::write(&job, format!("[table]\nfile = {table:?}\n[hold]\n{areas}\n")).unwrap();
+        fs::write(&job, format!("[table]\nfile = {table:?}\n[dimensions]\nT = 6.828\n[hold]\n{areas}\n")).unwrap();
         let (job, to) = (job.display().to_string(), out.display().to_string());
         let output = program(&["fair", &job, "-o", &to, "--force", "--no-figures", "--verbose"]);
         (output.status.code(), stderr(&output), String::from_utf8_lossy(&output.stdout).into_owned())
@@ -696,7 +724,7 @@ fn what_is_not_what_was_hoped_for_is_warned_of() {
     let out = folder.join("out").display().to_string();
     let yacht = carried(YACHT).display().to_string();
     let warned = |targets: &[&str]| {
-        let options = ["-o", &out, "--force", "--no-figures", "--fairness", "0"];
+        let options = ["-o", &out, "--force", "--no-figures", "--fairness", "0", "--draught", "0.673"];
         let output = program(&[&["fair", &yacht][..], &options, targets].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stderr(&output)
@@ -881,7 +909,7 @@ fn a_changed_file_is_faired_again() {
     fs::write(&table, text).unwrap();
     let later = SystemTime::now() + Duration::from_secs(2);
     fs::File::options().write(true).open(&table).unwrap().set_modified(later).unwrap();
-    let again = lines.find(|line| line.as_ref().is_ok_and(|line| line.starts_with("optimal: displacement")));
+    let again = lines.find(|line| line.as_ref().is_ok_and(|line| line.starts_with("optimal: volume below z = ")));
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(again.is_some());
@@ -913,7 +941,7 @@ fn numbered_stations_stand_where_the_length_of_the_job_puts_them() {
     let metres = folder.join("metres.csv");
     fs::write(&metres, wigley_table(|station| format!("{} m", 5.0 * station))).unwrap();
     let (_, wanted) = faired(&metres, &[("--job", "dimensions.Lpp", "100 m")]);
-    let volume = |outputs: &FairOutputs| outputs.rows[1].displacement_volume;
+    let volume = |outputs: &FairOutputs| outputs.certificate["constraints"][0]["after"].as_f64().unwrap();
     // One file beside the table says another length, and more.
     for beside in [None, Some("[table]\nname = \"Wigley\"\nLpp = 50.0\n")] {
         if let Some(beside) = beside {

@@ -49,11 +49,11 @@ fn area(hull: &Hull, x: f64, draught: f64) -> f64 {
 fn generated_ships_from_a_fifth_of_the_draught_to_the_deck() {
     for (name, hull) in ships() {
         let p = hull.particulars();
-        let (from, to, count) = (0.2 * p.draught, p.depth, 40);
+        let (from, to, count) = (0.2 * hull.reference_height(), p.depth, 40);
         let draughts: Vec<f64> = (0..count).map(|k| from + (to - from) * f64::from(k) / f64::from(count - 1)).collect();
         let rows = CurvesOfForm::new(&hull, &draughts, &Conventions::default()).rows;
         assert!(rows.windows(2).all(|w| w[1].displacement_volume > w[0].displacement_volume), "{name}");
-        let step = 1e-5 * p.draught;
+        let step = 1e-5 * hull.reference_height();
         let beside: Vec<f64> = draughts.iter().flat_map(|t| [t - step, t + step]).collect();
         let beside = CurvesOfForm::new(&hull, &beside, &Conventions::default()).rows;
         let deck = hull.deck().points().iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
@@ -139,7 +139,7 @@ fn sheared(u: KnotVector, v: KnotVector, slant: f64, y: impl Fn(f64, f64) -> f64
     let line = KnotVector::uniform(1, 1).unwrap();
     let deck = BsplineCurve::new(line, vec![[-50.0, 10.0], [150.0, 10.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: 6.0, depth: 10.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: Some(6.0), depth: 10.0 };
     Hull::new("sheared", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 
@@ -207,7 +207,14 @@ fn parallel_body_where_the_lines_slant() {
 fn areas_of_draughts_together_and_alone() {
     for (name, hull) in ships() {
         let (p, top) = (hull.particulars(), hull.top());
-        let draughts = [p.draught, 0.3 * p.draught, -1e3, 0.71 * top, 0.3 * p.draught, 2.0 * top];
+        let draughts = [
+            hull.reference_height(),
+            0.3 * hull.reference_height(),
+            -1e3,
+            0.71 * top,
+            0.3 * hull.reference_height(),
+            2.0 * top,
+        ];
         let stations: Vec<f64> = (-2..=42).map(|k| f64::from(k) / 40.0 * p.length_between_perpendiculars).collect();
         let together = SectionalAreaCurve::areas(&hull, &draughts, &stations);
         for (d, &draught) in draughts.iter().enumerate() {

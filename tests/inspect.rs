@@ -403,7 +403,7 @@ fn hollow() -> Hull {
         .collect();
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 6.0], [100.0, 6.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 10.0, draught: 5.0, depth: 6.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 10.0, draught: Some(5.0), depth: 6.0 };
     Hull::new("hollow", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 

@@ -318,9 +318,10 @@ fn every_method_file_runs() {
         kinds.push(job.method.method.as_str());
         let outputs = fit_outputs(&job, &[]).unwrap_or_else(|e| panic!("{name}: {e}"));
         let misfit = outputs.fitted.misfit();
-        let row = &outputs.design_row;
-        println!("{name}: V {:.3} max {:.4} rms {:.4}", row.displacement_volume, misfit.largest(), misfit.rms);
-        assert!(row.displacement_volume > 0.0 && misfit.given >= 20);
+        let volume = outputs.estimate.volume;
+        println!("{name}: V {volume:.3} max {:.4} rms {:.4}", misfit.largest(), misfit.rms);
+        assert!(volume > 0.0 && misfit.given >= 20);
+        assert_eq!(outputs.design_row.is_some(), job.method.stated.draught.is_some(), "{name}");
         let given = job.table.stations.iter().flat_map(|s| &s.half_breadths).filter(|c| c.value().is_some()).count();
         assert_eq!(misfit.given, given, "{name}");
         if job.method.method == FitMethod::Bilinear {

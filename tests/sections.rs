@@ -43,7 +43,7 @@ fn with_deck(surface: BsplineSurface<3>, deck: BsplineCurve<2>) -> Hull {
     let particulars = PrincipalParticulars {
         length_between_perpendiculars: LENGTH,
         breadth: BREADTH,
-        draught: DRAUGHT,
+        draught: Some(DRAUGHT),
         depth: DRAUGHT,
     };
     Hull::new("test", particulars, surface, deck).unwrap()

@@ -125,7 +125,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let datum = match arguments.datum {
         Datum::Height(height) => height,
         Datum::Waterline => {
-            let none = || Failure::Usage("--datum waterline needs a draught, and none is stated: give --draught".to_owned());
+            let none =
+                || Failure::Usage("--datum waterline needs a draught, and none is stated: give --draught".to_owned());
             source.hull.particulars().draught.or(arguments.draught).ok_or_else(none)?
         }
     };

@@ -57,7 +57,7 @@ pub(super) struct Arguments {
     /// Wetted surface [m2] at the design draught [default: free]
     #[arg(long, value_name = "AREA", allow_hyphen_values = true)]
     wetted_surface: Option<String>,
-    /// Design draught: what is held holds there [default: of the table]
+    /// Design draught: what is held holds there [default: of the table, where it states one]
     #[arg(long, alias = "draft", value_name = "T")]
     draught: Option<String>,
     /// How strongly the table is faired, from 0, the surface through it, to 10; or raw (0), light (3), fair (5), smooth (8)
@@ -101,13 +101,16 @@ pub(super) struct Arguments {
 
 const AFTER: &str = "\
 By default displacement, LCB and CM are held: within two standard errors of the smoothed table, or at the values of the surface \
-through the table where the job has locks, rules, lines or a tolerance below half the noise. A given target replaces one of them. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
+through the table where the job has locks, rules, lines or a tolerance below half the noise. A given target replaces one of them. \
+Without a draught, volume and centre of volume are held below the highest waterline that every station between the ends has; \
+targets then need --draught. A job file has the same in [hold], and [tolerance], [lock], [tangent], [flat], \
 [shape], [energy], [suspects], [inflections]: `loftsman schema job`.
 Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv (in the notation of the table), offsets.toml (the dimensions and \
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
 manifest.json, figures; with --grades: grades.csv, grades/N/hull.json.
 The first line says whether the hull is fairer: changes of sign and monotone pieces of the curvature of stations and \
-waterlines before > after, with the proved least number of changes of sign. Eight lines follow; --verbose prints the rest.
+waterlines before > after, with the proved least number of changes of sign. Eight lines follow, up to three more without a draught; \
+--verbose prints the rest.
 Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit code 5 when \
 they are met and stations and waterlines have more changes of sign or more monotone pieces than before, or from --fairness 5 on no \
 fewer changes of sign and more than 1.5 times the least and 2. With --fairness 0 exit code 0.

@@ -19,7 +19,8 @@ pub(super) struct Arguments {
     /// [default: graded]
     #[arg(long, value_name = "NAME|FILE")]
     method: Option<String>,
-    /// Design draught above the base line [m] [default: of the table]
+    /// Design draught above the base line [m] [default: of the table, where it states one; without it no displacement and
+    /// no coefficients]
     #[arg(long, alias = "draft", value_parser = length, value_name = "T")]
     draught: Option<f64>,
     #[command(flatten)]

@@ -7,9 +7,7 @@ use clap::{Args, ValueEnum};
 use super::{Lengths, length, lengths, positive, stream};
 use crate::exchange::{hydrostatics_csv, hydrostatics_json};
 use crate::hydrostatics::{CoefficientLength, Conventions, DENSITIES, GRAVITY_HEIGHTS, LcbReference, PrismaticSection};
-use crate::report::{
-    Failure, hydrostatics_page, read_hydrostatic_body_at, read_hydrostatic_body_with, source_files,
-};
+use crate::report::{Failure, hydrostatics_page, read_hydrostatic_body_at, read_hydrostatic_body_with, source_files};
 use crate::units::{Dimension, parse};
 
 #[derive(Debug, Args)]

@@ -293,8 +293,12 @@ mod tests {
         let points =
             (0..25).map(|k| [(k / 5) as f64 * 7.3 + 0.1, net[k] * width, (k % 5) as f64 * 1.7 - 0.2]).collect();
         let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.1, 6.0], [29.3, 6.1]]).unwrap();
-        let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 29.0, breadth: width, draught: 3.0, depth: 6.0 };
+        let particulars = PrincipalParticulars {
+            length_between_perpendiculars: 29.0,
+            breadth: width,
+            draught: Some(3.0),
+            depth: 6.0,
+        };
         Hull::new("Test \"1\"", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
     }
 

@@ -130,11 +130,7 @@ impl From<ConventionsRecord> for Conventions {
             },
             keel_thickness: record.keel_thickness.unwrap_or(defaults.keel_thickness),
             centre_of_gravity_height: record.kg,
-            assumed: Assumed {
-                length: assumed("L_PP"),
-                breadth: assumed("B"),
-                depth: assumed("D"),
-            },
+            assumed: Assumed { length: assumed("L_PP"), breadth: assumed("B"), depth: assumed("D") },
             stations: StationNumbers {
                 spaces: record.station_spaces.filter(|&n| n >= 1).unwrap_or(defaults.stations.spaces),
                 from_forward: matches!(record.station_zero, Some(LcbWord::ForwardPerpendicular)),
@@ -216,11 +212,7 @@ mod tests {
                 shell,
                 keel_thickness: 0.015,
                 centre_of_gravity_height: Some(7.5),
-                assumed: Assumed {
-                    draught: lcb_reference == LcbReference::Midship,
-                    breadth: lcb_reference == LcbReference::Percent,
-                    ..Assumed::default()
-                },
+                assumed: Assumed { breadth: lcb_reference == LcbReference::Percent, ..Assumed::default() },
                 stations: StationNumbers {
                     spaces: if shell == Shell::None { 20 } else { 10 },
                     from_forward: lcb_reference == LcbReference::Midship,

@@ -206,7 +206,6 @@ impl Outcome {
         Some((below, format!("{what} below z = {below:.3} m (no draught is stated)")))
     }
 
-
     /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a
     /// drawing.
     #[must_use]

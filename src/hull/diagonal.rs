@@ -52,7 +52,7 @@ mod tests {
         let surface = BsplineSurface::new(knots(), knots(), points).unwrap();
         let deck = BsplineCurve::new(knots(), vec![[0.0, 5.0], [10.0, 5.0]]).unwrap();
         let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 8.0, draught: 4.0, depth: 5.0 };
+            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 8.0, draught: Some(4.0), depth: 5.0 };
         Hull::new("wedge", particulars, surface, deck).unwrap()
     }
 

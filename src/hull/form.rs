@@ -482,7 +482,7 @@ mod tests {
         let points = vec![[0.0, 0.0, 0.0], [0.0, 2.0, 2.0], [10.0, 0.0, 0.0], [10.0, 0.0, 2.0]];
         let deck = BsplineCurve::new(line(), vec![[0.0, 2.0], [10.0, 2.0]]).unwrap();
         let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 4.0, draught: 1.0, depth: 2.0 };
+            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 4.0, draught: Some(1.0), depth: 2.0 };
         Hull::new("wedge", particulars, BsplineSurface::new(line(), line(), points).unwrap(), deck).unwrap()
     }
 

@@ -260,8 +260,12 @@ mod tests {
             vec![[-5.0, 9.0 - 0.5 * sheer], [20.0, 9.0 - sheer], [60.0, 9.0 - sheer], [110.0, 9.0]],
         )
         .unwrap();
-        let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: 5.0, depth: 9.0 };
+        let particulars = PrincipalParticulars {
+            length_between_perpendiculars: 100.0,
+            breadth: 16.0,
+            draught: Some(5.0),
+            depth: 9.0,
+        };
         Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
     }
 

@@ -41,8 +41,7 @@ pub use inertia::{transverse_inertia, transverse_inertia_gradient};
 pub use mesh::{HullMesh, LEAST_ANGLE, MeshError, MeshReport, Region, SharpCorner, whole_volume};
 pub use offsets::{
     OffsetStation, OffsetTable, StationNumbers, StationOffsets, default_buttocks, default_diagonals, default_stations,
-    default_waterlines,
-    keel_height,
+    default_waterlines, keel_height,
 };
 pub use outlines::section_stations;
 pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};

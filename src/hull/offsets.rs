@@ -395,7 +395,10 @@ pub fn default_waterlines(hull: &Hull) -> Vec<f64> {
     let last = ((highest + 1e-9 * step) / step).floor() as i64;
     let mut lines = vec![bottom];
     let mut add = |z: f64| {
-        if z > bottom + 0.2 * step && z <= highest + 1e-9 * step && draught.is_none_or(|draught| (z - draught).abs() > 0.2 * step) {
+        if z > bottom + 0.2 * step
+            && z <= highest + 1e-9 * step
+            && draught.is_none_or(|draught| (z - draught).abs() > 0.2 * step)
+        {
             lines.push(z);
         }
     };
@@ -444,7 +447,7 @@ mod tests {
         }
         let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 9.0], [103.0, 10.0]]).unwrap();
         let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 6.3, depth: 9.0 };
+            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(6.3), depth: 9.0 };
         Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
     }
 

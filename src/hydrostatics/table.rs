@@ -257,8 +257,12 @@ mod tests {
         }
         let line = KnotVector::uniform(2, 1).unwrap();
         let deck = BsplineCurve::new(line, vec![[-5.0, 9.0], [50.0, 2.0 * lowest_deck - 9.0], [105.0, 9.0]]).unwrap();
-        let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 16.0, draught: 5.0, depth: 9.0 };
+        let particulars = PrincipalParticulars {
+            length_between_perpendiculars: 100.0,
+            breadth: 16.0,
+            draught: Some(5.0),
+            depth: 9.0,
+        };
         Hull::new("test", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
     }
 

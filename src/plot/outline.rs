@@ -124,7 +124,7 @@ mod tests {
         let line = KnotVector::uniform(1, 1).unwrap();
         let deck = BsplineCurve::new(line, vec![[-1.0, 3.0], [11.0, 3.0]]).unwrap();
         let particulars =
-            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 2.0, draught: 1.0, depth: 3.0 };
+            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 2.0, draught: Some(1.0), depth: 3.0 };
         let hull = Hull::new("x", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
         let outline = centreplane(&hull);
         let lowest = outline.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();

@@ -81,7 +81,7 @@ fn maps_and_bonjean_curves_keep_their_text_apart() {
             let canvas = surface_map::compose(&maps, kind).unwrap();
             found.extend(faults(&format!("{} {}", hull.name(), kind.key()), &canvas));
         }
-        let draught = hull.particulars().draught;
+        let draught = hull.reference_height();
         let table = CurvesOfForm::new(&hull, &[draught], &Conventions::default());
         let inputs = FigureInputs {
             hull: &hull,
@@ -189,7 +189,7 @@ fn figures_of_faired_tables_keep_their_text_apart() {
         let one = |canvas: Result<Canvas, PlotError>| canvas.map(|canvas| vec![canvas]);
         let figures = [
             ("arrows", one(fairing_arrows::compose(&record, sheet))),
-            ("long arrows", one(fairing_arrows_long::compose(&record, &Conventions::default(), sheet))),
+            ("long arrows", one(fairing_arrows_long::compose(&record, sheet))),
             ("body plan", one(fairing_body::body_plan(&record, &combs, sheet))),
             ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
             ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),

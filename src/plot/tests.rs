@@ -48,8 +48,9 @@ fn hulls() -> Vec<Hull> {
 fn with_inputs<T>(hull: &Hull, draw: impl FnOnce(&FigureInputs) -> T) -> T {
     let p = hull.particulars();
     let conventions = Conventions::default();
-    let design = CurvesOfForm::new(hull, &[p.draught], &conventions);
-    let curves = CurvesOfForm::new(hull, &[0.2 * p.draught, p.draught, p.depth], &conventions);
+    let design = CurvesOfForm::new(hull, &[hull.reference_height()], &conventions);
+    let curves =
+        CurvesOfForm::new(hull, &[0.2 * hull.reference_height(), hull.reference_height(), p.depth], &conventions);
     draw(&FigureInputs {
         hull,
         before: None,
@@ -272,7 +273,11 @@ fn curves_need_two_draughts() {
 fn curves_end_where_the_deck_edge_goes_under() {
     let hull = ship("frigate", ShipType::Frigate, [100.0, 13.2, 4.4, 9.0, 0.50]);
     let p = hull.particulars();
-    let table = CurvesOfForm::new(&hull, &[0.5 * p.draught, p.draught, 1.3 * p.depth], &Conventions::default());
+    let table = CurvesOfForm::new(
+        &hull,
+        &[0.5 * hull.reference_height(), hull.reference_height(), 1.3 * p.depth],
+        &Conventions::default(),
+    );
     let inputs = FigureInputs {
         hull: &hull,
         before: None,

@@ -35,8 +35,7 @@ pub(super) fn grade_files(
     let run = job.job.run_grades(&job.table, asked, &Fairness::whole(), progress);
     let grades = run.map_err(|error| refused(job, &error))?;
     let rows = grades.iter().map(|outcome| row(job, &outcome.after)).collect::<Vec<_>>();
-    let table: Vec<(&Outcome, Option<&Hydrostatics>)> =
-        grades.iter().zip(rows.iter().map(Option::as_ref)).collect();
+    let table: Vec<(&Outcome, Option<&Hydrostatics>)> = grades.iter().zip(rows.iter().map(Option::as_ref)).collect();
     let mut files = vec![OutputFile::text(TABLE, grades_csv(&table))];
     for outcome in &grades {
         files.push(hull_file(job, &hull_name(outcome.fairness), outcome)?);

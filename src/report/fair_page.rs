@@ -288,7 +288,7 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
             let (below, [volumes, centres]) = volumes(&outputs.outcome);
             let change = share(volumes[0], volumes[1]);
             format!(
-                "Volume below z = {below:.3} m (no draught is stated) {} -> {} m3{change}. Its centre {}.",
+                "Volume below z = {below:.3} m {} -> {} m3{change}. Its centre {}.",
                 fixed(volumes[0], 1),
                 fixed(volumes[1], 1),
                 moved(centres[0], centres[1])
@@ -373,7 +373,11 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
 
 /// A change in parts of what was before, ` (+0.012 %)`; nothing where there was nothing.
 pub(super) fn share(before: f64, after: f64) -> String {
-    if before.abs() > 0.0 { format!(" ({})", fixed_sign(100.0 * (after / before - 1.0), 3, " %")) } else { String::new() }
+    if before.abs() > 0.0 {
+        format!(" ({})", fixed_sign(100.0 * (after / before - 1.0), 3, " %"))
+    } else {
+        String::new()
+    }
 }
 
 /// The height \[m\] of [`Hull::reference_height`](crate::hull::Hull::reference_height) of the surface through the table,
@@ -470,11 +474,7 @@ pub(super) fn dimensions(outcome: &Outcome) -> String {
 /// The dimensions that nobody stated.
 pub(super) fn not_stated(job: &FairJob) -> Vec<&'static str> {
     let stated = &job.table.stated;
-    let dimensions = [
-        ("Lpp", stated.length_between_perpendiculars),
-        ("B", stated.breadth),
-        ("D", stated.depth),
-    ];
+    let dimensions = [("Lpp", stated.length_between_perpendiculars), ("B", stated.breadth), ("D", stated.depth)];
     dimensions.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| *name).collect()
 }
 
@@ -486,17 +486,29 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
     } else {
         wrapped(&format!("Not stated, so assumed (see the notes): {}.", names.join(", ")), 2)
     };
-    if outcome.before.particulars().draught.is_none() {
-        text.push_str(&wrapped(&no_draught(), 2));
-    }
-    if let Some((_, held)) = outcome.held_below() {
-        text.push_str(&wrapped(&format!("Held: {held}."), 2));
-    }
+    text.push_str(&without_draught(outcome));
     if !outcome.before.counts_from_aft_perpendicular() {
-        let line = "x does not count from AP and no Lpp is stated: midship is not known, C_M is not held and LCB not related to it.";
+        let line = match outcome.before.particulars().draught {
+            Some(_) => {
+                "x does not count from AP and no Lpp is stated: midship is not known, C_M is not held and LCB not related to it."
+            }
+            None => {
+                "x does not count from AP and no Lpp is stated: midship is not known, and no centre is related to it."
+            }
+        };
         text.push_str(&wrapped(line, 2));
     }
     text
+}
+
+/// What to do where nobody stated a draught, and what is held in place of what is held at one; nothing where one is
+/// stated.
+pub(super) fn without_draught(outcome: &Outcome) -> String {
+    if outcome.before.particulars().draught.is_some() {
+        return String::new();
+    }
+    let held = outcome.held_below().map(|(_, held)| wrapped(&format!("Held: {held}."), 2));
+    wrapped(&no_draught(), 2) + &held.unwrap_or_default()
 }
 
 /// Inflections that a line keeps above its proved least from which the page names it, and how many lines it names.

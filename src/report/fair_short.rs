@@ -1,11 +1,12 @@
 //! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
 
 use super::fair::{FairJob, FairOutputs};
-use super::fair_page::{MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volumes};
+use super::fair_page::{
+    MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volumes, without_draught,
+};
 use super::page::{WIDTH, fixed, fixed_sign, value};
 use crate::exchange::status_word;
 use crate::fairing::outcome::{Change, Outcome};
-use crate::hull::NO_DRAUGHT;
 use crate::qp::Status;
 use crate::units::counted;
 
@@ -45,7 +46,7 @@ pub(super) fn least(outcome: &Outcome) -> String {
 }
 
 /// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. Eight
-/// lines follow; [`super::fair_page`] has the rest.
+/// lines follow, and up to three more where no draught is stated; [`super::fair_page`] has the rest.
 #[must_use]
 pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
@@ -55,7 +56,7 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
         headline(outcome),
         format!("{name}: {}; fairness {}; noise {noise} mm", status_word(outcome.status), outcome.fairness),
         dimensions(outcome).trim_end().to_owned(),
-        assumed(job, outcome),
+        (assumed(job, outcome) + "\n" + &without_draught(outcome)).trim_end().to_owned(),
         offsets(job, outcome),
         moves(job, outcome),
         suspects(job, outcome),
@@ -71,11 +72,12 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
         [] => "These dimensions are stated".to_owned(),
         names => format!("Not stated, so assumed: {}", names.join(", ")),
     };
-    let draught =
-        outcome.before.particulars().draught.map_or_else(|| format!("; {NO_DRAUGHT}"), |_| String::new());
-    let midship =
-        if outcome.before.counts_from_aft_perpendicular() || outcome.before.particulars().draught.is_none() { "" } else { "; midship is not known, C_M is not held" };
-    format!("{names}{draught}{midship}.")
+    let midship = match (outcome.before.counts_from_aft_perpendicular(), outcome.before.particulars().draught) {
+        (true, _) => "",
+        (false, None) => "; midship is not known",
+        (false, Some(_)) => "; midship is not known, C_M is not held",
+    };
+    format!("{names}{midship}.")
 }
 
 /// How many offsets stayed, and their tolerances.
@@ -134,7 +136,7 @@ fn held(outputs: &FairOutputs) -> String {
             let share = share(volumes[0], volumes[1]);
             let [a, b] = volumes.map(|volume| fixed(volume, 1));
             let centre = moved(centres[0], centres[1]);
-            format!("Volume below z = {below:.3} m (no draught is stated) {a} > {b} m3{share}, its centre {centre}")
+            format!("Volume below z = {below:.3} m {a} > {b} m3{share}, its centre {centre}")
         }
     };
     let targets = outcome.held.iter().filter(|held| !held.is_had()).map(|held| held.constraint.words());

@@ -126,8 +126,15 @@ pub fn generate_outputs(design: &Design, input: (&Path, &[u8]), figures: &[Figur
     ];
     let (source, dense) = (source_words(&manifest_entry(input.0, input.1)), OnceLock::new());
     let (source, dense) = (Some(source.as_str()), Some(&dense));
-    let inputs =
-        FigureInputs { hull: &hull, before: None, record: None, design: Some(&design_row), curves: &table, source, dense };
+    let inputs = FigureInputs {
+        hull: &hull,
+        before: None,
+        record: None,
+        design: Some(&design_row),
+        curves: &table,
+        source,
+        dense,
+    };
     files.extend(figure_files(&inputs, figures)?);
     files.sort_by(|a, b| a.name.cmp(&b.name));
     let mut outputs = Outputs { hull, summary, design_row, table, remarks, files };

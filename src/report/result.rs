@@ -294,12 +294,7 @@ fn spans(changes: &[Change]) -> bool {
 fn another_ship(before: &Hull, after: &Hull) -> Option<String> {
     let dimensions = |hull: &Hull| {
         let p = hull.particulars();
-        [
-            ("Lpp", Some(p.length_between_perpendiculars)),
-            ("B", Some(p.breadth)),
-            ("T", p.draught),
-            ("D", Some(p.depth)),
-        ]
+        [("Lpp", Some(p.length_between_perpendiculars)), ("B", Some(p.breadth)), ("T", p.draught), ("D", Some(p.depth))]
     };
     let apart = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
         (Some(found), Some(expected)) => (found - expected).abs() > 1e-6 * expected,

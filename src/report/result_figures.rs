@@ -106,11 +106,7 @@ fn words(figure: Figure) -> [&'static str; 3] {
 }
 
 /// What is drawn of a faired table, before the hull: what is doubted, what moved and where, the curves, what holding costs.
-fn fairing_jobs<'a>(
-    record: &'a FairRecord,
-    fairing: &'a Value,
-    combs: &'a FairingCombs,
-) -> Vec<Job<'a>> {
+fn fairing_jobs<'a>(record: &'a FairRecord, fairing: &'a Value, combs: &'a FairingCombs) -> Vec<Job<'a>> {
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let scaled = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: true };
     vec![
@@ -408,11 +404,7 @@ fn jobs<'a>(
     ];
     jobs.insert(
         0,
-        Job {
-            words: came,
-            draw: one(move |_| Ok(verdict_figure(result, [before, inputs.design]))),
-            scaled: false,
-        },
+        Job { words: came, draw: one(move |_| Ok(verdict_figure(result, [before, inputs.design]))), scaled: false },
     );
     let standard = |figure: Figure| Job {
         words: words(figure),

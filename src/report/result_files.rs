@@ -62,11 +62,9 @@ pub fn report_outputs(result: &JobResult, settings: &ReportSettings) -> Result<V
         source: Some(&source),
         dense: Some(&dense),
     };
-    let before = result
-        .fairing
-        .as_ref()
-        .zip(hull.particulars().draught)
-        .and_then(|((record, _), draught)| CurvesOfForm::new(&record.before, &[draught], &result.conventions).rows.pop());
+    let before = result.fairing.as_ref().zip(hull.particulars().draught).and_then(|((record, _), draught)| {
+        CurvesOfForm::new(&record.before, &[draught], &result.conventions).rows.pop()
+    });
     let figures = report_figures(result, &inputs, before.as_ref(), combs.as_ref(), settings)?;
     let internal = |error: PlotError| Failure::Internal(format!("report.pdf: {error}"));
     let pages: Vec<Page<'_>> = figures

@@ -233,7 +233,7 @@ fn surface(hull: Hull, clean: OffsetTable) -> Truth {
     let (low, high) = (clean.waterlines[0], clean.waterlines[clean.waterlines.len() - 1]);
     Truth {
         length: p.length_between_perpendiculars,
-        draught: p.draught,
+        draught: hull.reference_height(),
         volume: Constraint::Displacement(0.0).value(&hull),
         lcb: Constraint::CentreOfBuoyancy(0.0).value(&hull),
         clean,

@@ -20,7 +20,7 @@ fn barge() -> Solid {
         u.greville().iter().flat_map(|&s| v.greville().into_iter().map(move |t| [60.0 * s, 5.0, 4.0 * t])).collect();
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 4.0], [60.0, 4.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: 3.0, depth: 4.0 };
+        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: Some(3.0), depth: 4.0 };
     let hull = Hull::new("it's a barge", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
     Solid::new(&hull).unwrap()
 }

@@ -222,8 +222,7 @@ pub(super) fn particulars(
     let size = size(profiles);
     let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
     let length = last.x - first.x;
-    let (length, how) =
-        length_by_stations(table, length).map_or((length, BY_ENDS), |l| (l, BY_STATIONS));
+    let (length, how) = length_by_stations(table, length).map_or((length, BY_ENDS), |l| (l, BY_STATIONS));
     let (length, lowest) = (length, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
     let top = lowest + size.depth;
     let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {

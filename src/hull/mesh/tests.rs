@@ -17,7 +17,7 @@ fn parabolic(sheer: f64) -> Hull {
     let line = KnotVector::uniform(2, 1).unwrap();
     let deck = BsplineCurve::new(line, vec![[0.0, 6.0], [50.0, 6.0 - 2.0 * sheer], [100.0, 6.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 4.0, depth: 6.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(4.0), depth: 6.0 };
     Hull::new("parabolic", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 

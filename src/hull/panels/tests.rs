@@ -9,7 +9,7 @@ fn hull(u: KnotVector, v: KnotVector, place: impl Fn(f64, f64) -> [f64; 3]) -> R
     let surface = BsplineSurface::new(u, v, points)?;
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1)?, vec![[-1.0, 6.0], [101.0, 6.0]])?;
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 4.0, depth: 6.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(4.0), depth: 6.0 };
     Hull::new("test", particulars, surface, deck)
 }
 
@@ -26,7 +26,7 @@ fn parabolic() -> Hull {
     let surface = BsplineSurface::new(u, v, points).unwrap();
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[-1.0, 6.0], [101.0, 6.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 4.0, depth: 6.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(4.0), depth: 6.0 };
     Hull::new("parabolic", particulars, surface, deck).unwrap()
 }
 
@@ -107,7 +107,7 @@ fn a_rockered_keel_leaves_the_water() {
     let surface = BsplineSurface::new(u, v, points).unwrap();
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[-1.0, 6.0], [101.0, 6.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 2.0, depth: 6.0 };
+        PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(2.0), depth: 6.0 };
     let hull = Hull::new("rocker", particulars, surface, deck).unwrap();
     let exact = crate::hull::Functional::Volume.value(&hull, 2.0);
     let mut last = f64::NAN;

@@ -15,7 +15,7 @@ fn hull(transom: bool, bow: bool, sheer: f64) -> Hull {
     let line = KnotVector::uniform(2, 1).unwrap();
     let deck = BsplineCurve::new(line, vec![[0.0, 4.0], [30.0, 4.0 - 2.0 * sheer], [60.0, 4.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: 3.0, depth: 4.0 };
+        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: Some(3.0), depth: 4.0 };
     Hull::new("barge", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap()
 }
 
@@ -129,7 +129,7 @@ fn a_surface_that_crosses_the_centreplane_gives_faces_that_do_not() {
     }
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 4.0], [60.0, 4.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: 3.0, depth: 4.0 };
+        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: Some(3.0), depth: 4.0 };
     let hull = Hull::new("dip", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
     let solid = Solid::new(&hull).unwrap();
     assert!(solid.is_closed());
@@ -156,7 +156,7 @@ fn areas_are_those_of_closed_forms() {
     }
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, h], [long, h]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: long, breadth: 2.0 * b, draught: 3.0, depth: h };
+        PrincipalParticulars { length_between_perpendiculars: long, breadth: 2.0 * b, draught: Some(3.0), depth: h };
     let parabola = Hull::new("parabola", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
     let arc = 0.5 * (long * long + 16.0 * b * b).sqrt() + long * long / (8.0 * b) * (4.0 * b / long).asinh();
     let exact = 2.0 * h * arc + 2.0 * (4.0 / 3.0) * long * b;

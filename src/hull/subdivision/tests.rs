@@ -80,7 +80,7 @@ fn the_net_of_a_hull_is_closed_and_has_its_volume() {
     }
     let deck = BsplineCurve::new(KnotVector::uniform(1, 1).unwrap(), vec![[0.0, 4.0], [60.0, 4.0]]).unwrap();
     let particulars =
-        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: 3.0, depth: 4.0 };
+        PrincipalParticulars { length_between_perpendiculars: 60.0, breadth: 10.0, draught: Some(3.0), depth: 4.0 };
     let hull = Hull::new("half", particulars, BsplineSurface::new(u, v, points).unwrap(), deck).unwrap();
     let (net, deviation) = SubdivisionNet::of_hull(&hull, 1e-3);
     assert!(deviation <= 1e-3, "{deviation}");

@@ -4,7 +4,7 @@ use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use proptest::prelude::*;
 
 fn particulars() -> PrincipalParticulars {
-    PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: 4.0, depth: 6.0 }
+    PrincipalParticulars { length_between_perpendiculars: 100.0, breadth: 8.0, draught: Some(4.0), depth: 6.0 }
 }
 
 fn rows(mesh: &TriangleMesh, draughts: &[f64]) -> Vec<Hydrostatics> {
