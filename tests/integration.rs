@@ -11,6 +11,7 @@ mod charts;
 mod cli;
 mod codes;
 mod configs;
+mod draught;
 mod errors;
 mod export;
 mod fair;

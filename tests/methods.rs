@@ -470,7 +470,8 @@ fn fit_writes_its_files_and_a_page() {
     let folder = folder("fit");
     let path = folder.join("nubs");
     let target = path.to_str().unwrap();
-    let output = program(&["fit", &method_file("seed000-least-squares.toml"), "-o", target]);
+    let method = method_file("seed000-least-squares.toml");
+    let output = program(&["fit", &method, "--draught", "1.9", "-o", target]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let page = stdout(&output);
     println!("{page}");
@@ -518,7 +519,7 @@ fn fit_writes_its_files_and_a_page() {
     assert!((a - b).abs() < 1e-9 * b, "{a} {b}");
     // The same bytes again, and nothing overwritten without being told.
     let again = folder.join("again");
-    let output = program(&["fit", &method_file("seed000-least-squares.toml"), "-o", again.to_str().unwrap(), "-q"]);
+    let output = program(&["fit", &method, "--draught", "1.9", "-o", again.to_str().unwrap(), "-q"]);
     assert!(output.status.success() && output.stdout.is_empty());
     let read = |name: &str| read_text(again.join(name));
     assert_eq!(read("residuals.csv"), residuals);

@@ -56,7 +56,8 @@ fn faired() -> &'static (PathBuf, Vec<OutputFile>) {
     static FAIRED: OnceLock<(PathBuf, Vec<OutputFile>)> = OnceLock::new();
     FAIRED.get_or_init(|| {
         let path = lasting_folder("report-faired");
-        let job = read_fair(&wrong_table(&folder("table")), &[]).unwrap();
+        let draught = ("--draught", "dimensions.T", "4.375".to_owned());
+        let job = read_fair(&wrong_table(&folder("table")), &[draught]).unwrap();
         write(&path, &fair_outputs(&job, false).unwrap().files);
         let files = report_outputs(&read_result(&path).unwrap(), &SETTINGS).unwrap();
         (path, files)

@@ -486,6 +486,31 @@ mod tests {
         Hull::new("wedge", particulars, BsplineSurface::new(line(), line(), points).unwrap(), deck).unwrap()
     }
 
+    /// A box of 10 m with a deck of these heights over x, and a draught where it is stated.
+    fn decked(draught: Option<f64>, deck: &[[f64; 2]]) -> Hull {
+        let particulars =
+            PrincipalParticulars { length_between_perpendiculars: 10.0, breadth: 4.0, draught, depth: 2.0 };
+        let (u, v) = (KnotVector::uniform(1, 1).unwrap(), KnotVector::uniform(1, 1).unwrap());
+        let points = [[0.0, 2.0, 0.0], [0.0, 2.0, 3.0], [10.0, 2.0, 0.0], [10.0, 2.0, 3.0]].to_vec();
+        let breaks: Vec<f64> = deck.iter().map(|point| point[0]).collect();
+        let knots = KnotVector::from_breakpoints(1, &breaks, &vec![1; breaks.len() - 2]).unwrap();
+        let surface = BsplineSurface::new(u, v, points).unwrap();
+        Hull::new("box", particulars, surface, BsplineCurve::new(knots, deck.to_vec()).unwrap()).unwrap()
+    }
+
+    /// Stations at the ends may be lower than all waterlines: they do not count.
+    #[test]
+    fn without_a_draught_the_height_is_that_of_the_lowest_station_between_the_ends() {
+        let sheer = [[0.0, 1.0], [2.0, 2.5], [5.0, 2.2], [8.0, 2.8], [10.0, 0.5]];
+        assert!((decked(None, &sheer).reference_height() - 2.2).abs() < 1e-12);
+        assert!((decked(Some(1.5), &sheer).reference_height() - 1.5).abs() < 1e-12);
+        assert!((decked(None, &[[0.0, 2.4], [10.0, 2.6]]).reference_height() - 2.4).abs() < 1e-12);
+        let stated = decked(None, &sheer).with_draught(1.7).unwrap();
+        assert_eq!((stated.particulars().draught, stated.reference_height().to_bits()), (Some(1.7), 1.7f64.to_bits()));
+        assert!(matches!(decked(None, &sheer).with_draught(2.5), Err(HullError::Draught { .. })));
+        assert!(matches!(decked(None, &sheer).with_draught(0.0), Err(HullError::Dimension { name: "T", .. })));
+    }
+
     #[test]
     fn half_breadths_of_a_wedge() {
         let hull = wedge();

@@ -141,7 +141,9 @@ pub fn convert_file(
             let mut table = table;
             table.stated.draught = table.stated.draught.or(settings.draught);
             if format == ExportFormat::Delftship && !table.stated.states_draught() {
-                return Err(Failure::Usage("delftship needs a draught, and none is stated: give --draught".to_owned()));
+                return Err(Failure::Usage(
+                    "--format delftship needs a draught, and none is stated: give --draught".to_owned(),
+                ));
             }
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }

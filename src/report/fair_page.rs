@@ -14,6 +14,7 @@ use crate::fairing::proposals::Proposal;
 use crate::fairing::record::accuracy;
 use crate::fairing::relinearise::ON_TARGET;
 use crate::fairing::smoothing::end_of_search;
+use crate::hydrostatics::Quantity;
 use crate::units::Notation;
 
 /// Moves and suspects that the page lists.
@@ -289,8 +290,8 @@ fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
             let change = share(volumes[0], volumes[1]);
             format!(
                 "Volume below z = {below:.3} m {} -> {} m3{change}. Its centre {}.",
-                fixed(volumes[0], 1),
-                fixed(volumes[1], 1),
+                volume_of(volumes[0]),
+                volume_of(volumes[1]),
                 moved(centres[0], centres[1])
             )
         }
@@ -378,6 +379,11 @@ pub(super) fn share(before: f64, after: f64) -> String {
     } else {
         String::new()
     }
+}
+
+/// A volume \[m^3\] in as many decimals as a displacement volume has.
+pub(super) fn volume_of(volume: f64) -> String {
+    fixed(volume, Quantity::of("DISPVOL").map_or(1, |quantity| quantity.decimals_of(volume)))
 }
 
 /// The height \[m\] of [`Hull::reference_height`](crate::hull::Hull::reference_height) of the surface through the table,
@@ -597,7 +603,7 @@ pub fn fair_line(outputs: &FairOutputs) -> String {
         }
         None => {
             let (below, [volumes, centres]) = volumes(outcome);
-            let (volume, centre) = (fixed(volumes[1], 1), fixed(centres[1], 3));
+            let (volume, centre) = (volume_of(volumes[1]), fixed(centres[1], 3));
             format!("volume below z = {below:.3} m {volume} m3, its centre {centre} m")
         }
     };

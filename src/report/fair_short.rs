@@ -2,10 +2,12 @@
 
 use super::fair::{FairJob, FairOutputs};
 use super::fair_page::{
-    MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volumes, without_draught,
+    MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volume_of, volumes,
+    without_draught,
 };
-use super::page::{WIDTH, fixed, fixed_sign, value};
+use super::page::{WIDTH, fixed_sign, value};
 use crate::exchange::status_word;
+use crate::fairing::constraint::Constraint;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::qp::Status;
 use crate::units::counted;
@@ -24,8 +26,15 @@ pub(super) fn headline(outcome: &Outcome) -> String {
         _ => "Compromise",
     };
     let moves = millimetres(outcome.moves().0);
+    // Volume and centre below one height are one item.
+    let below = outcome.held_below().map(|(z, _)| z);
+    let words = |constraint: &Constraint| match (constraint, below) {
+        (Constraint::Volume { .. }, Some(_)) => "volume".to_owned(),
+        (Constraint::CentreOfVolume { .. }, Some(z)) => format!("centre of volume below z = {z:.3} m"),
+        (other, _) => other.words(),
+    };
     let kept: Vec<String> =
-        outcome.held.iter().filter(|held| held.is_had()).map(|held| held.constraint.words()).collect();
+        outcome.held.iter().filter(|held| held.is_had()).map(|held| words(&held.constraint)).collect();
     let kept = match kept.as_slice() {
         [] => String::new(),
         [one] => format!(", {one} kept"),
@@ -134,7 +143,7 @@ fn held(outputs: &FairOutputs) -> String {
         None => {
             let (below, [volumes, centres]) = volumes(outcome);
             let share = share(volumes[0], volumes[1]);
-            let [a, b] = volumes.map(|volume| fixed(volume, 1));
+            let [a, b] = volumes.map(volume_of);
             let centre = moved(centres[0], centres[1]);
             format!("Volume below z = {below:.3} m {a} > {b} m3{share}, its centre {centre}")
         }

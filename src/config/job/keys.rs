@@ -33,7 +33,13 @@ pub const JOB_KEYS: &[Key] = &[
     ),
     key("dimensions", "Lpp", Kind::Length, &[], "L_PP, over what the table states."),
     key("dimensions", "B", Kind::Length, &[], "B moulded, over what the table states."),
-    key("dimensions", "T", Kind::Length, &[], "Design draught, over what the table states: what is held holds there."),
+    key(
+        "dimensions",
+        "T",
+        Kind::Length,
+        &[],
+        "Design draught, over what the table states: what is held holds there. Without one volume and centre of volume are held, and targets are refused.",
+    ),
     key("dimensions", "D", Kind::Length, &[], "Depth to the deck at side, over what the table states."),
     key("water", "density", Kind::Density, &[], "Density of the water. Default: 1.025 t/m3."),
     key(
@@ -69,7 +75,11 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "Lines that stay where the surface through the table has them: \"stem\", \"stern\", \"keel\", \"deck\", \"station 5\", \"waterline 6.5\", \"line NAME\" for a knuckle or tangent line of the table.",
     ),
-    hold("displacement", &Kind::Displacement, "Displacement at the design draught. Default: \"table\"."),
+    hold(
+        "displacement",
+        &Kind::Displacement,
+        "Displacement at the design draught. Default: \"table\", which is the volume below the highest waterline of all stations where no draught is stated.",
+    ),
     hold("Cb", &Kind::Number, "Block coefficient, instead of the displacement."),
     hold("LCB", &Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: \"table\"."),
     hold("KB", &Kind::Length, "Height of the centre of buoyancy above the base line. Default: \"free\"."),

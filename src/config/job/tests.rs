@@ -22,6 +22,7 @@ fn table() -> OffsetTable {
             station("9 1/2", 95.0, [Some(1.0), Some(2.0), Some(3.0)]),
             station("10", 100.0, [None, Some(2.0), Some(3.0)]),
         ],
+        stated: StatedParticulars { draught: Some(3.0), ..StatedParticulars::default() },
         ..OffsetTable::default()
     }
 }
@@ -300,6 +301,40 @@ fn metacentre_and_wetted_surface_are_read() {
     assert_eq!(held(file.clone().with(two)), both);
     let one = option("--displacement", "hold.displacement", "4000 m3");
     assert_eq!(held(file.with(one)), both[..1]);
+}
+
+/// Without a draught only the table's own displacement and LCB are held, as volume and centre of volume.
+#[test]
+fn targets_at_a_draught_are_refused_where_none_is_stated() {
+    let table = OffsetTable { stated: StatedParticulars::default(), ..table() };
+    let text = "[hold]\ndisplacement = \"4000 m3\"\nCb = 0.6\nLCB = \"+1 %\"\nCm = \"table\"\nKB = 2\nLCF = \"41 m AP\"\n\
+                Cwp = 0.7\nGM = 1\nKG = 5\nwetted_surface = 900\nsection_areas = [[50, 12.5]]";
+    let file = read_job("j.toml", text).unwrap();
+    let found: Vec<String> = file.for_table(&table, 100.0).unwrap_err().iter().map(ToString::to_string).collect();
+    assert_eq!(found.len(), 10, "{found:#?}");
+    let help = "Give --draught (T under [dimensions]), or leave it out.";
+    for (found, what) in found.iter().zip([
+        "j.toml:2:16 hold.displacement: displacement",
+        "j.toml:3:6 hold.Cb: C_B",
+        "j.toml:4:7 hold.LCB: LCB",
+        "j.toml:6:6 hold.KB: KB",
+        "j.toml:7:7 hold.LCF: LCF",
+        "j.toml:8:7 hold.Cwp: C_WP",
+        "j.toml:5:6 hold.Cm: C_M",
+        "j.toml:9:6 hold.GM: GM_T",
+        "j.toml:11:18 hold.wetted_surface: wetted surface",
+        "j.toml:12:17 hold.section_areas: a section area",
+    ]) {
+        assert_eq!(*found, format!("E184 {what} needs a draught, and none is stated. {help}"));
+    }
+    assert!(file.for_table(&super::tests::table(), 100.0).is_ok());
+    for held in
+        ["hold.displacement = \"table\"\nhold.LCB = \"table\"", "hold.displacement = \"free\"\nhold.Cm = \"free\""]
+    {
+        assert!(read_job("j.toml", held).unwrap().for_table(&table, 100.0).is_ok(), "{held}");
+    }
+    let stated = read_job("j.toml", &format!("dimensions.T = 3\n{text}")).unwrap();
+    assert!(stated.for_table(&table, 100.0).is_ok());
 }
 
 #[test]

@@ -1,0 +1,231 @@
+//! Where nobody states a draught none is invented: pages, files and drawings do without, and what needs one is refused.
+
+use std::fs;
+use std::path::Path;
+
+use loftsman::exchange::{read_hull, write_hull};
+use loftsman::fairing::constraint::Constraint;
+use loftsman::fairing::job::{Holding, Job, JobError};
+use loftsman::hull::{FitMethod, Hull};
+use loftsman::hydrostatics::Conventions;
+use loftsman::report::read_source;
+use serde_json::Value;
+
+use crate::support::{Folder, carried, folder, json, names_in, program, read_text, stderr, stdout, table_of};
+
+const WIGLEY: &str = "tests/data/wigley/offsets.csv";
+const YACHT: &str = "tests/data/pdstrip_yacht/offsets.csv";
+
+const NONE: &str = "No draught is stated: give --draught (T under [dimensions]) for displacement and coefficients.";
+
+/// What a command prints, and its exit code.
+fn answer(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = program(arguments);
+    (output.status.code(), stdout(&output), stderr(&output))
+}
+
+/// A page in one line.
+fn in_one_line(page: &str) -> String {
+    page.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A fit in the folder `name` of a test, with these options; its page.
+fn fit(folder: &Folder, name: &str, options: &[&str]) -> String {
+    let (table, out) = (carried(WIGLEY).display().to_string(), folder.join(name).display().to_string());
+    let (code, page, said) = answer(&[&["fit", &table, "-o", &out, "--force"], options].concat());
+    assert_eq!(code, Some(0), "{said}");
+    page
+}
+
+#[test]
+fn a_fit_without_a_draught_has_no_displacement() {
+    let folder = folder("fit");
+    let page = fit(&folder, "none", &[]);
+    let words = in_one_line(&page);
+    assert!(page.lines().all(|line| line.chars().count() <= 80) && words.matches(NONE).count() == 1, "{page}");
+    assert!(page.contains("Lpp 100.000 m   B 10.000 m   D 6.250 m\n"), "{page}");
+    assert!(words.contains("below z = 6.250 m."), "{page}");
+    for word in ["DISP", "CWP", "KMT", " T ", "assumed", "no draught is stated: T"] {
+        assert!(!page.contains(word), "{word}: {page}");
+    }
+    let names = names_in(folder.join("none"));
+    assert!(!names.contains(&"sectional-area.png".to_owned()) && names.contains(&"lines.png".to_owned()), "{names:?}");
+    let summary = json(folder.read("none/fit.json"));
+    assert!(summary["design"].is_null() && summary["particulars"].get("T").is_none(), "{}", summary["particulars"]);
+    let hull = json(folder.read("none/hull.json"));
+    assert!(hull["particulars"].get("T").is_none() && hull["conventions"].get("design_draught_assumed").is_none());
+    assert_eq!(read_source(&folder.join("none")).unwrap().hull.particulars().draught, None);
+    // The same with one.
+    let page = fit(&folder, "stated", &["--draught", "5", "--no-figures"]);
+    assert!(page.contains("T 5.000 m") && page.contains("DISPVOL") && !page.contains("No draught"), "{page}");
+    assert!((json(folder.read("stated/hull.json"))["particulars"]["T"].as_f64().unwrap() - 5.0).abs() < 1e-15);
+}
+
+/// L_PP is the length of the hull where no station stands at x = 0 and no draught says which waterline counts.
+#[test]
+fn without_a_draught_the_length_is_that_of_the_hull() {
+    let mut table = table_of(carried(WIGLEY));
+    table.stated.length_between_perpendiculars = None;
+    table.stations.iter_mut().for_each(|station| station.station.x += 7.0);
+    let fitted = Hull::fit(&table, &FitMethod::default()).unwrap();
+    let p = fitted.hull.particulars();
+    assert!(p.draught.is_none() && (p.length_between_perpendiculars - 100.0).abs() < 1e-6, "{p:?}");
+    let told = fitted.notes.iter().any(|note| note.contains("L_PP = 100.000 m, between the ends of the hull"));
+    assert!(told && !fitted.notes.iter().any(|note| note.contains("draught")), "{:?}", fitted.notes);
+}
+
+#[test]
+fn hydrostatics_need_no_draught() {
+    let folder = folder("hydro");
+    fit(&folder, "hull", &["--no-figures"]);
+    let hull = folder.join("hull").display().to_string();
+    for source in [hull.clone(), carried(WIGLEY).display().to_string()] {
+        let (code, page, said) = answer(&["hydro", &source]);
+        assert!(code == Some(0) && page.contains("No design draught is stated (--draught).\n"), "{said}");
+        let rows = page.lines().skip_while(|line| !line.contains("DISPVOL")).skip(2);
+        let draughts: Vec<f64> =
+            rows.take_while(|line| !line.is_empty()).map(|line| line[..10].trim().parse().unwrap()).collect();
+        assert!((20..=50).contains(&draughts.len()), "{page}");
+        assert!((draughts[0] - 1.25).abs() < 0.3 && (draughts[draughts.len() - 1] - 6.25).abs() < 1e-9, "{draughts:?}");
+        let (code, page, said) = answer(&["hydro", &source, "--draught", "4.1", "--draughts", "4"]);
+        assert!(code == Some(0) && !page.contains("No design draught"), "{said}");
+    }
+    let (code, _, said) = answer(&["hydro", &hull, "--draught", "70"]);
+    assert!(code == Some(2) && said.contains("--draught"), "{said}");
+}
+
+#[test]
+fn what_goes_to_a_waterline_is_not_exported_without_one() {
+    let folder = folder("export");
+    fit(&folder, "hull", &["--no-figures"]);
+    let (hull, out) = (folder.join("hull").display().to_string(), folder.join("out").display().to_string());
+    for format in ["gdf", "nemoh", "pnl", "michlet", "pdstrip", "delftship"] {
+        let (code, _, said) = answer(&["export", &hull, "-f", format, "-o", &out]);
+        let expected = format!("--format {format} needs a draught, and none is stated: give --draught");
+        assert!(code == Some(2) && said.contains(&expected), "{said}");
+        let (code, _, said) = answer(&["export", &hull, "-f", format, "-o", &out, "--draught", "4", "--panel", "9"]);
+        assert_eq!(code, Some(0), "{said}");
+    }
+    let (code, _, said) = answer(&["export", &hull, "-f", "gdf,pnl,stl", "-o", &out, "--force"]);
+    assert!(code == Some(2) && said.contains("--format gdf,pnl need a draught"), "{said}");
+    let (code, _, said) = answer(&["export", &hull, "-f", "obj", "--datum", "waterline", "-o", &out]);
+    assert!(code == Some(2) && said.contains("--datum waterline needs a draught"), "{said}");
+    let (code, _, said) = answer(&["export", &hull, "-f", "stl,csv,ghs", "-o", &out]);
+    assert_eq!(code, Some(0), "{said}");
+    let (table, panels) = (carried(WIGLEY).display().to_string(), folder.join("a.gdf").display().to_string());
+    let (code, _, said) = answer(&["convert", &table, &panels]);
+    assert!(code == Some(2) && said.contains("give --draught"), "{said}");
+    assert_eq!(answer(&["convert", &table, &panels, "--draught", "4"]).0, Some(0));
+    assert_eq!(answer(&["convert", &table, "-f", "delftship"]).0, Some(2));
+}
+
+/// What is at a draught is refused: options of the command with 2, keys of the job with 3, all at once.
+#[test]
+fn targets_at_a_draught_are_refused_without_one() {
+    let folder = folder("targets");
+    let (table, out) = (carried(YACHT).display().to_string(), folder.join("out").display().to_string());
+    for option in [
+        ["--displacement", "13 m3"],
+        ["--cb", "0.4"],
+        ["--lcb", "1 m AP"],
+        ["--cm", "0.7"],
+        ["--kb", "0.4"],
+        ["--lcf", "1 m AP"],
+        ["--cwp", "0.7"],
+        ["--waterplane-area", "34"],
+        ["--km", "2"],
+        ["--wetted-surface", "40"],
+    ] {
+        let (code, _, said) = answer(&[&["fair", &table, "-o", &out], &option[..]].concat());
+        let words = said.contains(&format!("E184 {} hold.", option[0])) && said.contains("Give --draught");
+        assert!(code == Some(2) && words, "{code:?} {said}");
+    }
+    let (code, _, said) = answer(&["fair", &table, "-o", &out, "--gm", "1", "--kg", "1", "--lcb", "1 m AP"]);
+    assert!(code == Some(2) && said.matches("E184").count() == 2, "{said}");
+    let text = format!("[table]\nfile = {table:?}\n[hold]\nCm = \"table\"\nsection_areas = \"table\"\n");
+    let job = folder.write("job.toml", text);
+    let (code, _, said) = answer(&["fair", &job, "-o", &out, "--cb", "0.4"]);
+    assert!(code == Some(3) && said.matches("E184").count() == 3, "{said}");
+    assert!(said.contains("job.toml:4:6 hold.Cm: C_M needs a draught, and none is stated."), "{said}");
+    assert!(!Path::new(&out).exists());
+    // The library refuses them as well.
+    let given = Holding::Given(vec![Constraint::WettedSurface(40.0), Constraint::CentreOfBuoyancy(1.0)]);
+    let refused = Job { holding: given, ..Job::default() }.run(&table_of(carried(YACHT))).unwrap_err();
+    assert!(matches!(&refused, JobError::NoDraught(words) if words == "wetted surface, LCB"), "{refused}");
+}
+
+/// The volume below the highest waterline of all stations and its centre take the place of displacement and LCB.
+#[test]
+fn without_a_draught_volume_and_centre_of_volume_are_held() {
+    let folder = folder("held");
+    let table = carried("tests/data/series60_cb060/offsets.csv").display().to_string();
+    let out = folder.join("out").display().to_string();
+    let (code, page, said) = answer(&["fair", &table, "-o", &out, "--no-figures"]);
+    assert_eq!(code, Some(0), "{said}");
+    let held = "volume and centre of volume below z = 9.754 m";
+    let words = in_one_line(&page);
+    assert!(page.lines().next().is_some_and(|line| line.ends_with(&format!("{held} kept."))), "{page}");
+    assert!(words.contains(&format!("Held: {held} (no draught is stated).")) && words.matches(NONE).count() == 1);
+    assert!(page.contains("Volume below z = 9.754 m 12587") && !page.contains("Displacement"), "{page}");
+    assert!(page.lines().skip(1).all(|line| line.starts_with("Written") || line.chars().count() <= 80), "{page}");
+    let certificate = json(folder.read("out/fairing.json"));
+    assert_eq!(certificate["held_below"]["words"], format!("{held} (no draught is stated)"));
+    assert!((certificate["held_below"]["z"].as_f64().unwrap() - 9.7536).abs() < 1e-9);
+    let constraints = certificate["constraints"].as_array().unwrap();
+    let kinds: Vec<&Value> = constraints.iter().map(|held| &held["kind"]).collect();
+    assert_eq!(kinds, ["volume", "centre_of_volume"]);
+    for held in constraints {
+        let [low, high, after] = ["low", "high", "after"].map(|key| held[key].as_f64().unwrap());
+        assert!(low < high && (low - 1e-9..=high + 1e-9).contains(&after), "{held}");
+    }
+    let summary = json(folder.read("out/summary.json"));
+    assert!(summary["design"].is_null() && summary["before"].is_null());
+    assert!(summary["targets"].as_array().unwrap().iter().all(|target| target["origin"] == "table"));
+    assert!(fs::metadata(folder.join("out/offsets.toml")).is_err());
+    // With a draught the certificate says nothing of another height.
+    let (code, _, said) = answer(&["fair", &table, "-o", &out, "--no-figures", "--force", "--draught", "6.5"]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(json(folder.read("out/fairing.json"))["held_below"].is_null());
+}
+
+/// A report of a hull without a draught has every figure but those at one.
+#[test]
+fn a_report_does_without_a_draught() {
+    let folder = folder("report");
+    let (table, out) = (carried(YACHT).display().to_string(), folder.join("out").display().to_string());
+    let (code, page, said) = answer(&["fair", &table, "-o", &out, "--verbose"]);
+    assert_eq!(code, Some(0), "{said}");
+    let words = in_one_line(&page);
+    assert!(words.contains("Volume below z = 0.965 m 24.82 -> 24.82 m3") && words.matches(NONE).count() == 1, "{page}");
+    assert!(words.contains("centre of the volume below z = 0.965 m: 0.8783 -> 0.8783 m"), "{page}");
+    let (code, _, said) = answer(&["report", &out, "--dpi", "24"]);
+    assert_eq!(code, Some(0), "{said}");
+    let names = names_in(folder.join("out/report"));
+    for name in ["sectional-area.svg", "design-condition.svg"] {
+        assert!(!names.contains(&name.to_owned()), "{names:?}");
+    }
+    for name in ["lines.svg", "bonjean.svg", "hydrostatics.svg", "diagram-sheet.svg", "fairing-arrows-long.svg"] {
+        let svg = folder.read(&format!("out/report/{name}"));
+        assert!(!svg.contains("DWL") && !svg.contains("NaN"), "{name}");
+    }
+    let page = folder.read("out/report/report.html");
+    assert!(page.contains("No draught is stated: give --draught") && !page.contains("id=\"condition\""));
+    assert!(page.contains("Held: volume and centre of volume below z = 0.965 m (no draught is stated)."));
+    assert!(!page.contains("draught is assumed"));
+}
+
+/// Older programs wrote a draught that nobody had stated, with a mark.
+#[test]
+fn a_marked_draught_of_an_older_file_is_none() {
+    let folder = folder("older");
+    fit(&folder, "hull", &["--no-figures", "--draught", "4.375"]);
+    let text = folder.read("hull/hull.json");
+    assert_eq!(read_hull(&text).unwrap().hull.particulars().draught, Some(4.375));
+    let marked = text.replace("\"conventions\": {", "\"conventions\": {\"design_draught_assumed\":true,");
+    assert_ne!(marked, text);
+    let read = read_hull(&marked).unwrap();
+    assert_eq!(read.hull.particulars().draught, None);
+    let again = write_hull(&read.hull, &Conventions::default()).unwrap();
+    assert_eq!(read_hull(&again).unwrap().hull, read.hull);
+    assert!(!again.contains("\"T\""), "{}", &read_text(folder.join("hull/hull.json"))[..200]);
+}
