@@ -323,7 +323,7 @@ fn targets_at_a_draught_are_refused_where_none_is_stated() {
         "j.toml:5:6 hold.Cm: C_M",
         "j.toml:9:6 hold.GM: GM_T",
         "j.toml:11:18 hold.wetted_surface: wetted surface",
-        "j.toml:12:17 hold.section_areas: a section area",
+        "j.toml:12:18 hold.section_areas: a section area",
     ]) {
         assert_eq!(*found, format!("E184 {what} needs a draught, and none is stated. {help}"));
     }
