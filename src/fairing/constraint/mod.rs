@@ -59,14 +59,15 @@ pub enum Constraint {
     },
     /// Wetted surface \[m^2\] below the design draught. Not linear.
     WettedSurface(f64),
-    /// Volume \[m^3\] below a height, where no draught is stated.
+    /// Volume 2 int int y dz dx \[m^3\] below a height, where no draught is stated.
     Volume {
         /// Target \[m^3\].
         volume: f64,
         /// The height above the base line \[m\].
         below: f64,
     },
-    /// Longitudinal centre of the volume below a height, where no draught is stated \[m\] forward of x = 0.
+    /// Longitudinal centre of the volume below a height, where no draught is stated: 2 int int x y dz dx over that volume
+    /// \[m\] forward of x = 0.
     CentreOfVolume {
         /// Target \[m\].
         x: f64,
