@@ -9,6 +9,10 @@ use super::scaled::Scaled;
 /// precision of the Newton systems is reached. So many iterations that do not halve them show it.
 const ENOUGH: f64 = 100.0;
 const STANDSTILL: usize = 8;
+/// Iterations without one that halves the largest of residuals and complementarity, after which it stalls, where that is
+/// above [`FAR_OFF`].
+const HALVED: usize = 40;
+const FAR_OFF: f64 = 1e-4;
 /// Part of the way to the boundary that a step may go.
 const FRACTION: f64 = 0.995;
 /// Iterations beyond the tolerance, as long as each divides the duality gap by the factor.
@@ -131,6 +135,8 @@ pub(super) fn iterate(
     let (mut short, mut slow, mut least) = (0, 0, f64::INFINITY);
     // The best iterate within reach of the tolerance, and iterations since.
     let mut near: Option<(f64, Iterate, usize)> = None;
+    // What they were when last halved, and iterations since.
+    let mut halved = (f64::INFINITY, 0);
     for count in 0..most {
         let mean = residuals.complementarity / sides.max(1) as f64;
         let size = residuals.objective.abs().max(scaled.objective_scale);
@@ -166,6 +172,10 @@ pub(super) fn iterate(
             return (count, End::Stalled);
         }
         let off = residuals.primal_size.max(residuals.dual_size).max(relative);
+        halved = if 2.0 * off < halved.0 { (off, 0) } else { (halved.0, halved.1 + 1) };
+        if halved.1 > HALVED && off > FAR_OFF {
+            return (count, End::Stalled);
+        }
         near = match near.take() {
             Some((best, at, since)) if 2.0 * off > best => Some((best, at, since + 1)),
             _ if off <= ENOUGH * tolerance => Some((off, point.clone(), 0)),

@@ -28,8 +28,8 @@
 //! An iteration ([`interior`]): the predictor aims at tau = 0 and shows how far it may go; mu falls by the cube of what
 //! it leaves (Mehrotra 1992), its second-order term ds dz corrects tau, and further correctors pull stray products back
 //! towards mu as long as they lengthen the step (Gondzio 1996). P keeps primal and dual steps equal; a linear program
-//! has two. Beyond the tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit
-//! ([`start`]); a later solve of a [`Solver`] of which limits alone have changed starts from the rows that bound the
+//! has two. Beyond the tolerance it goes on while the duality gap still falls. The start is a soft least-squares fit, with
+//! slacks and multipliers near the solution, and where that stalls far inside ([`start`]). A later solve of a [`Solver`] of which limits alone have changed starts from the rows that bound the
 //! last solution ([`active`]), others from the iterate their predecessor had before it neared the boundary. Where the
 //! iteration stalls two auxiliary programs look for a proof that there is no solution ([`phase`]).
 
@@ -162,8 +162,11 @@ impl Solver {
             iterations = count;
             outcome = (end == End::Optimal).then_some((point, end));
         }
-        if outcome.is_none() {
-            let Some(mut point) = start::cold(&self.scaled, newton) else { return failed };
+        for from in start::STARTS {
+            if outcome.as_ref().is_some_and(|(_, end)| *end == End::Optimal) {
+                break;
+            }
+            let Some(mut point) = start::cold(&self.scaled, newton, from) else { break };
             let (count, end) =
                 interior::iterate(&self.scaled, newton, &mut point, &self.settings, (&mut self.kept, &mut progress));
             iterations += count;
@@ -225,5 +228,64 @@ impl Solver {
                 solution.x = answer.x;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sparse::SparseRows;
+    use super::*;
+
+    /// The smoothest of n values, by the squares of their second differences, within `band` of others.
+    fn smoothest(n: usize, band: f64) -> Problem {
+        let mut entries = Vec::new();
+        for k in 1..n - 1 {
+            let difference = [(k - 1, 1.0), (k, -2.0), (k + 1, 1.0)];
+            entries.extend(difference.iter().flat_map(|&(i, a)| difference.map(|(j, b)| (i, j, a * b))));
+        }
+        let wanted: Vec<f64> =
+            (0..n).map(|k| (0.3 * k as f64).sin() + 0.05 * ((k * 7919 % 13) as f64 / 6.0 - 1.0)).collect();
+        let mut rows = SparseRows::new(n);
+        (0..n).for_each(|k| rows.push([(k, 1.0)]));
+        Problem {
+            quadratic: SparseRows::from_entries(n, n, &entries),
+            linear: vec![0.0; n],
+            rows,
+            lower: wanted.iter().map(|y| y - band).collect(),
+            upper: wanted.iter().map(|y| y + band).collect(),
+        }
+    }
+
+    fn from(problem: &Problem, from: start::Start) -> (Vec<f64>, usize, End) {
+        let scaled = Scaled::new(problem);
+        let mut newton = Newton::new(&scaled);
+        let mut point = start::cold(&scaled, &mut newton, from).unwrap();
+        let (count, end) =
+            interior::iterate(&scaled, &mut newton, &mut point, &Settings::default(), (&mut None, &mut Vec::new()));
+        (scaled.variables(&point.x), count, end)
+    }
+
+    #[test]
+    fn all_starts_come_to_the_same_solution() {
+        let problem = smoothest(40, 0.03);
+        let [near, far] = start::STARTS.map(|start| from(&problem, start));
+        assert_eq!((near.2, far.2), (End::Optimal, End::Optimal));
+        assert!(near.1 < 25 && far.1 < 35, "{} and {} iterations", near.1, far.1);
+        assert!(near.0.iter().zip(&far.0).all(|(a, b)| (a - b).abs() < 1e-8), "{:?} {:?}", near.0, far.0);
+    }
+
+    #[test]
+    fn an_iteration_that_halves_nothing_ends_long_before_the_most() {
+        let mut problem = smoothest(40, 0.03);
+        // 1 <= x_3 - x_4 contradicts the bands by 0.9.
+        problem.rows.push([(3, 1.0), (4, -1.0)]);
+        problem.lower.push(1.0);
+        problem.upper.push(f64::INFINITY);
+        for start in start::STARTS {
+            let (_, count, end) = from(&problem, start);
+            assert_eq!(end, End::Stalled);
+            assert!(count < 100, "{count} iterations");
+        }
+        assert_eq!(problem.solve(&Settings::default()).unwrap().status, Status::Infeasible);
     }
 }
