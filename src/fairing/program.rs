@@ -11,6 +11,10 @@ use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
 use crate::qp::{Certificate, Problem, ProblemError, RepeatedSolver, Settings, Solution, SparseRows, Status};
 
+/// Part of the greatest entry of a row below which what is left of it over the free control values is rounding. Taken to
+/// unit size it would be a limit that nobody set.
+const LEFT: f64 = 1e-12;
+
 /// What a row of the program stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowName {
@@ -129,8 +133,10 @@ impl Program {
         let reduced = &smoother.reduced;
         let mut wanted: Vec<Wanted> = Vec::new();
         let mut add = |name: RowName, row: &[(usize, f64)], lower: f64, upper: f64, tolerance: f64| {
+            let size = row.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
             let (row, offset) = reduced.row(row);
-            let told = row.iter().any(|(_, value)| value.abs() >= 1e-14);
+            // What known control values leave of a row is rounding.
+            let told = row.iter().any(|(_, value)| value.abs() >= LEFT * size);
             // A target so far away that its row vanishes beside it still cannot be had.
             let beyond = matches!(name, RowName::Constraint(_)) && (lower - offset > 1e-6 || upper - offset < -1e-6);
             let row = if told { row } else { row.into_iter().map(|(i, _)| (i, 0.0)).collect() };
