@@ -123,7 +123,8 @@ impl Job {
             return Ok(outcome);
         }
         // What the smoothing bends more often and no signs could hold, less of it bends less.
-        let weight = REDUCED_WEIGHT * outcome.faired.chosen.lambda;
+        // The grade of fairness multiplies a weight that is named.
+        let weight = REDUCED_WEIGHT * outcome.faired.chosen.lambda / self.fairness.on_the_weight();
         progress("lines bend more often: a hundredth of the smoothing weight");
         let mut other = Self { weight: Some(weight), ..self.clone() }.run_within(table, way)?;
         other.faired.trials.clone_from(&outcome.faired.trials);
