@@ -45,7 +45,10 @@ const FAR: f64 = 1e6;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     Optimal,
+    /// Nothing was reached, from where it began.
     Stalled,
+    /// The iterate may be a proof that there is no solution.
+    Hopeless,
 }
 
 /// Targets of the products s_u z_u and s_l z_l.
@@ -169,7 +172,7 @@ pub(super) fn iterate(
             }
         }
         if hopeless(scaled, point, &residuals) {
-            return (count, End::Stalled);
+            return (count, End::Hopeless);
         }
         let off = residuals.primal_size.max(residuals.dual_size).max(relative);
         halved = if 2.0 * off < halved.0 { (off, 0) } else { (halved.0, halved.1 + 1) };

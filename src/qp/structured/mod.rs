@@ -163,7 +163,7 @@ impl Solver {
             outcome = (end == End::Optimal).then_some((point, end));
         }
         for from in start::STARTS {
-            if outcome.as_ref().is_some_and(|(_, end)| *end == End::Optimal) {
+            if outcome.as_ref().is_some_and(|(_, end)| *end != End::Stalled) {
                 break;
             }
             let Some(mut point) = start::cold(&self.scaled, newton, from) else { break };
@@ -283,7 +283,7 @@ mod tests {
         problem.upper.push(f64::INFINITY);
         for start in start::STARTS {
             let (_, count, end) = from(&problem, start);
-            assert_eq!(end, End::Stalled);
+            assert_ne!(end, End::Optimal);
             assert!(count < 100, "{count} iterations");
         }
         assert_eq!(problem.solve(&Settings::default()).unwrap().status, Status::Infeasible);
