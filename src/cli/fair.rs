@@ -109,8 +109,7 @@ Files: hull.json, fitted-hull.json (the surface through the table), offsets.csv 
 conventions that were stated, to read it again), changes.csv, control-polygon.csv (its signs), fairing.json (the certificate), summary.json, \
 manifest.json, figures; with --grades: grades.csv, grades/N/hull.json.
 The first line says whether the hull is fairer: changes of sign and monotone pieces of the curvature of stations and \
-waterlines before > after, with the proved least number of changes of sign. Eight lines follow, up to three more without a draught; \
---verbose prints the rest.
+waterlines before > after, with the proved least number of changes of sign. Eight lines follow; --verbose prints the rest.
 Exit code 4 when the targets cannot all be met within the tolerances; the best compromise is written, marked. Exit code 5 when \
 they are met and stations and waterlines have more changes of sign or more monotone pieces than before, or from --fairness 5 on no \
 fewer changes of sign and more than 1.5 times the least and 2. With --fairness 0 exit code 0.

@@ -307,7 +307,11 @@ impl JobFile {
         }
         let problem = |place: &Location, what: &str| {
             let text = format!("{what} needs a draught, and none is stated");
-            place.problem("E184", &text, "Give --draught (T under [dimensions]), or leave it out.")
+            place.problem(
+                "E184",
+                &text,
+                "Give --draught (T under [table] beside a table, under [dimensions] of a job), or leave it out.",
+            )
         };
         let quantities = self.hold.iter().filter(|(quantity, target)| quantity.needs_draught(*target));
         let mut problems: Vec<Diagnostic> = quantities

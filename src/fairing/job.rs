@@ -241,7 +241,7 @@ pub enum JobError {
         depth: f64,
     },
     /// Targets need a draught, and none is stated.
-    #[error("{0}: no draught is stated; give --draught (T under [dimensions])")]
+    #[error("{0}: no draught is stated; give --draught (T under [table] beside a table, under [dimensions] of a job)")]
     NoDraught(String),
     /// B is no breadth of this hull.
     #[error(

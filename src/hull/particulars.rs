@@ -1,8 +1,7 @@
 //! Principal particulars.
 
 /// What a page says where nobody stated a draught.
-pub const NO_DRAUGHT: &str =
-    "no draught is stated: give --draught (T under [dimensions]) for displacement and coefficients";
+pub const NO_DRAUGHT: &str = "no draught is stated: give --draught (T under [table] beside a table, under [dimensions] of a job) for displacement and coefficients";
 
 /// Moulded main dimensions \[m\]. The aft perpendicular is at x = 0, the forward one at x =
 /// `length_between_perpendiculars`.

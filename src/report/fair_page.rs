@@ -509,7 +509,7 @@ fn assumed(job: &FairJob, outcome: &Outcome) -> String {
 
 /// What to do where nobody stated a draught, and what is held in place of what is held at one; nothing where one is
 /// stated.
-pub(super) fn without_draught(outcome: &Outcome) -> String {
+fn without_draught(outcome: &Outcome) -> String {
     if outcome.before.particulars().draught.is_some() {
         return String::new();
     }

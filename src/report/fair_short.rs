@@ -3,7 +3,6 @@
 use super::fair::{FairJob, FairOutputs};
 use super::fair_page::{
     MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volume_of, volumes,
-    without_draught,
 };
 use super::page::{WIDTH, fixed_sign, value};
 use crate::exchange::status_word;
@@ -55,7 +54,7 @@ pub(super) fn least(outcome: &Outcome) -> String {
 }
 
 /// The page of `fair` in short: the first line says whether the hull is fairer, by how much and what it cost. Eight
-/// lines follow, and up to three more where no draught is stated; [`super::fair_page`] has the rest.
+/// lines follow; [`super::fair_page`] has the rest.
 #[must_use]
 pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
     let outcome = &outputs.outcome;
@@ -65,7 +64,7 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
         headline(outcome),
         format!("{name}: {}; fairness {}; noise {noise} mm", status_word(outcome.status), outcome.fairness),
         dimensions(outcome).trim_end().to_owned(),
-        (assumed(job, outcome) + "\n" + &without_draught(outcome)).trim_end().to_owned(),
+        stated(job, outcome),
         offsets(job, outcome),
         moves(job, outcome),
         suspects(job, outcome),
@@ -76,17 +75,22 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
 }
 
 /// Which dimensions nobody stated.
-fn assumed(job: &FairJob, outcome: &Outcome) -> String {
-    let names = match not_stated(job).as_slice() {
-        [] => "These dimensions are stated".to_owned(),
-        names => format!("Not stated, so assumed: {}", names.join(", ")),
-    };
-    let midship = match (outcome.before.counts_from_aft_perpendicular(), outcome.before.particulars().draught) {
-        (true, _) => "",
-        (false, None) => "; midship is not known",
-        (false, Some(_)) => "; midship is not known, C_M is not held",
-    };
-    format!("{names}{midship}.")
+fn stated(job: &FairJob, outcome: &Outcome) -> String {
+    let names = not_stated(job).join(", ");
+    let midship = if outcome.before.counts_from_aft_perpendicular() { "" } else { "; midship is not known" };
+    match outcome.before.particulars().draught {
+        None if names.is_empty() => format!("No draught is stated: give --draught for displacement{midship}."),
+        None => format!("Assumed: {names}. No draught is stated: give --draught{midship}."),
+        Some(_) => {
+            let names = if names.is_empty() {
+                "These dimensions are stated"
+            } else {
+                &format!("Not stated, so assumed: {names}")
+            };
+            let held = if midship.is_empty() { "" } else { ", C_M is not held" };
+            format!("{names}{midship}{held}.")
+        }
+    }
 }
 
 /// How many offsets stayed, and their tolerances.

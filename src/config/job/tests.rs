@@ -312,7 +312,7 @@ fn targets_at_a_draught_are_refused_where_none_is_stated() {
     let file = read_job("j.toml", text).unwrap();
     let found: Vec<String> = file.for_table(&table, 100.0).unwrap_err().iter().map(ToString::to_string).collect();
     assert_eq!(found.len(), 10, "{found:#?}");
-    let help = "Give --draught (T under [dimensions]), or leave it out.";
+    let help = "Give --draught (T under [table] beside a table, under [dimensions] of a job), or leave it out.";
     for (found, what) in found.iter().zip([
         "j.toml:2:16 hold.displacement: displacement",
         "j.toml:3:6 hold.Cb: C_B",
