@@ -125,8 +125,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let datum = match arguments.datum {
         Datum::Height(height) => height,
         Datum::Waterline => {
-            let none =
-                || Failure::Usage("--datum waterline needs a draught, and none is stated: give --draught".to_owned());
+            let none = || Failure::without_draught("--datum waterline", 1);
             source.hull.particulars().draught.or(arguments.draught).ok_or_else(none)?
         }
     };

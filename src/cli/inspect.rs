@@ -26,8 +26,8 @@ pub(super) struct Arguments {
     /// Buttocks, from the centreplane [m]
     #[arg(long, value_parser = lengths, value_name = "LIST")]
     buttocks: Option<Lengths>,
-    /// Diagonals by their heights on the centreplane [m]; without it at 0.7, 1 and 1.3 T, or where no draught is stated
-    /// at 0.5, 0.7 and 0.9 of the height H that all stations between the ends reach
+    /// Diagonals by their heights on the centreplane [m]; without it at 0.7, 1 and 1.3 T. Without
+    /// a draught at 0.5, 0.7 and 0.9 of the height H that all stations between the ends reach
     #[arg(long, value_parser = lengths, value_name = "LIST", allow_hyphen_values = true)]
     diagonals: Option<Lengths>,
     /// Angle of the diagonals below the horizontal; without it atan(T / (B/2)), or atan(H / (B/2))

@@ -188,22 +188,14 @@ impl Outcome {
     /// words; none where a draught is stated, or neither is held.
     #[must_use]
     pub fn held_below(&self) -> Option<(f64, String)> {
-        let find = |of: fn(&Constraint) -> Option<f64>| self.held.iter().find_map(|held| of(&held.constraint));
-        let volume = find(|constraint| match constraint {
-            Constraint::Volume { below, .. } => Some(*below),
+        let of = |constraint: Constraint| match constraint {
+            Constraint::Volume { below, .. } => Some(("volume", below)),
+            Constraint::CentreOfVolume { below, .. } => Some(("centre of volume", below)),
             _ => None,
-        });
-        let centre = find(|constraint| match constraint {
-            Constraint::CentreOfVolume { below, .. } => Some(*below),
-            _ => None,
-        });
-        let what = match (volume, centre) {
-            (Some(_), Some(_)) => "volume and centre of volume",
-            (Some(_), None) => "volume",
-            _ => "centre of volume",
         };
-        let below = volume.or(centre)?;
-        Some((below, format!("{what} below z = {below:.3} m (no draught is stated)")))
+        let (names, heights): (Vec<&str>, Vec<f64>) = self.held.iter().filter_map(|held| of(held.constraint)).unzip();
+        let below = *heights.first()?;
+        Some((below, format!("{} below z = {below:.3} m (no draught is stated)", names.join(" and "))))
     }
 
     /// Heights of the waterlines that were looked at \[m\]: those of the table, of a table of sections those of a

@@ -141,9 +141,7 @@ pub fn convert_file(
             let mut table = table;
             table.stated.draught = table.stated.draught.or(settings.draught);
             if format == ExportFormat::Delftship && !table.stated.states_draught() {
-                return Err(Failure::Usage(
-                    "--format delftship needs a draught, and none is stated: give --draught".to_owned(),
-                ));
+                return Err(Failure::without_draught("--format delftship", 1));
             }
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }

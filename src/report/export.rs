@@ -366,8 +366,7 @@ fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(Strin
 
 /// The draught of what goes up to a waterline \[m\].
 fn draught_of(hull: &Hull, settings: &ExportSettings) -> Result<f64, Failure> {
-    let none = || Failure::Usage("no draught is stated: give --draught".to_owned());
-    settings.draught.or(hull.particulars().draught).ok_or_else(none)
+    settings.draught.or(hull.particulars().draught).ok_or_else(|| Failure::without_draught("the format", 1))
 }
 
 /// Whether formats and settings are such as can be meant.
@@ -378,12 +377,7 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
     if settings.draught.or(hull.particulars().draught).is_none() {
         let needy: Vec<&str> = formats.iter().filter(|f| f.needs_draught()).map(|f| f.name()).collect();
         if !needy.is_empty() {
-            let message = format!(
-                "--format {} {} a draught, and none is stated: give --draught",
-                needy.join(","),
-                if needy.len() == 1 { "needs" } else { "need" }
-            );
-            return Err(Failure::Usage(message));
+            return Err(Failure::without_draught(&format!("--format {}", needy.join(",")), needy.len()));
         }
     }
     let (breadth, depth) = (hull.particulars().breadth, hull.particulars().depth);
@@ -414,9 +408,12 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 /// Writes a hull in the formats; `name` begins the names of the files.
 ///
 /// # Errors
-/// [`Failure::Internal`] when the solid is not closed; [`Failure::Usage`] when nothing or the deck is immersed at the
-/// draught, a format needs a draught that nobody states, a format is named twice, the deviation is less than a millionth of the breadth, more than a tenth of the
-/// lesser of breadth and depth or asks for too many triangles, or the datum is a hundred depths away.
+/// [`Failure::Internal`] when the solid is not closed. [`Failure::Usage`] in these cases:
+/// * nothing or the deck is immersed at the draught, or a format needs a draught that nobody states,
+/// * a format is named twice,
+/// * the deviation is less than a millionth of the breadth or more than a tenth of the lesser of breadth and depth,
+/// * the deviation asks for too many triangles,
+/// * the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,
     name: &str,

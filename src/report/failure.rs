@@ -46,6 +46,13 @@ pub(super) fn problem(code: &'static str, file: &Path, message: String, help: im
 }
 
 impl Failure {
+    /// `what` needs a draught, or several things do, and nobody states one.
+    #[must_use]
+    pub fn without_draught(what: &str, count: usize) -> Self {
+        let needs = if count == 1 { "needs" } else { "need" };
+        Self::Usage(format!("{what} {needs} a draught, and none is stated: give --draught"))
+    }
+
     /// Exit code: 1 internal, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
