@@ -117,6 +117,12 @@ fn what_goes_to_a_waterline_is_not_exported_without_one() {
     assert!(code == Some(2) && said.contains("give --draught"), "{said}");
     assert_eq!(answer(&["convert", &table, &panels, "--draught", "4"]).0, Some(0));
     assert_eq!(answer(&["convert", &table, "-f", "delftship"]).0, Some(2));
+    // The option stands over what the file states.
+    let stated = folder.write("stated.csv", format!("# T = 3 m\n{}", read_text(carried(WIGLEY))));
+    for (options, draught) in [(&[][..], "3.0000"), (&["--draught", "2.5"][..], "2.5000")] {
+        let (code, text, said) = answer(&[&["convert", &stated, "-f", "pdstrip"], options].concat());
+        assert!(code == Some(0) && text.lines().next().is_some_and(|head| head.contains(draught)), "{text} {said}");
+    }
 }
 
 /// What is at a draught is refused: options of the command with 2, keys of the job with 3, all at once.

@@ -139,7 +139,7 @@ pub fn convert_file(
             && let Some(write) = takes(only_sections(&table))
         {
             let mut table = table;
-            table.stated.draught = table.stated.draught.or(settings.draught);
+            table.stated.draught = settings.draught.or(table.stated.draught);
             if format == ExportFormat::Delftship && !table.stated.states_draught() {
                 return Err(Failure::without_draught("--format delftship", 1));
             }

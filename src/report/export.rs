@@ -491,7 +491,7 @@ pub fn export(
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),
             (ExportFormat::Delftship, ..) => {
                 let mut table = OffsetTable::with_defaults(hull);
-                table.stated.draught = table.stated.draught.or(settings.draught);
+                table.stated.draught = settings.draught.or(table.stated.draught);
                 write_delftship(&table).into_bytes()
             }
             (ExportFormat::Ftm, ..) => {
