@@ -158,7 +158,7 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
     for key in ["primal", "dual", "gap", "stationarity", "max_violation"] {
         number(&certificate["certificate"][key]);
     }
-    assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-9);
+    assert!(number(&certificate["certificate"]["gap"]).abs() < 1e-8);
     // What fair means, line by line and together.
     let lines = ["stations", "waterlines"].map(|kind| certificate["inflections"][kind].as_array().unwrap().clone());
     let sum = |of: &str| lines.iter().flatten().map(|line| number(&line["pieces"][of]) as u64).sum::<u64>();
@@ -1027,7 +1027,7 @@ fn humps_and_hollows_are_removed_at_no_more_than_their_price() {
     let prices: Vec<f64> = lines.iter().filter_map(|line| line["price"].as_f64()).collect();
     assert!(!prices.is_empty() && prices.iter().all(|price| (0.0..=25.0).contains(price)), "{prices:?}");
     assert!(number(&result["inflections"]["dead_band"]) > 1e-4);
-    assert!(number(&result["certificate"]["gap"]) <= 1e-9);
+    assert!(number(&result["certificate"]["gap"]) <= 1e-8);
     let worse = |curve: &&Value| curve["after"].as_u64() > curve["before"].as_u64();
     let all: Vec<Value> = ["waterlines", "stations", "buttocks", "diagonals"].into_iter().flat_map(curves).collect();
     assert!(all.iter().filter(worse).count() <= 2, "{all:?}");

@@ -237,7 +237,9 @@ pub fn diagnose(
     }
     let held = |constraint: &usize| program.names.contains(&RowName::Constraint(*constraint));
     let constraints: Vec<usize> = (0..targets.len()).filter(held).collect();
-    let mut asked = Asked { program, cut, solver: RepeatedSolver::new(settings), programs: rules.len() };
+    // Whether the other targets can be had together is asked, and no proof that they cannot.
+    let settings = Settings { proof: false, ..settings.clone() };
+    let mut asked = Asked { program, cut, solver: RepeatedSolver::new(&settings), programs: rules.len() };
     let mut reaches = Vec::new();
     for constraint in constraints {
         let own = RowName::Constraint(constraint);

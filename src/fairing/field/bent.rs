@@ -9,7 +9,7 @@ use super::chart::Chart;
 use super::net::{Break, DEGREE, Metric, Net, ORDER};
 use super::region::{Bend, Field};
 use crate::numeric::{SymmetricBand, gauss_legendre};
-use crate::spline::{Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
+use crate::spline::{BsplineSurface, Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
 
 /// Nodes of the rule in each direction of a cell.
 const NODES: usize = 4;
@@ -103,6 +103,41 @@ impl Bent {
         let mut values = self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))?;
         (0..values.len()).filter(|&k| self.is_closed(k)).for_each(|k| values[k] = 0.0);
         Ok(values)
+    }
+
+    /// Middles of the spans along v where the net misses the field by more than `most` \[m\]: where the chart bends far,
+    /// sections of the field are none of splines on the knots of its net.
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine the net.
+    pub fn unresolved(&self, field: &Field, most: f64) -> Result<Vec<f64>, SplineError> {
+        let exact = |w: f64, v: f64| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]);
+        let values = self.interpolated(exact)?.into_iter().map(|y| [y]).collect();
+        let surface = BsplineSurface::<1>::new(self.knots[0].clone(), self.knots[1].clone(), values)?;
+        let [along, up] = [self.knots[0].breakpoints(), self.knots[1].breakpoints()];
+        let misses = |span: &[f64]| {
+            let at = |part: f64| span[0] + part * (span[1] - span[0]);
+            [0.25, 0.5, 0.75].map(at).into_iter().any(|v| {
+                let misses = |cell: &[f64]| {
+                    let w = 0.5 * (cell[0] + cell[1]);
+                    (surface.eval(w, v)[0] - exact(w, v)).abs() > most
+                };
+                along.windows(2).any(misses)
+            })
+        };
+        Ok(up.windows(2).filter(|span| misses(span)).map(|span| 0.5 * (span[0] + span[1])).collect())
+    }
+
+    /// The same chart with more knots along v.
+    ///
+    /// # Errors
+    /// [`SplineError`] when a knot is outside.
+    pub fn refined(mut self, inserted: &[f64]) -> Result<Self, SplineError> {
+        for end in &mut self.bend.ends {
+            *end = end.insert_knots(inserted)?;
+        }
+        self.knots[1] = self.bend.ends[0].knots().clone();
+        Ok(self)
     }
 
     /// Whether a control value is on the centreplane.

@@ -22,6 +22,9 @@ const FINER: f64 = 1.5;
 /// Distance in v at which the sides of a corner are looked at.
 const BESIDE: f64 = 1e-6;
 
+/// What the net of a hull may miss its field by between its knots, over the noise and over the greatest half-breadth.
+const MISSED: [f64; 2] = [0.02, 2e-5];
+
 /// Rounds in which the side above the deck is kept from closing.
 const ROUNDS: usize = 4;
 
@@ -116,7 +119,8 @@ impl LevelField {
                 .map_err(|_| FieldError::Undetermined)?;
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
-        let bent = bent(&net, &field, seen)?;
+        let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
+        let bent = bent(&net, &field, seen, most)?;
         let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
         let residuals = cells.iter().filter(|cell| cell.scale > EXACT).map(residual).collect();
         Ok(Self { field, bent, net, chosen, power, residuals, lines })
@@ -189,8 +193,9 @@ impl Ends<'_> {
     }
 }
 
-/// The chart of the hull: its ends are those of the field, within what the table leaves open.
-fn bent(net: &Net, field: &Field, seen: &Observations) -> Result<Bent, FieldError> {
+/// The chart of the hull: its ends are those of the field, within what the table leaves open. Spans along v where its net
+/// misses the field by more than `most` \[m\] are halved once.
+fn bent(net: &Net, field: &Field, seen: &Observations, most: f64) -> Result<Bent, FieldError> {
     let mut breaks = net.knots[1].breakpoints();
     let spacing = 1.0 / (breaks.len() - 1) as f64;
     let least = if seen.keel_closed { 0.5 * spacing } else { 0.0 };
@@ -212,12 +217,15 @@ fn bent(net: &Net, field: &Field, seen: &Observations) -> Result<Bent, FieldErro
     let multiplicities: Vec<usize> = breaks[1..count - 1].iter().map(multiplicity).collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
     let bend = Bend::new(&knots, |v| [0, 1].map(|side| ends.at(v, side).0))?;
-    // At a corner the end is closed where it is so on one side of it.
-    let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
-    let closed = [0, 1].map(|side| knots.greville().iter().map(|&v| is_closed(v, side)).collect());
     let (chart, keel_closed) = (field.chart, seen.keel_closed);
     let knots = [with_breaks(&net.knots[0], &bend)?, knots];
-    Ok(Bent { chart, knots, bend, corners, breaks: broken, closed, keel_closed })
+    let open = Bent { chart, knots, bend, corners, breaks: broken, closed: Default::default(), keel_closed };
+    let halves = open.unresolved(field, most)?;
+    let refined = open.refined(&halves)?;
+    // At a corner the end is closed where it is so on one side of it.
+    let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
+    let closed = [0, 1].map(|side| refined.knots[1].greville().iter().map(|&v| is_closed(v, side)).collect());
+    Ok(Bent { closed, ..refined })
 }
 
 /// The knots along the field with those at which the bends begin.

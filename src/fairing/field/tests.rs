@@ -263,3 +263,22 @@ fn a_parabolic_hull_comes_back() {
     }
     assert!(found.bent.bend.is_straight() && found.bent.corners.is_empty());
 }
+
+/// Where the chart bends over the whole length of the hull, its net misses a field between the knots; halves of
+/// its spans miss it by less than a tenth as much.
+#[test]
+fn spans_that_miss_the_field_are_halved() {
+    let (net, values) = wavy();
+    let field = Field::new(chart(), &net, &values).unwrap();
+    let end = |v: f64| [0.25 * (1.0 - v).powi(2), 1.0];
+    let open = Bent { bend: Bend::new(&net.knots[1], end).unwrap(), ..straight(&net) };
+    let misses = |bent: &Bent, most: f64| bent.unresolved(&field, most).unwrap();
+    assert!(misses(&straight(&net), 1e-9).is_empty());
+    let tried: Vec<f64> = (2..12).map(|k| 0.1f64.powi(k)).collect();
+    let most = *tried.iter().rfind(|most| misses(&open, **most).is_empty()).unwrap();
+    let halves = misses(&open, 0.1 * most);
+    assert!(!halves.is_empty() && halves.iter().all(|v| (v * 16.0 - (v * 16.0).round()).abs() < 1e-12), "{halves:?}");
+    let refined = open.refined(&[1, 3, 5, 7, 9, 11, 13, 15].map(|k| f64::from(k) / 16.0)).unwrap();
+    assert!(misses(&refined, 0.2 * most).is_empty(), "{most}");
+    assert_eq!(refined.knots[1].basis_count(), net.knots[1].basis_count() + 8);
+}

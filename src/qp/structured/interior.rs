@@ -5,9 +5,9 @@ use super::newton::{Newton, Right, Step, inverse};
 use super::point::{Direction, Iterate, Residuals, Slack};
 use super::scaled::Scaled;
 
-/// Residuals and complementarity within this multiple of the tolerance count when no iteration lowers them any more: the
-/// precision of the Newton systems is reached. So many iterations that do not halve them show it.
-const ENOUGH: f64 = 100.0;
+/// Residuals and complementarity of this size count when no iteration lowers them any more: the precision of the Newton
+/// systems is reached. So many iterations that do not halve them show it.
+const ENOUGH: f64 = 1e-8;
 const STANDSTILL: usize = 8;
 /// Iterations without one that halves the largest of residuals and complementarity, after which it stalls, where that is
 /// above [`FAR_OFF`].
@@ -181,7 +181,7 @@ pub(super) fn iterate(
         }
         near = match near.take() {
             Some((best, at, since)) if 2.0 * off > best => Some((best, at, since + 1)),
-            _ if off <= ENOUGH * tolerance => Some((off, point.clone(), 0)),
+            _ if off <= ENOUGH.max(tolerance) => Some((off, point.clone(), 0)),
             none => none,
         };
         if let Some((_, at, since)) = &near
