@@ -25,6 +25,9 @@ const KEEL: f64 = 1e-2;
 /// the table: where it is above [`ROUGH`], and in any case.
 const LACK_OF_FIT: [f64; 2] = [1.25, 3.0];
 
+/// Half-breadths of control values over the greatest offset from which a field swings between the offsets.
+const BEYOND: f64 = 1.5;
+
 /// Noise of a rough drawing, over the breadth.
 const ROUGH: f64 = 1.25e-3;
 
@@ -83,6 +86,10 @@ impl FairSurface {
         }
         let hull = hull_of(&field, fitted).ok()?;
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
+        let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
+        if start.iter().any(|y| y.abs() > BEYOND * greatest) {
+            return None;
+        }
         let known: Vec<Option<f64>> = (0..start.len()).map(|k| field.bent.is_closed(k).then_some(0.0)).collect();
         let (readings, places) = readings(table, &hull);
         // Zeros on the lowest waterline of a flat bottom are its keel, not its edge.
@@ -99,13 +106,14 @@ impl FairSurface {
         let (mut readings, places): (Vec<Reading>, Vec<Place>) =
             readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, &field, &known);
-        let energy = field.bent.energy(&field.net, field.chosen.metric);
+        let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
         // A move bends no sharper across a corner of the chart than the field may.
         let mut moves = field.bent.jumps(&field.net);
         moves.add_band(1.0, &move_metric(hull.surface(), readings.len(), scale));
-        let own = field.net.energy(field.chosen.metric).quadratic(&field.chosen.field.values);
+        let own =
+            field.net.energy(field.chosen.metric, field.chosen.density.as_ref()).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let mut found = Self::over(hull, model, places, start);

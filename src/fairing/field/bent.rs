@@ -6,10 +6,11 @@
 //! What is left is the rule's own error, which is zero where the chart is not bent.
 
 use super::chart::Chart;
+use super::density::Density;
 use super::net::{Break, DEGREE, Metric, Net, ORDER};
 use super::region::{Bend, Field};
 use crate::numeric::{SymmetricBand, gauss_legendre};
-use crate::spline::{BsplineSurface, Collocation, KnotVector, MAX_DEGREE, SplineError, binomial};
+use crate::spline::{BsplineSurface, Collocation, KnotVector, MAX_DEGREE, SplineError};
 
 /// Nodes of the rule in each direction of a cell.
 const NODES: usize = 4;
@@ -150,7 +151,7 @@ impl Bent {
 
     /// The Taylor polynomial of w(u, v) - w0 at (w0, v0), with the polynomials of a span of v.
     fn inverse(&self, w: f64, v: f64, span: usize) -> Taylor {
-        let Bend { ends, reach, power } = &self.bend;
+        let Bend { ends, fades } = &self.bend;
         let knots = ends[0].knots();
         let (derivatives, degree) = (taylor(knots, span, v), knots.degree());
         let mut shifts = [[0.0; ORDER + 1]; 2];
@@ -166,15 +167,9 @@ impl Bent {
         let mut forward: Taylor = [[0.0; ORDER + 1]; ORDER + 1];
         forward[1][0] = 1.0;
         for side in 0..2 {
-            let (at, sign) = if side == 0 { (w, -1.0) } else { (1.0 - w, 1.0) };
-            let left = 1.0 - at / reach[side];
-            if left <= 0.0 {
-                continue;
-            }
-            for p in 0..=ORDER.min(power[side] as usize) {
-                let fade = binomial(power[side] as usize, p)
-                    * left.powi(power[side] - p as i32)
-                    * (sign / reach[side]).powi(p as i32);
+            let fade = fades[side].derivatives::<{ ORDER + 1 }>(w);
+            for (p, [fade]) in fade.iter().enumerate() {
+                let fade = fade / factorial(p);
                 for q in 0..=ORDER - p {
                     forward[p][q] += shifts[side][q] * fade;
                 }
@@ -213,15 +208,11 @@ impl Bent {
 
     /// The energy of the field within the hull, in the net of the hull; `net` is that of the field, for its counts.
     #[must_use]
-    pub fn energy(&self, net: &Net, metric: Metric) -> SymmetricBand {
+    pub fn energy(&self, net: &Net, metric: Metric, density: Option<&Density>) -> SymmetricBand {
         let mut matrix = self.jumps(net);
         let columns = self.shape()[1];
         let rule = gauss_legendre(NODES);
-        let [n, m] = net.intervals;
-        // sum_k C(4, k) (n m) g a^(1-2k) n^(-2(4-k)) m^(-2k) int int (F_(u^(4-k) v^k))^2 du dv, as `Net` has it.
-        let factors: [f64; ORDER + 1] = std::array::from_fn(|k| {
-            binomial(ORDER, k) * metric.factor(k) * n.powi(1 - 2 * (ORDER - k) as i32) * m.powi(1 - 2 * k as i32)
-        });
+        let factors = net.factors(metric);
         let breaks = [self.knots[0].breakpoints(), self.knots[1].breakpoints()];
         for across in breaks[1].windows(2) {
             for along in breaks[0].windows(2) {
@@ -237,7 +228,8 @@ impl Bent {
                         first = [i, j];
                         let inverse = self.inverse(w, v, span);
                         // du dv = u_w dw dv.
-                        let measure = share * weight / inverse[1][0];
+                        let rho = density.map_or(1.0, |density| density.at([self.bend.u(w, v), v]));
+                        let measure = rho * share * weight / inverse[1][0];
                         let mut forms = vec![[0.0; ORDER + 1]; size];
                         for (r, composed) in composed(&inverse, &ahead).iter().enumerate() {
                             for s in 0..=DEGREE {

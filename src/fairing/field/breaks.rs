@@ -9,7 +9,7 @@
 
 use super::chart::Chart;
 use super::choice::Chosen;
-use super::likelihood::{Cell, Observed, Roughness, smoothed};
+use super::likelihood::{Cell, Observed, smoothed};
 use super::net::{Break, Net};
 use super::region::Field;
 use std::collections::BTreeSet;
@@ -63,7 +63,7 @@ pub fn broken(
     let (chart, intervals) = (chosen.chart, net.intervals);
     let mut lines = Vec::new();
     for _ in 0..MOST {
-        let Ok(rough) = Roughness::new(&net, chosen.metric) else { break };
+        let Ok(rough) = chosen.roughness(&net) else { break };
         let observed = Observed::new(&net, &chart, cells);
         let places = places(&chart, cells, &net.breaks);
         let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &chart, cells)).collect();
@@ -131,7 +131,7 @@ impl Trial<'_> {
     fn cost(&self, line: Break, exponent: f64) -> f64 {
         let field = || {
             let net = self.net(line)?;
-            let rough = Roughness::new(&net, self.chosen.metric).ok()?;
+            let rough = self.chosen.roughness(&net).ok()?;
             let observed = Observed::new(&net, &self.chosen.chart, self.cells);
             smoothed(&observed, &rough, 10f64.powf(exponent), self.least).ok()
         };

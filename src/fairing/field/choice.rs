@@ -3,11 +3,13 @@
 //! Coordinate descent over grids of the numbers of chart and metric, each with its best weight.
 
 use super::chart::{Chart, Shape};
+use super::density::Density;
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
 use super::net::{Metric, Net};
 use crate::numeric::SingularMatrix;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// Values of b.
 const KEELS: [f64; 6] = [0.0, 0.1, 0.2, 0.3, 0.5, 1.0];
@@ -24,6 +26,18 @@ const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 /// Where the descent starts, in the grids: a flat bottom, and a V keel. From one alone an S-shaped hull whose sections leave
 /// the keel straight came out 30 mm fuller below its first waterline.
 const STARTS: [[usize; 5]; 2] = [[1, 3, 0, 0, 0], [5, 3, 0, 0, 0]];
+
+/// Widths of the mean that makes a density, in intervals of the table.
+pub(super) const WIDTHS: [f64; 3] = [3.0, 2.0, 1.5];
+
+/// What -2 log l must fall by for each number that a density has: the intervals of the table over the 4 pi w^2 that a mean of
+/// width w takes in.
+const PRICE: f64 = 20.0;
+
+/// Most rounds in which a density is taken from the field with the one before, and what -2 log l falls by in one that is
+/// not the last.
+const DENSITIES: usize = 3;
+const WORTH: f64 = 10.0;
 
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
@@ -57,7 +71,7 @@ impl<'a> Energies<'a> {
     pub fn of(&mut self, metric: Metric) -> Result<&Roughness, SingularMatrix> {
         match self.known.entry([metric.anisotropy.to_bits(), metric.mixed.to_bits()]) {
             Entry::Occupied(known) => Ok(known.into_mut()),
-            Entry::Vacant(place) => Ok(place.insert(Roughness::new(self.net, metric)?)),
+            Entry::Vacant(place) => Ok(place.insert(Roughness::new(self.net, metric, None)?)),
         }
     }
 }
@@ -69,6 +83,8 @@ pub struct Chosen {
     pub chart: Chart,
     /// The metric of the energy.
     pub metric: Metric,
+    /// Where it bends more than elsewhere; none: alike everywhere.
+    pub density: Option<Density>,
     /// Decimal logarithm of the weight.
     pub exponent: f64,
     /// The field.
@@ -78,13 +94,53 @@ pub struct Chosen {
 }
 
 impl Chosen {
+    /// The energy on a net.
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when rounding makes it indefinite.
+    pub(super) fn roughness(&self, net: &Net) -> Result<Roughness, SingularMatrix> {
+        Roughness::new(net, self.metric, self.density.as_ref())
+    }
+
+    /// What -2 log l has to fall by for its density, by the numbers that this has.
+    pub(super) fn price(&self, net: &Net) -> f64 {
+        let numbers = |density: &Density| net.intervals[0] * net.intervals[1] / (4.0 * PI * density.width.powi(2));
+        self.density.as_ref().map_or(0.0, |density| PRICE * numbers(density))
+    }
+
+    /// With the density of its field where that is likelier by more than its price: of each of the `widths` the one of a few
+    /// rounds, each of the field with the one before.
+    pub(super) fn with_density(&self, net: &Net, cells: &[Cell], least: f64, widths: &[f64]) -> Self {
+        let mut best = self.clone();
+        for width in widths {
+            let mut last = self.clone();
+            for _ in 0..DENSITIES {
+                let density = Some(Density::of(net, self.metric, &last.field.values, *width));
+                let Some(found) = (Self { density, ..self.clone() }).on(net, cells, last.exponent, least) else {
+                    break;
+                };
+                let gain = last.field.cost - found.field.cost;
+                if gain > 0.0 {
+                    last = found;
+                }
+                if gain < WORTH {
+                    break;
+                }
+            }
+            if last.field.cost + last.price(net) < best.field.cost + best.price(net) {
+                best = last;
+            }
+        }
+        best
+    }
+
     /// The same chart and metric on another net, with the weight of greatest likelihood from `start` (its decimal
     /// logarithm) on. None where the cells determine no field.
     pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64) -> Option<Self> {
-        let rough = Roughness::new(net, self.metric).ok()?;
+        let rough = self.roughness(net).ok()?;
         let (found, trials) = weighed(&Observed::new(net, &self.chart, cells), &rough, start, least);
         let (exponent, field) = found?;
-        Some(Self { chart: self.chart, metric: self.metric, exponent, field, trials: self.trials + trials })
+        Some(Self { exponent, field, trials: self.trials + trials, ..self.clone() })
     }
 }
 
@@ -201,7 +257,7 @@ pub fn choose(
     let at = ends.into_iter().min_by(|a, b| search.cost(*a).total_cmp(&search.cost(*b)))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
-    Some(Chosen { chart, metric: Search::metric(at), exponent, field, trials: search.trials })
+    Some(Chosen { chart, metric: Search::metric(at), density: None, exponent, field, trials: search.trials })
 }
 
 /// Where a choice stands in the grids.

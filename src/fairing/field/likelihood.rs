@@ -11,6 +11,7 @@
 //! ```
 
 use super::chart::Chart;
+use super::density::Density;
 use super::net::{KERNEL, Metric, Net, ORDER};
 use crate::numeric::{SingularMatrix, SymmetricBand};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -132,6 +133,27 @@ impl Observed {
         Ok(candidates.iter().map(score).collect())
     }
 
+    /// Standard deviations \[m\] of values of the field of a weight, by their rows: sigma sqrt(l'(M'M + wP)^-1 l).
+    ///
+    /// # Errors
+    /// [`SingularMatrix`] when the cells do not determine the field.
+    pub fn errors(
+        &self,
+        roughness: &Roughness,
+        weight: f64,
+        field: &Smoothed,
+        rows: &[Vec<(usize, f64)>],
+    ) -> Result<Vec<f64>, SingularMatrix> {
+        let factor = self.normal.plus(weight, &roughness.matrix).factor()?;
+        let error = |row: &Vec<(usize, f64)>| {
+            let mut solved = vec![0.0; self.right.len()];
+            row.iter().for_each(|&(j, b)| solved[j] = b);
+            factor.solve(&mut solved);
+            field.sigma * row.iter().map(|(j, b)| b * solved[*j]).sum::<f64>().max(0.0).sqrt()
+        };
+        Ok(rows.iter().map(error).collect())
+    }
+
     /// Number of cells.
     #[must_use]
     pub fn count(&self) -> usize {
@@ -160,12 +182,12 @@ pub struct Roughness {
 }
 
 impl Roughness {
-    /// Of a net and a metric.
+    /// Of a net, a metric and a density.
     ///
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite.
-    pub fn new(net: &Net, metric: Metric) -> Result<Self, SingularMatrix> {
-        let matrix = net.energy(metric);
+    pub fn new(net: &Net, metric: Metric, density: Option<&Density>) -> Result<Self, SingularMatrix> {
+        let matrix = net.energy(metric, density);
         Ok(Self { log_determinant: net.log_determinant(&matrix)?, matrix })
     }
 }

@@ -11,6 +11,9 @@
 //! noise maximise the restricted likelihood of the table ([`likelihood`], [`choice`]; Patterson and Thompson 1971, Wahba
 //! 1985).
 //!
+//! Where a hull bends unlike from place to place, the energy has a density that follows it ([`density`]). [`likeliest`] has
+//! the order in which all of this is chosen.
+//!
 //! [`observed`] has what the table says of ends, [`region`] where the hull is within its rectangle. [`bent`] is the net
 //! of the hull with the same energy.
 
@@ -19,6 +22,12 @@ pub mod bent;
 pub mod breaks;
 pub mod chart;
 pub mod choice;
+#[allow(
+    clippy::needless_range_loop,
+    reason = "orders of derivatives and places of functions are what the loops run over"
+)]
+pub mod density;
+pub mod likeliest;
 pub mod likelihood;
 pub mod net;
 pub mod observed;

@@ -18,6 +18,7 @@
 //!
 //! With the charge h a break is a prior of its own, and adds nothing to the kernel.
 
+use super::density::Density;
 use crate::numeric::{SingularMatrix, SymmetricBand};
 use crate::spline::{Collocation, Gram, KnotVector, SplineError, add_product, binomial};
 use nalgebra::DMatrix;
@@ -219,13 +220,26 @@ impl Net {
         self.parts[0].width()
     }
 
-    /// P(a, g).
+    /// Factors of the squares of the derivatives by u and v, of order 4 - k and k, in the energy.
     #[must_use]
-    pub fn energy(&self, metric: Metric) -> SymmetricBand {
-        let mut all = SymmetricBand::zeros(self.size(), self.parts[0].width());
-        for (k, part) in self.parts.iter().enumerate() {
-            all = all.plus(metric.factor(k), part);
-        }
+    pub(super) fn factors(&self, metric: Metric) -> [f64; ORDER + 1] {
+        let [n, m] = self.intervals;
+        std::array::from_fn(|k| {
+            let counts = n.powi(1 - 2 * (ORDER - k) as i32) * m.powi(1 - 2 * k as i32);
+            binomial(ORDER, k) * metric.factor(k) * counts
+        })
+    }
+
+    /// P(a, g), with the factor of a density.
+    #[must_use]
+    pub fn energy(&self, metric: Metric, density: Option<&Density>) -> SymmetricBand {
+        let all = match density {
+            Some(density) => density.energy(self, metric),
+            None => {
+                let none = SymmetricBand::zeros(self.size(), self.parts[0].width());
+                self.parts.iter().enumerate().fold(none, |all, (k, part)| all.plus(metric.factor(k), part))
+            }
+        };
         match &self.charges {
             Some(charges) => all.plus(1.0, charges),
             None => all,

@@ -2,8 +2,9 @@
 //! known, and where there is no hull.
 //!
 //! An end of a waterline is, in this order: the one the table gives; on the plane of the transom; the edge of the table
-//! where the last station still has breadth; a zero that neighbouring waterlines have at the same station (a
-//! perpendicular). Otherwise it lies between the last station with breadth and the next one: the field says where.
+//! where the last station still has breadth; a zero that neighbouring waterlines have at the same station, where the
+//! offsets agree to that (a perpendicular). Otherwise it lies between the last station with breadth and the next one: the
+//! field says where.
 
 use super::likelihood::Cell;
 use crate::hull::{OffsetTable, StationOffsets, TransomPlane};
@@ -29,6 +30,8 @@ pub enum End {
     Cut(f64),
     /// It closes between the last station with breadth and the next one \[m\].
     Between(f64, f64),
+    /// The same, and neighbouring waterlines have a zero at that next station as well: it may be a perpendicular.
+    Shared(f64, f64),
 }
 
 impl End {
@@ -36,7 +39,7 @@ impl End {
     #[must_use]
     pub fn outermost(self) -> f64 {
         match self {
-            Self::Closed(x) | Self::Cut(x) | Self::Between(_, x) => x,
+            Self::Closed(x) | Self::Cut(x) | Self::Between(_, x) | Self::Shared(_, x) => x,
         }
     }
 }
@@ -52,11 +55,24 @@ pub struct Waterline {
     pub inner: [f64; 2],
 }
 
+/// A zero beside the hull, which may belong to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Zero {
+    /// Where it is, as an exact reading.
+    pub cell: Cell,
+    /// The half-breadth beside it: of the station before an end, of the waterline above a keel \[m\].
+    pub beside: f64,
+    /// Whether it is the end of a waterline.
+    pub is_end: bool,
+}
+
 /// All of it.
 #[derive(Debug, Clone, Default)]
 pub struct Observations {
     /// Offsets and other values of the field.
     pub readings: Vec<Cell>,
+    /// Keels above the base.
+    pub keels: Vec<Zero>,
     /// Half-breadths above the deck, where the side goes on.
     pub bounds: Vec<Cell>,
     /// Waterlines with breadth, from below.
@@ -91,7 +107,9 @@ impl Observations {
     #[must_use]
     pub fn new(table: &OffsetTable) -> Self {
         let stations = &table.stations;
-        let highest = table.waterlines.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let has_breadth = |j: &usize| stations.iter().any(|s| s.half_breadth(*j).is_some_and(|y| y > 0.0));
+        let with_breadth = (0..table.waterlines.len()).filter(has_breadth).map(|j| table.waterlines[j]);
+        let highest = with_breadth.fold(f64::NEG_INFINITY, f64::max);
         let lowest = table.waterlines.iter().copied().fold(f64::INFINITY, f64::min);
         let keels = || stations.iter().filter_map(|s| s.keel_height.filter(|z| z.is_finite()).map(|z| (s, z)));
         let keel = keels().map(|(_, z)| z).fold(f64::INFINITY, f64::min);
@@ -108,11 +126,15 @@ impl Observations {
                 continue;
             }
             let x = station.station.x;
-            found.readings.push(if level {
-                Cell { x, z: bottom, y: station.flat_of_bottom.unwrap_or(0.0), scale: 1.0 }
+            if level {
+                let y = station.flat_of_bottom.unwrap_or(0.0);
+                found.readings.push(Cell { x, z: bottom, y, scale: 1.0 });
             } else {
-                Cell { x, z, y: 0.0, scale: EXACT }
-            });
+                let above = (0..table.waterlines.len()).filter(|&j| table.waterlines[j] > z);
+                let breadth = above.filter_map(|j| station.half_breadth(j)).next().unwrap_or(0.0);
+                let cell = Cell { x, z, y: 0.0, scale: EXACT };
+                found.keels.push(Zero { cell, beside: breadth, is_end: false });
+            }
         }
         for station in stations {
             let deck = station.deck_height.zip(station.deck_half_breadth);
@@ -124,12 +146,42 @@ impl Observations {
             }
         }
         let ends = found.waterlines.iter().flat_map(|w| w.ends).map(End::outermost);
-        let places = found.readings.iter().map(|cell| cell.x);
+        let places = found.readings.iter().chain(found.keels.iter().map(|keel| &keel.cell)).map(|cell| cell.x);
         let along = ends.chain(places).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
         found.extent = [along, [bottom, highest]];
         let mut lowest = found.readings.iter().filter(|cell| cell.z <= bottom + 1e-9 * height).peekable();
         found.keel_closed = lowest.peek().is_some() && lowest.all(|cell| cell.y <= 0.0);
         found
+    }
+
+    /// The zeros that may belong to the hull: keels above the base, and ends that neighbouring waterlines share.
+    #[must_use]
+    pub fn zeros(&self) -> Vec<Zero> {
+        let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();
+        let breadth = |x: f64, z: f64| {
+            let cell = self.readings.iter().find(|cell| same(cell.x, x) && same(cell.z, z));
+            cell.map_or(0.0, |cell| cell.y)
+        };
+        let end = |line: &Waterline, end: End| {
+            let End::Shared(x, beyond) = end else { return None };
+            let cell = Cell { x: beyond, z: line.z, y: 0.0, scale: EXACT };
+            Some(Zero { cell, beside: breadth(x, line.z), is_end: true })
+        };
+        let ends = self.waterlines.iter().flat_map(|line| line.ends.map(|e| end(line, e))).flatten();
+        self.keels.iter().copied().chain(ends).collect()
+    }
+
+    /// Takes for readings those of [`Self::zeros`] that agree with the offsets. Other ends are somewhere before such a zero.
+    pub fn settle(&mut self, agree: &[bool]) {
+        let zeros = self.zeros();
+        self.readings.extend(zeros.iter().zip(agree).filter(|(_, agrees)| **agrees).map(|(zero, _)| zero.cell));
+        let mut agree = agree[self.keels.len()..].iter();
+        self.keels.clear();
+        for end in self.waterlines.iter_mut().flat_map(|line| &mut line.ends) {
+            let End::Shared(x, beyond) = *end else { continue };
+            let closes = agree.next().is_none_or(|agrees| *agrees);
+            *end = if closes { End::Closed(beyond) } else { End::Between(x, beyond) };
+        }
     }
 
     fn waterline(&mut self, line: &Line<'_>, lowest: f64) {
@@ -201,11 +253,7 @@ impl Observations {
         }
         let Some(next) = next else { return End::Cut(x) };
         let beyond = line.station(next).station.x;
-        if is_plumb(line, side) {
-            self.readings.push(Cell { x: beyond, z, y: 0.0, scale: EXACT });
-            return End::Closed(beyond);
-        }
-        End::Between(x, beyond)
+        if is_shared(line, side) { End::Shared(x, beyond) } else { End::Between(x, beyond) }
     }
 
     fn above_deck(&mut self, line: &Line<'_>, k: usize) {
@@ -221,8 +269,8 @@ fn on_transom(plane: TransomPlane, z: f64, last: f64) -> Option<f64> {
     (last >= at - 1e-9 * (1.0 + at.abs())).then_some(at)
 }
 
-/// Whether a waterline ends at a zero at the station of that of the next waterline above or below: a perpendicular.
-fn is_plumb(line: &Line<'_>, side: usize) -> bool {
+/// Whether a waterline ends at a zero at the station of that of the next waterline above or below.
+fn is_shared(line: &Line<'_>, side: usize) -> bool {
     let count = line.table.stations.len();
     let outwards = |n: usize| if side == 1 { count - 1 - n } else { n };
     let zero = |j: usize| {

@@ -5,11 +5,14 @@
 //! bends that of the field near the ends alone.
 //!
 //! ```text
-//! u(w, v) = w + alpha(v) A(w) + (beta(v) - 1) B(w),   A = ((1 - w/r)+)^p,   B(w) = ((1 - (1-w)/r)+)^p
+//! u(w, v) = w + alpha(v) A(w) + (beta(v) - 1) B(w)
 //! ```
 //!
-//! Here alpha and beta are the ends in u. The reach r and the power p let u rise with w by at least a quarter
-//! everywhere. p = 5 keeps four derivatives.
+//! Here alpha and beta are the ends in u. The fade A is the spline whose control values are (1 - w/r)+ at its Greville
+//! places, on every third line of the net: straight near the end, zero beyond the reach r, with four continuous derivatives.
+//! B is the same from the other end. The reach lets u rise with w by at least a quarter; where those of the two ends meet,
+//! both are 1, and u rises by the length of the waterline. A power of 1 - w/r in their place bent the chart five times as far
+//! into the hull, and sections amidships took the waves of a profile.
 
 use super::chart::Chart;
 use super::net::{DEGREE, Net};
@@ -33,6 +36,9 @@ const CORRECTIONS: usize = 6;
 
 /// How far from an end a bend reaches at least.
 const REACH: f64 = 0.3;
+
+/// Lines of the net for each of a fade.
+const FADE: usize = 3;
 
 /// A field on its chart.
 #[derive(Debug, Clone)]
@@ -104,44 +110,45 @@ impl Field {
 pub struct Bend {
     /// u at the aft and at the forward end, over v.
     pub ends: [BsplineCurve<1>; 2],
-    /// How far from the ends the bend reaches, aft and forward.
-    pub reach: [f64; 2],
-    /// Its power, aft and forward.
-    pub power: [i32; 2],
+    /// How the bend fades with w, aft and forward.
+    pub fades: [BsplineCurve<1>; 2],
 }
 
 impl Bend {
-    /// The bend whose ends are given at any v: their control values are the ends at the Greville places (variation
+    /// The bend on knots along w and v, whose ends are given at any v: their control values are the ends at the Greville places (variation
     /// diminishing splines, Schoenberg 1967), corrected by what the spline misses there a few times, so that it comes near
     /// the interpolating spline where that does not swing.
     ///
     /// # Errors
     /// [`SplineError`] when the knots make no curve.
-    pub fn new(knots: &KnotVector, end: impl Fn(f64) -> [f64; 2]) -> Result<Self, SplineError> {
-        let wanted: Vec<[f64; 2]> = knots.greville().into_iter().map(end).collect();
-        let curve = |side: usize| through(knots, &wanted.iter().map(|ends| ends[side]).collect::<Vec<f64>>());
+    pub fn new([along, up]: [&KnotVector; 2], end: impl Fn(f64) -> [f64; 2]) -> Result<Self, SplineError> {
+        let wanted: Vec<[f64; 2]> = up.greville().into_iter().map(end).collect();
+        let curve = |side: usize| through(up, &wanted.iter().map(|ends| ends[side]).collect::<Vec<f64>>());
         let ends = [curve(0)?, curve(1)?];
-        let most = [0, 1].map(|side| off_edge(&ends[side], side));
-        let mut reach = [REACH; 2];
-        let mut power = [DEGREE as i32; 2];
-        for side in 0..2 {
-            // u_w >= 1 - p m / r.
-            let room = 1.0 - LEAST_SLOPE;
-            reach[side] = (DEGREE as f64 * most[side] / room).max(REACH);
-            if reach[side] > 0.5 {
-                reach[side] = 1.0;
-                power[side] = ((0.5 * (1.0 + room) / most[side].max(1e-9)).floor() as i32).clamp(1, DEGREE as i32);
-            }
+        // u_w >= 1 - m / r.
+        let mut reach = [0, 1].map(|side| (off_edge(&ends[side], side) / (1.0 - LEAST_SLOPE)).max(REACH));
+        if reach[0] + reach[1] > 1.0 {
+            reach = [1.0; 2];
         }
-        Ok(Self { ends, reach, power })
+        let breaks = along.breakpoints();
+        let last = breaks.len() - 1;
+        let coarse: Vec<f64> = (0..last).step_by(FADE).chain([last]).map(|k| breaks[k]).collect();
+        let fade = |side: usize| {
+            let knots = KnotVector::from_breakpoints(DEGREE, &coarse, &vec![1; coarse.len() - 2])?;
+            let from = |w: f64| if side == 0 { w } else { 1.0 - w };
+            let control = knots.greville().into_iter().map(|w| [(1.0 - from(w) / reach[side]).max(0.0)]).collect();
+            BsplineCurve::new(knots, control)
+        };
+        let fades = [fade(0)?, fade(1)?];
+        Ok(Self { ends, fades })
     }
 
     /// u at (w, v).
     #[must_use]
     pub fn u(&self, w: f64, v: f64) -> f64 {
         let [a, b] = [0, 1].map(|side| self.ends[side].eval(v)[0]);
-        let fade = |side: usize, w: f64| (1.0 - w / self.reach[side]).max(0.0).powi(self.power[side]);
-        w + a * fade(0, w) + (b - 1.0) * fade(1, 1.0 - w)
+        let [aft, forward] = [0, 1].map(|side| self.fades[side].eval(w)[0]);
+        w + a * aft + (b - 1.0) * forward
     }
 
     /// Whether no end is off an edge of the rectangle.

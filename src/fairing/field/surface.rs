@@ -1,23 +1,25 @@
 //! From the offsets of a table to the chart of its hull.
 
 use super::bent::Bent;
-use super::breaks::{FoundBreak, broken};
+use super::breaks::FoundBreak;
 use super::chart::{Chart, Shape};
-use super::choice::{Chosen, Energies, choose};
-use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::choice::{Chosen, Energies};
+use super::likeliest::{Likeliest, likeliest};
+use super::likelihood::{Cell, Observed, Smoothed, smoothed};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
-use super::observed::{EXACT, End, Observations};
+use super::observed::{EXACT, End, Observations, Zero};
 use super::region::{Bend, Field};
 use crate::spline::{KnotVector, SplineError};
+use std::f64::consts::PI;
 
 /// Heights a span at which the kind of an end is looked at.
 const SAMPLES: usize = 8;
 
-/// Powers of the steepness that are tried, the first with every chart.
-const POWERS: [f64; 3] = [0.5, 0.0, 1.0];
+/// The metric of a first field.
+const FIRST_METRIC: Metric = Metric { anisotropy: 1.0, mixed: 1.0 };
 
-/// Spans of the net over those of the table.
-const FINER: f64 = 1.5;
+/// Ratio of likelihoods below which a zero beside the hull is none of it: strong evidence (Kass and Raftery 1995).
+const NO_ZERO: f64 = 0.05;
 
 /// Distance in v at which the sides of a corner are looked at.
 const BESIDE: f64 = 1e-6;
@@ -75,31 +77,15 @@ impl LevelField {
         let greatest = seen.readings.iter().fold(0.0f64, |m, cell| m.max(cell.y));
         let least = (resolution / 12f64.sqrt()).max(LEAST_NOISE * 2.0 * greatest);
         let mut energies = Energies::new(&net);
-        let first = smooth_first(&mut energies, &seen.readings, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let mut seen = seen.clone();
+        settle(&mut seen, &mut energies, rectangle, least);
+        let seen = &seen;
+        let (_, first) =
+            smooth_first(&mut energies, &seen.readings, rectangle, least).ok_or(FieldError::Undetermined)?;
         let field = Field::new(rectangle, &net, &first.values)?;
         let steepness: Vec<f64> = seen.readings.iter().map(|cell| field.steepness(cell.x, cell.z)).collect();
-        let scaled = |power: f64| -> Vec<Cell> {
-            let scale = |(cell, s): (&Cell, &f64)| Cell { scale: cell.scale * s.powf(power), ..*cell };
-            seen.readings.iter().zip(&steepness).map(scale).collect()
-        };
-        let jacobian = |cells: &[Cell]| cells.iter().map(|cell| 2.0 * cell.scale.ln()).sum::<f64>();
-        // The power of the steepness that the errors go with: 0 where they are alike in y, as written digits are, 1 where they
-        // are alike normal to the hull, as readings of a drawing are.
-        let mut cells = scaled(POWERS[0]);
-        let mut chosen = choose(&mut energies, &cells, rectangle, least, None).ok_or(FieldError::Undetermined)?;
-        let mut power = POWERS[0];
-        let cost = |chosen: &Chosen, cells: &[Cell]| chosen.field.cost + jacobian(cells);
-        for other in &POWERS[1..] {
-            let others = scaled(*other);
-            let Some(found) = choose(&mut energies, &others, rectangle, least, Some(&chosen)) else { continue };
-            if cost(&found, &others) < cost(&chosen, &cells) {
-                (power, chosen, cells) = (*other, found, others);
-            }
-        }
-        let finer = spans.map(|count| (FINER * count as f64).round() as usize);
-        let net = Net::uniform(finer, net.intervals)?;
-        let chosen = chosen.on(&net, &cells, chosen.exponent, least).ok_or(FieldError::Undetermined)?;
-        let (net, mut chosen, lines) = broken(net, finer, &cells, chosen, least);
+        let found = likeliest(&mut energies, &seen.readings, &steepness, (rectangle, least))?;
+        let Likeliest { power, mut cells, mut chosen, net, lines } = found;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         for _ in 0..ROUNDS {
             let count = cells.len();
@@ -113,7 +99,7 @@ impl LevelField {
             if cells.len() == count {
                 break;
             }
-            let rough = Roughness::new(&net, chosen.metric).map_err(|_| FieldError::Undetermined)?;
+            let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
             let observed = Observed::new(&net, &chosen.chart, &cells);
             chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
                 .map_err(|_| FieldError::Undetermined)?;
@@ -127,12 +113,46 @@ impl LevelField {
     }
 }
 
-/// A first smooth field, for the slopes of the hull.
-fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least: f64) -> Option<Smoothed> {
+/// A first smooth field, for the slopes of the hull, and the weight of its energy.
+fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least: f64) -> Option<(f64, Smoothed)> {
     let observed = Observed::new(energies.net, &chart, cells);
-    let rough = energies.of(Metric { anisotropy: 1.0, mixed: 1.0 }).ok()?;
-    let tried = (-6..=0).filter_map(|e| smoothed(&observed, rough, 10f64.powi(e), least).ok());
-    tried.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    let rough = energies.of(FIRST_METRIC).ok()?;
+    let weights = (-6..=0).map(|e| 10f64.powi(e));
+    let tried = weights.filter_map(|weight| Some((weight, smoothed(&observed, rough, weight, least).ok()?)));
+    tried.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))
+}
+
+/// Decides which zeros beside the hull belong to it: ends that neighbouring waterlines share, which are a perpendicular or
+/// beyond the hull, and keels. A first field without them has the value m there, with standard deviation s. The half-breadth
+/// beside the zero is y.
+///
+/// ```text
+/// r = max(y, s) exp(-m^2 / 2 s^2) / (s sqrt(2 pi))
+/// ```
+///
+/// This is the likelihood of a value of zero over that of any value down to -max(y, s) (the ratio of Savage and Dickey 1971).
+/// Below [`NO_ZERO`] the zero is left out. Where the field still has breadth at an end it stays.
+fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, least: f64) {
+    let zeros = seen.zeros();
+    let net = energies.net;
+    let rows: Vec<_> = zeros.iter().map(|zero| net.row([chart.u(zero.cell.x), chart.v(zero.cell.z)])).collect();
+    let mut first = || {
+        let (weight, first) = smooth_first(energies, &seen.readings, chart, least)?;
+        let observed = Observed::new(net, &chart, &seen.readings);
+        let errors = observed.errors(energies.of(FIRST_METRIC).ok()?, weight, &first, &rows).ok()?;
+        Some((first, errors))
+    };
+    let Some((first, errors)) = first() else { return seen.settle(&vec![true; zeros.len()]) };
+    let value = |row: &[(usize, f64)]| row.iter().map(|(j, b)| b * first.values[*j]).sum::<f64>();
+    let values = rows.iter().map(|row| value(row));
+    let agrees = |(zero, (value, error)): (&Zero, (f64, &f64))| {
+        let error = error.hypot(first.sigma);
+        let apart = if zero.is_end { value.min(0.0) } else { value } / error;
+        let ratio = (zero.beside / error).max(1.0) * (-0.5 * apart * apart).exp() / (2.0 * PI).sqrt();
+        ratio >= NO_ZERO
+    };
+    let agree: Vec<bool> = zeros.iter().zip(values.zip(&errors)).map(agrees).collect();
+    seen.settle(&agree);
 }
 
 /// The ends of a hull at any height.
@@ -216,9 +236,9 @@ fn bent(net: &Net, field: &Field, seen: &Observations, most: f64) -> Result<Bent
     };
     let multiplicities: Vec<usize> = breaks[1..count - 1].iter().map(multiplicity).collect();
     let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
-    let bend = Bend::new(&knots, |v| [0, 1].map(|side| ends.at(v, side).0))?;
+    let bend = Bend::new([&net.knots[0], &knots], |v| [0, 1].map(|side| ends.at(v, side).0))?;
     let (chart, keel_closed) = (field.chart, seen.keel_closed);
-    let knots = [with_breaks(&net.knots[0], &bend)?, knots];
+    let knots = [net.knots[0].clone(), knots];
     let open = Bent { chart, knots, bend, corners, breaks: broken, closed: Default::default(), keel_closed };
     let halves = open.unresolved(field, most)?;
     let refined = open.refined(&halves)?;
@@ -226,19 +246,4 @@ fn bent(net: &Net, field: &Field, seen: &Observations, most: f64) -> Result<Bent
     let is_closed = |v: f64, side: usize| [-BESIDE, BESIDE].iter().any(|d| !ends.at((v + d).clamp(0.0, 1.0), side).1);
     let closed = [0, 1].map(|side| refined.knots[1].greville().iter().map(|&v| is_closed(v, side)).collect());
     Ok(Bent { closed, ..refined })
-}
-
-/// The knots along the field with those at which the bends begin.
-fn with_breaks(knots: &KnotVector, bend: &Bend) -> Result<KnotVector, SplineError> {
-    let mut breaks = knots.breakpoints();
-    let spacing = 1.0 / (breaks.len() - 1) as f64;
-    for side in 0..2 {
-        let at = if side == 0 { bend.reach[0] } else { 1.0 - bend.reach[1] };
-        let bends = bend.ends[side].points().iter().any(|[e]| (e - side as f64).abs() > 1e-9);
-        if bends && at > 0.0 && at < 1.0 && breaks.iter().all(|b| (b - at).abs() > 0.2 * spacing) {
-            breaks.push(at);
-        }
-    }
-    breaks.sort_by(f64::total_cmp);
-    KnotVector::from_breakpoints(DEGREE, &breaks, &vec![1; breaks.len() - 2])
 }

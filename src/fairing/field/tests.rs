@@ -2,6 +2,7 @@
 
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
+use super::density::Density;
 use super::likelihood::{Cell, Observed, Roughness, smoothed};
 use super::net::{Break, KERNEL, Metric, Net};
 use super::observed::{End, Observations};
@@ -35,7 +36,7 @@ fn field_on(net: Net) -> (Net, Vec<f64>) {
 
 /// The chart of a net that is not bent.
 fn straight(net: &Net) -> Bent {
-    let bend = Bend::new(&net.knots[1], |_| [0.0, 1.0]).unwrap();
+    let bend = Bend::new([&net.knots[0], &net.knots[1]], |_| [0.0, 1.0]).unwrap();
     let closed = [vec![false; net.shape()[1]], vec![false; net.shape()[1]]];
     let (knots, breaks) = (net.knots.clone(), net.breaks.clone());
     Bent { chart: chart(), bend, knots, corners: Vec::new(), breaks, closed, keel_closed: false }
@@ -59,7 +60,7 @@ fn the_chart_inverts_itself() {
 fn the_grounded_determinant_is_the_pseudo_determinant() {
     let net = Net::uniform([6, 5], [5.0, 4.0]).unwrap();
     let difference = |anisotropy: f64, mixed: f64| {
-        let energy = net.energy(Metric { anisotropy, mixed });
+        let energy = net.energy(Metric { anisotropy, mixed }, None);
         let n = energy.size();
         let dense = DMatrix::from_fn(n, n, |i, j| energy.get(i, j));
         let mut eigenvalues: Vec<f64> = SymmetricEigen::new(dense).eigenvalues.iter().copied().collect();
@@ -88,7 +89,7 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
             }
         })
         .collect();
-    let rough = Roughness::new(net, METRIC).unwrap();
+    let rough = Roughness::new(net, METRIC, None).unwrap();
     let observed = Observed::new(net, &chart, &cells);
     let n = cells.len();
     let rows = DMatrix::from_fn(n, net.size(), |i, j| {
@@ -132,7 +133,8 @@ fn a_chart_that_is_not_bent_has_the_energy_of_the_net() {
             .for_each(|(k, value)| *value += 0.01 * ((k % columns) * (k % columns) % 7) as f64);
         let bent = straight(&net);
         assert!(bent.bend.is_straight());
-        let (own, of_net) = (bent.energy(&net, METRIC).quadratic(&values), net.energy(METRIC).quadratic(&values));
+        let (own, of_net) =
+            (bent.energy(&net, METRIC, None).quadratic(&values), net.energy(METRIC, None).quadratic(&values));
         assert!((own - of_net).abs() < 1e-7 * of_net, "{own} {of_net}");
     }
 }
@@ -188,11 +190,11 @@ fn a_bent_chart_has_the_energy_of_the_field_within_the_hull() {
     let field = Field::new(chart, &net, &values).unwrap();
     let ends = |v: f64| [0.04 + 0.03 * (1.0 - v * v), 1.0 - 0.05 * (1.0 - v)];
     let knots = [KnotVector::uniform(5, 36).unwrap(), KnotVector::uniform(5, 16).unwrap()];
-    let bend = Bend::new(&knots[1], ends).unwrap();
+    let bend = Bend::new([&knots[0], &knots[1]], ends).unwrap();
     let closed = [vec![false; knots[1].basis_count()], vec![false; knots[1].basis_count()]];
     let bent = Bent { chart, bend, knots, corners: Vec::new(), breaks: Vec::new(), closed, keel_closed: false };
     let y = bent.half_breadths(&field).unwrap();
-    let energy = bent.energy(&net, metric).quadratic(&y);
+    let energy = bent.energy(&net, metric, None).quadratic(&y);
     let (mut sum, [rows, columns]) = (0.0, [600, 300]);
     for j in 0..columns {
         let v = (f64::from(j) + 0.5) / f64::from(columns);
@@ -242,7 +244,10 @@ fn wigley() -> OffsetTable {
 
 #[test]
 fn ends_at_perpendiculars_are_exact() {
-    let seen = Observations::new(&wigley());
+    let mut seen = Observations::new(&wigley());
+    let are_shared = |ends: [End; 2]| matches!(ends, [End::Shared(..), End::Shared(..)]);
+    assert!(seen.waterlines.iter().all(|line| are_shared(line.ends)));
+    seen.settle(&vec![true; seen.zeros().len()]);
     assert!(seen.keel_closed);
     assert_eq!(seen.extent, [[0.0, 100.0], [0.0, 6.25]]);
     assert_eq!(seen.waterlines.len(), 10);
@@ -271,7 +276,9 @@ fn spans_that_miss_the_field_are_halved() {
     let (net, values) = wavy();
     let field = Field::new(chart(), &net, &values).unwrap();
     let end = |v: f64| [0.25 * (1.0 - v).powi(2), 1.0];
-    let open = Bent { bend: Bend::new(&net.knots[1], end).unwrap(), ..straight(&net) };
+    let knots = [KnotVector::uniform(5, 48).unwrap(), net.knots[1].clone()];
+    let bend = Bend::new([&knots[0], &knots[1]], end).unwrap();
+    let open = Bent { bend, knots, ..straight(&net) };
     let misses = |bent: &Bent, most: f64| bent.unresolved(&field, most).unwrap();
     assert!(misses(&straight(&net), 1e-9).is_empty());
     let tried: Vec<f64> = (2..12).map(|k| 0.1f64.powi(k)).collect();
@@ -281,4 +288,38 @@ fn spans_that_miss_the_field_are_halved() {
     let refined = open.refined(&[1, 3, 5, 7, 9, 11, 13, 15].map(|k| f64::from(k) / 16.0)).unwrap();
     assert!(misses(&refined, 0.2 * most).is_empty(), "{most}");
     assert_eq!(refined.knots[1].basis_count(), net.knots[1].basis_count() + 8);
+}
+
+/// The energy with a density is that of the net times it where it is nearly constant, and a field that bends in one place has
+/// its density there.
+#[test]
+fn a_density_is_low_where_a_field_bends() {
+    let (net, values) = wavy();
+    // Wider than the hull, a mean is alike everywhere.
+    let density = Density::of(&net, METRIC, &values, 1e3);
+    assert!((density.at([0.2, 0.9]) - 1.0).abs() < 1e-3);
+    let [alike, own] = [Some(&density), None].map(|density| net.energy(METRIC, density).quadratic(&values));
+    assert!((alike / own - 1.0).abs() < 1e-3, "{alike} {own}");
+    let bump =
+        |u: f64, v: f64| (-80.0 * ((u - 0.3).powi(2) + (v - 0.6).powi(2))).exp() + 1e-3 * (4.0 * u + 3.0 * v).sin();
+    let bumped = straight(&net).interpolated(bump).unwrap();
+    let density = Density::of(&net, METRIC, &bumped, 1.0);
+    assert!(density.at([0.3, 0.6]) < 1e-2 && density.at([0.9, 0.1]) > 10.0);
+}
+
+/// A keel above the base and ends that neighbouring waterlines share are readings where the offsets agree.
+#[test]
+fn zeros_beside_the_hull_are_left_out_where_the_offsets_say_so() {
+    let mut table = wigley();
+    let ends = |table: &OffsetTable| {
+        let found = LevelField::new(&Observations::new(table), [21, 11], 0.0).unwrap();
+        let [aft, forward] = [0, 1].map(|side| found.bent.bend.ends[side].eval(0.8)[0]);
+        [found.chosen.chart.x(aft), found.chosen.chart.x(forward)]
+    };
+    let [aft, forward] = ends(&table);
+    assert!(aft.abs() < 1e-9 && (forward - 100.0).abs() < 1e-9, "{aft} {forward}");
+    // The last station stands 3 m beyond the stem, with its zeros.
+    table.stations[20].station.x = 103.0;
+    let [aft, forward] = ends(&table);
+    assert!(aft.abs() < 1e-9 && (forward - 100.0).abs() < 0.02, "{aft} {forward}");
 }
