@@ -116,7 +116,13 @@ fn what_goes_to_a_waterline_is_not_exported_without_one() {
     let (code, _, said) = answer(&["convert", &table, &panels]);
     assert!(code == Some(2) && said.contains("give --draught"), "{said}");
     assert_eq!(answer(&["convert", &table, &panels, "--draught", "4"]).0, Some(0));
-    assert_eq!(answer(&["convert", &table, "-f", "delftship"]).0, Some(2));
+    for format in ["delftship", "pdstrip"] {
+        let (code, text, said) = answer(&["convert", &table, "-f", format]);
+        assert!(
+            code == Some(2) && text.is_empty() && said.contains(&format!("--format {format} needs a draught")),
+            "{said}"
+        );
+    }
     // The option stands over what the file states.
     let stated = folder.write("stated.csv", format!("# T = 3 m\n{}", read_text(carried(WIGLEY))));
     for (options, draught) in [(&[][..], "3.0000"), (&["--draught", "2.5"][..], "2.5000")] {

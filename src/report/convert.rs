@@ -140,8 +140,8 @@ pub fn convert_file(
         {
             let mut table = table;
             table.stated.draught = settings.draught.or(table.stated.draught);
-            if format == ExportFormat::Delftship && !table.stated.states_draught() {
-                return Err(Failure::without_draught("--format delftship", 1));
+            if format.needs_draught() && !table.stated.states_draught() {
+                return Err(Failure::without_draught(&format!("--format {}", format.name()), 1));
             }
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }

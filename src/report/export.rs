@@ -165,7 +165,7 @@ impl ExportFormat {
     }
 
     /// Whether the file goes up to a waterline or names one, so that it needs a draught.
-    const fn needs_draught(self) -> bool {
+    pub(super) const fn needs_draught(self) -> bool {
         self.is_panels() || matches!(self, Self::Pdstrip | Self::Michlet | Self::Delftship)
     }
 
