@@ -237,7 +237,7 @@ pub fn diagnose(
     }
     let held = |constraint: &usize| program.names.contains(&RowName::Constraint(*constraint));
     let constraints: Vec<usize> = (0..targets.len()).filter(held).collect();
-    // Whether the other targets can be had together is asked, and no proof that they cannot.
+    // Whether the other targets are feasible together is asked, and no proof that they are not.
     let settings = Settings { proof: false, ..settings.clone() };
     let mut asked = Asked { program, cut, solver: RepeatedSolver::new(&settings), programs: rules.len() };
     let mut reaches = Vec::new();

@@ -409,10 +409,10 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 ///
 /// # Errors
 /// [`Failure::Internal`] when the solid is not closed. [`Failure::Usage`] in these cases:
-/// * nothing or the deck is immersed at the draught, or a format needs a draught that nobody states,
-/// * a format is named twice,
-/// * the deviation is less than a millionth of the breadth or more than a tenth of the lesser of breadth and depth,
-/// * the deviation asks for too many triangles,
+/// * nothing or the deck is immersed at the draught, or a format lacks its draught.
+/// * a format is named twice.
+/// * the deviation is less than a millionth of the breadth or more than a tenth of the lesser of breadth and depth.
+/// * the deviation asks for too many triangles.
 /// * the datum is a hundred depths away.
 pub fn export(
     hull: &Hull,

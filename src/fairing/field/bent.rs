@@ -101,18 +101,23 @@ impl Bent {
     /// # Errors
     /// [`SplineError`] when the knots do not determine them.
     pub fn half_breadths(&self, field: &Field) -> Result<Vec<f64>, SplineError> {
-        let mut values = self.interpolated(|w, v| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]))?;
+        let mut values = self.interpolated(|w, v| self.of_field(field, w, v))?;
         (0..values.len()).filter(|&k| self.is_closed(k)).for_each(|k| values[k] = 0.0);
         Ok(values)
     }
 
-    /// Middles of the spans along v where the net misses the field by more than `most` \[m\]: where the chart bends far,
-    /// sections of the field are none of splines on the knots of its net.
+    /// Half-breadth of a field at (w, v) \[m\].
+    fn of_field(&self, field: &Field, w: f64, v: f64) -> f64 {
+        field.at([self.bend.u(w, v).clamp(0.0, 1.0), v])
+    }
+
+    /// Middles of the spans along v where the net misses the field by more than `most` \[m\]. Where the chart bends far,
+    /// sections of the field are no splines on the knots of its net.
     ///
     /// # Errors
     /// [`SplineError`] when the knots do not determine the net.
     pub fn unresolved(&self, field: &Field, most: f64) -> Result<Vec<f64>, SplineError> {
-        let exact = |w: f64, v: f64| field.at([self.bend.u(w, v).clamp(0.0, 1.0), v]);
+        let exact = |w: f64, v: f64| self.of_field(field, w, v);
         let values = self.interpolated(exact)?.into_iter().map(|y| [y]).collect();
         let surface = BsplineSurface::<1>::new(self.knots[0].clone(), self.knots[1].clone(), values)?;
         let [along, up] = [self.knots[0].breakpoints(), self.knots[1].breakpoints()];

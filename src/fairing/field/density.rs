@@ -1,12 +1,12 @@
-//! Where a field bends more than elsewhere: the energy over what it is about a place.
+//! Where a field bends more than elsewhere: the energy with a density rho.
 //!
 //! ```text
 //! E = int int rho sum_k g_k C(4, k) a^(1-2k) (d^4 y / ds^(4-k) dt^k)^2 ds dt,   rho = exp(mean log e) / e
 //! ```
 //!
 //! Here e is what a first field has in the place of the sum, averaged with a Gaussian of some intervals. A field is a
-//! random one whose fourth derivatives have the variance e / w: bow, stern and bilge bend more than a middle body. That of
-//! one variance everywhere is off the offsets at a bulb by what it smooths amidships (Pintore, Speckman and Holmes 2006).
+//! random one whose fourth derivatives have the variance e / w. Bow, stern and bilge bend more than a middle body. A field
+//! of one variance everywhere is off the offsets at a bulb by what it smooths amidships (Pintore, Speckman and Holmes 2006).
 
 use super::net::{DEGREE, Metric, Net, ORDER};
 use crate::numeric::{SymmetricBand, gauss_legendre};

@@ -164,23 +164,24 @@ impl Observations {
         };
         let end = |line: &Waterline, end: End| {
             let End::Shared(x, beyond) = end else { return None };
-            let cell = Cell { x: beyond, z: line.z, y: 0.0, scale: EXACT };
-            Some(Zero { cell, beside: breadth(x, line.z), is_end: true })
+            Some(Zero { cell: shared(beyond, line.z), beside: breadth(x, line.z), is_end: true })
         };
         let ends = self.waterlines.iter().flat_map(|line| line.ends.map(|e| end(line, e))).flatten();
         self.keels.iter().copied().chain(ends).collect()
     }
 
     /// Takes for readings those of [`Self::zeros`] that agree with the offsets. Other ends are somewhere before such a zero.
-    pub fn settle(&mut self, agree: &[bool]) {
-        let zeros = self.zeros();
-        self.readings.extend(zeros.iter().zip(agree).filter(|(_, agrees)| **agrees).map(|(zero, _)| zero.cell));
-        let mut agree = agree[self.keels.len()..].iter();
+    pub fn settle(&mut self, agreeing: &[Zero]) {
+        self.readings.extend(agreeing.iter().map(|zero| zero.cell));
         self.keels.clear();
-        for end in self.waterlines.iter_mut().flat_map(|line| &mut line.ends) {
-            let End::Shared(x, beyond) = *end else { continue };
-            let closes = agree.next().is_none_or(|agrees| *agrees);
-            *end = if closes { End::Closed(beyond) } else { End::Between(x, beyond) };
+        for line in &mut self.waterlines {
+            let z = line.z;
+            for end in &mut line.ends {
+                let End::Shared(x, beyond) = *end else { continue };
+                let cell = shared(beyond, z);
+                let closes = agreeing.iter().any(|zero| zero.is_end && zero.cell == cell);
+                *end = if closes { End::Closed(beyond) } else { End::Between(x, beyond) };
+            }
         }
     }
 
@@ -261,6 +262,11 @@ impl Observations {
         let Some(y) = station.edge_half_breadth(line.j) else { return };
         self.bounds.push(Cell { x: station.station.x, z: line.table.waterlines[line.j], y, scale: 1.0 });
     }
+}
+
+/// The zero at which a waterline may end.
+fn shared(x: f64, z: f64) -> Cell {
+    Cell { x, z, y: 0.0, scale: EXACT }
 }
 
 /// x of the plane at a height, where the last station with breadth is not aft of it.

@@ -115,9 +115,9 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// The bend on knots along w and v, whose ends are given at any v: their control values are the ends at the Greville places (variation
-    /// diminishing splines, Schoenberg 1967), corrected by what the spline misses there a few times, so that it comes near
-    /// the interpolating spline where that does not swing.
+    /// The bend on knots along w and v, whose ends are given at any v. Their control values are the ends at the Greville
+    /// places (variation diminishing splines, Schoenberg 1967). They are corrected a few times by what the spline misses
+    /// there, so that it comes near the interpolating spline where that does not swing.
     ///
     /// # Errors
     /// [`SplineError`] when the knots make no curve.
@@ -133,11 +133,11 @@ impl Bend {
         let breaks = along.breakpoints();
         let last = breaks.len() - 1;
         let coarse: Vec<f64> = (0..last).step_by(FADE).chain([last]).map(|k| breaks[k]).collect();
+        let knots = KnotVector::from_breakpoints(DEGREE, &coarse, &vec![1; coarse.len() - 2])?;
         let fade = |side: usize| {
-            let knots = KnotVector::from_breakpoints(DEGREE, &coarse, &vec![1; coarse.len() - 2])?;
             let from = |w: f64| if side == 0 { w } else { 1.0 - w };
             let control = knots.greville().into_iter().map(|w| [(1.0 - from(w) / reach[side]).max(0.0)]).collect();
-            BsplineCurve::new(knots, control)
+            BsplineCurve::new(knots.clone(), control)
         };
         let fades = [fade(0)?, fade(1)?];
         Ok(Self { ends, fades })

@@ -122,16 +122,16 @@ fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least
     tried.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))
 }
 
-/// Decides which zeros beside the hull belong to it: ends that neighbouring waterlines share, which are a perpendicular or
-/// beyond the hull, and keels. A first field without them has the value m there, with standard deviation s. The half-breadth
-/// beside the zero is y.
+/// Decides which zeros beside the hull belong to it: keels, and ends that neighbouring waterlines share. Such an end is a
+/// perpendicular or beyond the hull. A first field without the zeros has the value m there, with standard deviation s. The
+/// half-breadth beside the zero is y. The ratio of Savage and Dickey (1971) decides.
 ///
 /// ```text
 /// r = max(y, s) exp(-m^2 / 2 s^2) / (s sqrt(2 pi))
 /// ```
 ///
-/// This is the likelihood of a value of zero over that of any value down to -max(y, s) (the ratio of Savage and Dickey 1971).
-/// Below [`NO_ZERO`] the zero is left out. Where the field still has breadth at an end it stays.
+/// It is the likelihood of a value of zero over that of any value down to -max(y, s). Below [`NO_ZERO`] the zero is left out.
+/// Where the field still has breadth at an end it stays.
 fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, least: f64) {
     let zeros = seen.zeros();
     let net = energies.net;
@@ -142,17 +142,17 @@ fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, le
         let errors = observed.errors(energies.of(FIRST_METRIC).ok()?, weight, &first, &rows).ok()?;
         Some((first, errors))
     };
-    let Some((first, errors)) = first() else { return seen.settle(&vec![true; zeros.len()]) };
+    let Some((first, errors)) = first() else { return seen.settle(&zeros) };
     let value = |row: &[(usize, f64)]| row.iter().map(|(j, b)| b * first.values[*j]).sum::<f64>();
-    let values = rows.iter().map(|row| value(row));
-    let agrees = |(zero, (value, error)): (&Zero, (f64, &f64))| {
+    let agrees = |zero: &Zero, value: f64, error: f64| {
         let error = error.hypot(first.sigma);
         let apart = if zero.is_end { value.min(0.0) } else { value } / error;
         let ratio = (zero.beside / error).max(1.0) * (-0.5 * apart * apart).exp() / (2.0 * PI).sqrt();
         ratio >= NO_ZERO
     };
-    let agree: Vec<bool> = zeros.iter().zip(values.zip(&errors)).map(agrees).collect();
-    seen.settle(&agree);
+    let found = zeros.iter().zip(rows.iter().zip(&errors));
+    let agreeing = found.filter(|(zero, (row, error))| agrees(zero, value(row), **error)).map(|(zero, _)| *zero);
+    seen.settle(&agreeing.collect::<Vec<_>>());
 }
 
 /// The ends of a hull at any height.

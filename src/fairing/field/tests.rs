@@ -247,7 +247,7 @@ fn ends_at_perpendiculars_are_exact() {
     let mut seen = Observations::new(&wigley());
     let are_shared = |ends: [End; 2]| matches!(ends, [End::Shared(..), End::Shared(..)]);
     assert!(seen.waterlines.iter().all(|line| are_shared(line.ends)));
-    seen.settle(&vec![true; seen.zeros().len()]);
+    seen.settle(&seen.zeros());
     assert!(seen.keel_closed);
     assert_eq!(seen.extent, [[0.0, 100.0], [0.0, 6.25]]);
     assert_eq!(seen.waterlines.len(), 10);
