@@ -193,7 +193,7 @@ impl Lines {
         let count = (self.sites.len() * lines.len()) as f64;
         // None where the splines are not determined; no number where they take all freedom.
         let at = |power: i32| -> Option<f64> {
-            let factor = normal.plus(unit * 10f64.powi(power), &energy).factor().ok()?;
+            let factor = normal.factor_plus(unit * 10f64.powi(power), &energy).ok()?;
             let inverse = factor.inverse_band();
             let edf: f64 = rows
                 .iter()

@@ -8,7 +8,7 @@ use super::SingularMatrix;
 use super::dense::{Block, divide_by_triangle, dot, factor_panel, subtract_product};
 
 /// Most columns of a panel.
-const BLOCK: usize = 48;
+const BLOCK: usize = 32;
 
 /// M = L L' with L lower triangular and banded.
 #[derive(Debug, Clone)]
@@ -16,19 +16,19 @@ pub struct BandedCholesky {
     panels: Panels,
 }
 
-/// A symmetric banded matrix: its lower half, row by row.
+/// A symmetric banded matrix: its lower half, column by column from the diagonal down.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SymmetricBand {
     size: usize,
     width: usize,
-    rows: Vec<f64>,
+    columns: Vec<f64>,
 }
 
 impl SymmetricBand {
     /// A zero matrix of `size` rows with `width` diagonals below the main one.
     #[must_use]
     pub fn zeros(size: usize, width: usize) -> Self {
-        Self { size, width, rows: vec![0.0; size * (width + 1)] }
+        Self { size, width, columns: vec![0.0; size * (width + 1)] }
     }
 
     /// Number of rows.
@@ -45,65 +45,85 @@ impl SymmetricBand {
 
     fn place(&self, i: usize, j: usize) -> Option<usize> {
         let (row, column) = if i >= j { (i, j) } else { (j, i) };
-        (row - column <= self.width).then(|| row * (self.width + 1) + self.width + column - row)
+        (row - column <= self.width).then(|| column * (self.width + 1) + row - column)
+    }
+
+    /// Columns, each from its diagonal down to the last row of the band.
+    fn columns_down(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        let last = self.size.saturating_sub(1);
+        let columns = self.columns.chunks_exact(self.width + 1).enumerate();
+        columns.map(move |(j, column)| (j, &column[..=self.width.min(last - j)]))
     }
 
     /// Adds to the entry (i, j), and so to (j, i). Outside the band nothing can be added.
     pub fn add(&mut self, i: usize, j: usize, value: f64) {
         debug_assert!(i.abs_diff(j) <= self.width, "({i}, {j}) outside {} diagonals", self.width);
         if let Some(place) = self.place(i, j) {
-            self.rows[place] += value;
+            self.columns[place] += value;
         }
+    }
+
+    /// Adds to the entries (i, j), (i + 1, j) and so on, from the diagonal on and inside the band.
+    pub fn add_run(&mut self, i: usize, j: usize, values: &[f64]) {
+        let place = j * (self.width + 1) + i - j;
+        self.columns[place..place + values.len()].iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+    }
+
+    /// The matrix with rows and columns of the unit matrix in some places. Its determinant is that of the other rows and
+    /// columns.
+    #[must_use]
+    pub fn without(mut self, places: &[usize]) -> Self {
+        let (w, last) = (self.width, self.size.saturating_sub(1));
+        for &k in places {
+            (k.saturating_sub(w)..k).for_each(|j| self.columns[j * (w + 1) + k - j] = 0.0);
+            self.columns[k * (w + 1)..=k * (w + 1) + w.min(last - k)].fill(0.0);
+            self.columns[k * (w + 1)] = 1.0;
+        }
+        self
     }
 
     /// The entry (i, j); 0 outside the band.
     #[must_use]
     pub fn get(&self, i: usize, j: usize) -> f64 {
-        self.place(i, j).map_or(0.0, |place| self.rows[place])
+        self.place(i, j).map_or(0.0, |place| self.columns[place])
     }
 
     /// self + factor * other, for matrices of one shape.
     #[must_use]
     pub fn plus(&self, factor: f64, other: &Self) -> Self {
-        let rows = self.rows.iter().zip(&other.rows).map(|(a, b)| a + factor * b).collect();
-        Self { rows, ..*self }
+        let columns = self.columns.iter().zip(&other.columns).map(|(a, b)| a + factor * b).collect();
+        Self { columns, ..*self }
     }
 
     /// Adds factor * other, whose band is no wider.
     pub fn add_band(&mut self, factor: f64, other: &Self) {
-        for i in 0..other.size {
-            for j in i.saturating_sub(other.width)..=i {
-                self.add(i, j, factor * other.get(i, j));
-            }
+        let columns = self.columns.chunks_exact_mut(self.width + 1);
+        for (own, (_, added)) in columns.zip(other.columns_down()) {
+            own.iter_mut().zip(added).for_each(|(own, added)| *own += factor * added);
         }
     }
 
     /// Sum of the diagonal.
     #[must_use]
     pub fn trace(&self) -> f64 {
-        self.rows.iter().skip(self.width).step_by(self.width + 1).sum()
+        self.columns.iter().step_by(self.width + 1).sum()
     }
 
     /// Sum of M_ij N_ij over all entries, which is the trace of M N; both of one shape.
     #[must_use]
     pub fn trace_of_product(&self, other: &Self) -> f64 {
-        let rows = self.rows.chunks_exact(self.width + 1).zip(other.rows.chunks_exact(self.width + 1));
-        rows.map(|(a, b)| 2.0 * dot(&a[..self.width], &b[..self.width]) + a[self.width] * b[self.width]).sum()
+        let pairs = self.columns.chunks_exact(self.width + 1).zip(other.columns.chunks_exact(self.width + 1));
+        pairs.map(|(a, b)| 2.0 * dot(&a[1..], &b[1..]) + a[0] * b[0]).sum()
     }
 
     /// M x.
     #[must_use]
     pub fn apply(&self, x: &[f64]) -> Vec<f64> {
-        let w = self.width;
         let mut product = vec![0.0; self.size];
-        for i in 0..self.size {
-            let first = i.saturating_sub(w);
-            let row = &self.rows[i * (w + 1) + w + first - i..=i * (w + 1) + w];
-            for (j, value) in (first..i).zip(row) {
-                product[i] += value * x[j];
-                product[j] += value * x[i];
-            }
-            product[i] += row[i - first] * x[i];
+        for (j, column) in self.columns_down() {
+            let (own, below) = (x[j], &column[1..]);
+            product[j] += column[0] * own + dot(below, &x[j + 1..]);
+            product[j + 1..].iter_mut().zip(below).for_each(|(sum, value)| *sum += value * own);
         }
         product
     }
@@ -111,7 +131,7 @@ impl SymmetricBand {
     /// x'M x.
     #[must_use]
     pub fn quadratic(&self, x: &[f64]) -> f64 {
-        self.apply(x).iter().zip(x).map(|(m, x)| m * x).sum()
+        self.columns_down().map(|(j, column)| x[j] * (column[0] * x[j] + 2.0 * dot(&column[1..], &x[j + 1..]))).sum()
     }
 
     /// a'M a for a row a of rising columns, all within the band of each other.
@@ -131,17 +151,19 @@ impl SymmetricBand {
     fn form_of_runs<const R: usize>(&self, columns: &[usize], values: &[f64]) -> f64 {
         let runs = columns.chunks_exact(R).take_while(|run| run[R - 1] == run[0] + R - 1).count() * R;
         let (w, mut sum) = (self.width, 0.0);
-        for (k, (&i, value)) in columns.iter().zip(values).enumerate() {
-            let own = &self.rows[i * (w + 1)..(i + 1) * (w + 1)];
-            let whole = k.min(runs) / R * R;
+        for (k, (&j, value)) in columns.iter().zip(values).enumerate() {
+            let own = &self.columns[j * (w + 1)..(j + 1) * (w + 1)];
+            // Whole runs below, and what is below one by one.
+            let whole = if k < runs { (k + 1).next_multiple_of(R)..runs } else { k + 1..k + 1 };
             let mut lanes = [0.0; R];
-            for (run, others) in columns[..whole].chunks_exact(R).zip(values[..whole].chunks_exact(R)) {
-                let from = w + run[0] - i;
-                let entries = &own[from..from + R];
+            let pairs = columns[whole.clone()].chunks_exact(R).zip(values[whole.clone()].chunks_exact(R));
+            for (run, others) in pairs {
+                let entries = &own[run[0] - j..run[0] - j + R];
                 (0..R).for_each(|t| lanes[t] += entries[t] * others[t]);
             }
-            let rest: f64 = columns[whole..k].iter().zip(&values[whole..k]).map(|(j, a)| own[w + j - i] * a).sum();
-            sum += value * (2.0 * (lanes.iter().sum::<f64>() + rest) + value * own[w]);
+            let single = (k + 1..whole.start).chain(whole.end..columns.len());
+            let rest: f64 = single.map(|t| own[columns[t] - j] * values[t]).sum();
+            sum += value * (2.0 * (lanes.iter().sum::<f64>() + rest) + value * own[0]);
         }
         sum
     }
@@ -151,33 +173,23 @@ impl SymmetricBand {
     /// # Errors
     /// [`SingularMatrix`] at the first pivot that is not above rounding: the matrix is not positive definite.
     pub fn factor(&self) -> Result<BandedCholesky, SingularMatrix> {
-        let mut panels = Panels::zeros(self.size, self.width);
-        for i in 0..self.size {
-            for j in i.saturating_sub(self.width)..=i {
-                panels.set(i, j, self.rows[i * (self.width + 1) + self.width + j - i]);
-            }
-        }
-        for p in 0..panels.count() {
-            let columns = panels.columns(p);
-            let (first, height) = (p * panels.block, panels.height());
-            let (done, rest) = panels.values.split_at_mut((p + 1) * panels.block * height);
-            let panel = &mut done[p * panels.block * height..];
-            let below = Panels::reach(self.size, self.width, first + columns);
-            let least = |j: usize| 1e-15 * self.rows[(first + j) * (self.width + 1) + self.width];
-            factor_panel(panel, [columns + below, columns], height, &least)
-                .map_err(|j| SingularMatrix { column: first + j })?;
-            let under = Block::new(panel, [columns + below, columns], height).rows_from(columns, below);
-            for (q, panel) in rest.chunks_exact_mut(panels.block * height).enumerate() {
-                let offset = q * panels.block;
-                if offset >= below {
-                    break;
-                }
-                let columns = panels.block.min(below - offset);
-                let (tall, short) = (under.rows_from(offset, below - offset), under.rows_from(offset, columns));
-                subtract_product(panel, height, tall, short.transposed());
-            }
-        }
-        Ok(BandedCholesky { panels })
+        let copy = |j: usize, column: &mut [f64]| {
+            column.copy_from_slice(&self.columns[j * (self.width + 1)..(j + 1) * (self.width + 1)]);
+        };
+        Panels::new(self.size, self.width, copy).factored()
+    }
+
+    /// Factors self + factor * other, for matrices of one shape.
+    ///
+    /// # Errors
+    /// As [`Self::factor`].
+    pub fn factor_plus(&self, factor: f64, other: &Self) -> Result<BandedCholesky, SingularMatrix> {
+        let add = |j: usize, column: &mut [f64]| {
+            let place = j * (self.width + 1)..(j + 1) * (self.width + 1);
+            let pairs = self.columns[place.clone()].iter().zip(&other.columns[place]);
+            column.iter_mut().zip(pairs).for_each(|(sum, (a, b))| *sum = a + factor * b);
+        };
+        Panels::new(self.size, self.width, add).factored()
     }
 }
 
@@ -196,6 +208,40 @@ impl Panels {
     fn zeros(size: usize, width: usize) -> Self {
         let block = width.clamp(1, BLOCK);
         Self { size, width, block, values: vec![0.0; size.div_ceil(block) * block * (block + width)] }
+    }
+
+    /// What `fill` writes to the columns, from their diagonals on.
+    fn new(size: usize, width: usize, fill: impl Fn(usize, &mut [f64])) -> Self {
+        let mut panels = Self::zeros(size, width);
+        for j in 0..size {
+            let place = panels.place(j, j);
+            fill(j, &mut panels.values[place..=place + width]);
+        }
+        panels
+    }
+
+    fn factored(mut self) -> Result<BandedCholesky, SingularMatrix> {
+        let (block, height) = (self.block, self.height());
+        let least: Vec<f64> = (0..self.size).map(|j| 1e-15 * self.values[self.place(j, j)]).collect();
+        for p in 0..self.count() {
+            let (columns, first) = (self.columns(p), p * block);
+            let (done, rest) = self.values.split_at_mut((p + 1) * block * height);
+            let panel = &mut done[p * block * height..];
+            let below = Self::reach(self.size, self.width, first + columns);
+            factor_panel(panel, [columns + below, columns], height, &|j| least[first + j])
+                .map_err(|j| SingularMatrix { column: first + j })?;
+            let under = Block::new(panel, [columns + below, columns], height).rows_from(columns, below);
+            for (q, panel) in rest.chunks_exact_mut(block * height).enumerate() {
+                let offset = q * block;
+                if offset >= below {
+                    break;
+                }
+                let columns = block.min(below - offset);
+                let (tall, short) = (under.rows_from(offset, below - offset), under.rows_from(offset, columns));
+                subtract_product(panel, height, tall, short.transposed());
+            }
+        }
+        Ok(BandedCholesky { panels: self })
     }
 
     fn count(&self) -> usize {
@@ -219,9 +265,10 @@ impl Panels {
         j * self.height() + i - j / self.block * self.block
     }
 
-    fn set(&mut self, i: usize, j: usize, value: f64) {
-        let place = self.place(i, j);
-        self.values[place] = value;
+    /// The first entries of a column, from its diagonal down.
+    fn diagonal(&self, j: usize, count: usize) -> &[f64] {
+        let place = self.place(j, j);
+        &self.values[place..place + count]
     }
 
     /// Columns, each from its diagonal down.
@@ -279,6 +326,46 @@ impl BandedCholesky {
             let value = b[j] / column[0];
             b[j] = value;
             b[j + 1..j + column.len()].iter_mut().zip(&column[1..]).for_each(|(b, entry)| *b -= entry * value);
+        }
+    }
+
+    /// Solves M X = B in place for right-hand sides that follow one another, in products of dense blocks.
+    pub fn solve_blocks(&self, b: &mut [f64]) {
+        let (n, block) = (self.panels.size, self.panels.block);
+        let count = b.len() / n.max(1);
+        let mut known = Vec::new();
+        for p in 0..self.panels.count() {
+            let (panel, columns, first) = (self.panels.panel(p), self.panels.columns(p), p * block);
+            known.clear();
+            for b in b.chunks_exact_mut(n) {
+                let own = &mut b[first..first + columns];
+                for j in 0..columns {
+                    let column = self.panels.diagonal(first + j, columns - j);
+                    own[j] /= column[0];
+                    let value = own[j];
+                    own[j + 1..].iter_mut().zip(&column[1..]).for_each(|(b, entry)| *b -= entry * value);
+                }
+                known.extend_from_slice(own);
+            }
+            let under = panel.rows_from(columns, panel.rows() - columns);
+            if let Some(below) = b.get_mut(first + columns..) {
+                subtract_product(below, n, under, Block::new(&known, [columns, count], columns));
+            }
+        }
+        for p in (0..self.panels.count()).rev() {
+            let (panel, columns, first) = (self.panels.panel(p), self.panels.columns(p), p * block);
+            let below = panel.rows() - columns;
+            known.clear();
+            b.chunks_exact(n).for_each(|b| known.extend_from_slice(&b[first + columns..first + panel.rows()]));
+            let under = panel.rows_from(columns, below).transposed();
+            subtract_product(&mut b[first..], n, under, Block::new(&known, [below, count], below));
+            for b in b.chunks_exact_mut(n) {
+                let own = &mut b[first..first + columns];
+                for j in (0..columns).rev() {
+                    let column = self.panels.diagonal(first + j, columns - j);
+                    own[j] = (own[j] - dot(&column[1..], &own[j + 1..])) / column[0];
+                }
+            }
         }
     }
 
@@ -347,9 +434,7 @@ impl BandedCholesky {
         }
         let mut band = SymmetricBand::zeros(n, w);
         for (j, column) in inverse.columns_down() {
-            for (i, value) in (j..).zip(column) {
-                band.rows[i * (w + 1) + w + j - i] = *value;
-            }
+            band.columns[j * (w + 1)..][..column.len()].copy_from_slice(column);
         }
         band
     }

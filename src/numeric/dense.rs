@@ -8,6 +8,9 @@ use nalgebra::{DMatrixView, DMatrixViewMut, Dyn};
 /// Columns of a panel that are eliminated one after the other.
 const NARROW: usize = 16;
 
+/// Rows of a narrow panel that are divided by its triangle at once.
+const LANES: usize = 8;
+
 /// A block that is read: entry (i, j) is `values[i * strides[0] + j * strides[1]]`.
 #[derive(Clone, Copy)]
 pub(crate) struct Block<'a> {
@@ -113,21 +116,36 @@ fn factor_columns(
         subtract_product(&mut rest[half..], stride, tall, short.transposed());
         return factor_columns(&mut rest[half..], [rows - half, columns - half], stride, first + half, least);
     }
-    for j in 0..columns {
-        let (done, rest) = panel.split_at_mut((j * stride + rows).min(panel.len()));
-        let column = &mut done[j * stride + j..];
-        let pivot = column[0];
-        if !(pivot > least(first + j) && pivot.is_finite()) {
-            return Err(first + j);
+    // Row by row: l_ij = (a_ij - sum_k l_ik l_jk) / l_jj.
+    let mut triangle = [[0.0; NARROW]; NARROW];
+    for i in 0..columns {
+        for j in 0..=i {
+            let mut value = panel[j * stride + i];
+            (0..j).for_each(|k| value -= triangle[i][k] * triangle[j][k]);
+            if i == j {
+                if !(value > least(first + j) && value.is_finite()) {
+                    return Err(first + j);
+                }
+                triangle[j][j] = value.sqrt();
+            } else {
+                triangle[i][j] = value / triangle[j][j];
+            }
+            panel[j * stride + i] = triangle[i][j];
         }
-        let root = pivot.sqrt();
-        column.iter_mut().for_each(|value| *value /= root);
-        column[0] = root;
-        for k in j + 1..columns {
-            let start = (k - j) * stride + k - rows;
-            let other = &mut rest[start..start + rows - k];
-            let factor = column[k - j];
-            other.iter_mut().zip(&column[k - j..]).for_each(|(value, entry)| *value -= factor * entry);
+    }
+    for row in (columns..rows).step_by(LANES) {
+        let count = LANES.min(rows - row);
+        let mut lanes = [[0.0; LANES]; NARROW];
+        for j in 0..columns {
+            let target = &mut panel[j * stride + row..j * stride + row + count];
+            let mut values = [0.0; LANES];
+            values[..count].copy_from_slice(target);
+            for (known, factor) in lanes[..j].iter().zip(&triangle[j]) {
+                (0..LANES).for_each(|t| values[t] -= known[t] * factor);
+            }
+            values.iter_mut().for_each(|value| *value /= triangle[j][j]);
+            target.copy_from_slice(&values[..count]);
+            lanes[j] = values;
         }
     }
     Ok(())
