@@ -8,8 +8,9 @@
 //! random one whose fourth derivatives have the variance e / w. Bow, stern and bilge bend more than a middle body. A field
 //! of one variance everywhere is off the offsets at a bulb by what it smooths amidships (Pintore, Speckman and Holmes 2006).
 
-use super::net::{DEGREE, Metric, Net, ORDER};
+use super::net::{DEGREE, Metric, Net, ORDER, add_block};
 use crate::numeric::{SymmetricBand, gauss_legendre};
+use nalgebra::DMatrix;
 
 /// Greatest rho, and that of 1 / rho.
 const MOST: f64 = 1e4;
@@ -57,17 +58,25 @@ impl Density {
     pub fn of(net: &Net, metric: Metric, values: &[f64], width: f64) -> Self {
         let (ahead, above) = (nodes(net, 0), nodes(net, 1));
         let (columns, factors) = (net.shape()[1], net.factors(metric));
-        let energy = |p: &Node, q: &Node| -> f64 {
-            let derivative = |k: usize| -> f64 {
-                let row = |r: usize| -> f64 {
-                    let from = (p.first + r) * columns + q.first;
-                    q.orders[k].iter().zip(&values[from..=from + DEGREE]).map(|(b, c)| b * c).sum()
+        let energies = |p: &Node| -> Vec<f64> {
+            // What the derivatives by u of the field are in control values along v.
+            let lines: [Vec<f64>; ORDER + 1] = std::array::from_fn(|k| {
+                let mut line = vec![0.0; columns];
+                for (r, b) in p.orders[ORDER - k].iter().enumerate() {
+                    let row = &values[(p.first + r) * columns..(p.first + r + 1) * columns];
+                    line.iter_mut().zip(row).for_each(|(sum, c)| *sum += b * c);
+                }
+                line
+            });
+            let energy = |q: &Node| -> f64 {
+                let derivative = |k: usize| -> f64 {
+                    q.orders[k].iter().zip(&lines[k][q.first..=q.first + DEGREE]).map(|(b, c)| b * c).sum()
                 };
-                (0..=DEGREE).map(|r| p.orders[ORDER - k][r] * row(r)).sum()
+                (0..=ORDER).map(|k| factors[k] * derivative(k).powi(2)).sum()
             };
-            (0..=ORDER).map(|k| factors[k] * derivative(k).powi(2)).sum()
+            above.iter().map(energy).collect()
         };
-        let found: Vec<Vec<f64>> = ahead.iter().map(|p| above.iter().map(|q| energy(p, q)).collect()).collect();
+        let found: Vec<Vec<f64>> = ahead.iter().map(energies).collect();
         let steps = net.intervals.map(|count| (PLACES * count).ceil().max(1.0) as usize);
         let means = |nodes: &[Node], k: usize| -> Vec<Vec<f64>> {
             let row = |step: usize| {
@@ -113,42 +122,49 @@ impl Density {
         ((1.0 - t) * along(j) + t * along(j + 1)).exp()
     }
 
-    /// The energy of a net with this factor.
-    pub(super) fn energy(&self, net: &Net, metric: Metric) -> SymmetricBand {
-        let mut matrix = SymmetricBand::zeros(net.size(), net.energy_width());
+    /// Adds the energy of a net with this factor. It is summed along v first, at each u of the rule (sum factorisation; Orszag
+    /// 1980).
+    pub(super) fn add_energy(&self, net: &Net, metric: Metric, matrix: &mut SymmetricBand) {
+        const COUNT: usize = DEGREE + 1;
+        const TERMS: usize = NODES * (ORDER + 1);
         let (columns, factors) = (net.shape()[1], net.factors(metric));
         let (ahead, above) = (nodes(net, 0), nodes(net, 1));
-        const COUNT: usize = DEGREE + 1;
-        const SIZE: usize = COUNT * COUNT;
-        for p in ahead.chunks(NODES) {
-            for q in above.chunks(NODES) {
-                let mut block = [[0.0; SIZE]; SIZE];
+        let pairs: Vec<[usize; 2]> = (0..COUNT).flat_map(|a| (0..=a).map(move |b| [a, b])).collect();
+        // Of every order the products of the functions along v, with the weight of the node.
+        let products: Vec<[[[f64; COUNT]; COUNT]; ORDER + 1]> = above
+            .iter()
+            .map(|node| {
+                node.orders.map(|row| {
+                    let run = |l: usize, t: usize| if l + t < COUNT { node.weight * row[l] * row[l + t] } else { 0.0 };
+                    std::array::from_fn(|l| std::array::from_fn(|t| run(l, t)))
+                })
+            })
+            .collect();
+        for cell in ahead.chunks(NODES) {
+            let mut strips = DMatrix::<f64>::zeros(columns * COUNT, TERMS);
+            let mut along = DMatrix::<f64>::zeros(TERMS, pairs.len());
+            for (p, node) in cell.iter().enumerate() {
+                let rho: Vec<f64> = above.iter().map(|other| self.at([node.at, other.at])).collect();
                 for k in 0..=ORDER {
-                    for node in p {
-                        // What the functions along v have at this u.
-                        let mut up = [[0.0; COUNT]; COUNT];
-                        for other in q {
-                            let measure = factors[k] * node.weight * other.weight * self.at([node.at, other.at]);
-                            for (row, a) in up.iter_mut().zip(&other.orders[k]) {
-                                row.iter_mut().zip(&other.orders[k]).for_each(|(value, b)| *value += measure * a * b);
-                            }
-                        }
-                        let along = &node.orders[ORDER - k];
-                        for a in 0..SIZE {
-                            for b in 0..=a {
-                                block[a][b] += along[a / COUNT] * along[b / COUNT] * up[a % COUNT][b % COUNT];
-                            }
+                    let term = p * (ORDER + 1) + k;
+                    let mut strip = strips.column_mut(term);
+                    let (runs, _) = strip.as_mut_slice().as_chunks_mut::<COUNT>();
+                    for ((other, product), rho) in above.iter().zip(&products).zip(&rho) {
+                        for (run, product) in runs[other.first..other.first + COUNT].iter_mut().zip(&product[k]) {
+                            (0..COUNT).for_each(|t| run[t] += rho * product[t]);
                         }
                     }
-                }
-                let place = |a: usize| (p[0].first + a / COUNT) * columns + q[0].first + a % COUNT;
-                for a in 0..SIZE {
-                    for b in 0..=a {
-                        matrix.add(place(a), place(b), block[a][b]);
+                    let row = &node.orders[ORDER - k];
+                    for (pair, [a, b]) in pairs.iter().enumerate() {
+                        along[(term, pair)] = factors[k] * node.weight * row[*a] * row[*b];
                     }
                 }
             }
+            let blocks = strips * along;
+            for ([a, b], block) in pairs.iter().zip(blocks.column_iter()) {
+                let (strip, _) = block.as_slice().as_chunks::<COUNT>();
+                add_block(matrix, [cell[0].first + a, cell[0].first + b], strip);
+            }
         }
-        matrix
     }
 }

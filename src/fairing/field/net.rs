@@ -20,7 +20,7 @@
 
 use super::density::Density;
 use crate::numeric::{SingularMatrix, SymmetricBand};
-use crate::spline::{Collocation, Gram, KnotVector, SplineError, add_product, binomial};
+use crate::spline::{Collocation, Gram, KnotVector, SplineError, binomial};
 use nalgebra::DMatrix;
 
 /// Order of the energy.
@@ -34,6 +34,9 @@ pub const KERNEL: usize = ORDER * (ORDER + 1) / 2;
 
 /// Lines of the net nearer to each other than this part of a span are one.
 pub const CLOSE: f64 = 0.4;
+
+/// A symmetric matrix over the functions along v: of each one the entries with it and with those after it.
+pub(super) type Strip = Vec<[f64; DEGREE + 1]>;
 
 /// A line v = constant of a net across which derivatives may jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,9 +116,12 @@ pub struct Net {
     pub intervals: [f64; 2],
     /// Lines across which it may break.
     pub breaks: Vec<Break>,
-    parts: Vec<SymmetricBand>,
-    /// What jumps are charged.
-    charges: Option<SymmetricBand>,
+    /// Diagonals below the main one of its energy.
+    width: usize,
+    /// Integrals of products of derivatives by u, by their order.
+    along: Vec<Gram>,
+    /// The same by v.
+    up: Vec<Strip>,
     /// Control values that are taken out to make the energy definite.
     grounded: Vec<usize>,
     /// The logarithm of the square of the determinant of the kernel's functions at these.
@@ -131,18 +137,13 @@ impl Net {
         let count = [knots[0].basis_count(), knots[1].basis_count()];
         let most = breaks.iter().map(Break::multiplicity).max().unwrap_or(0);
         let width = DEGREE.min(count[0] - 1) * count[1] + (DEGREE + most).min(count[1] - 1);
-        let grams = |k: usize, order: usize| {
-            let gram = Gram::new(&knots[k], &knots[k], [order, order]);
-            (gram, intervals[k].powi(1 - 2 * order as i32))
+        let gram = |k: usize, order: usize| Gram::new(&knots[k], &knots[k], [order, order]);
+        let along = (0..=ORDER).map(|order| gram(0, order)).collect();
+        let strip = |order: usize| {
+            let gram = gram(1, order);
+            (0..count[1]).map(|l| std::array::from_fn(|t| gram.get(l, l + t))).collect()
         };
-        let parts = (0..=ORDER)
-            .map(|k| {
-                let mut part = SymmetricBand::zeros(count[0] * count[1], width);
-                let ((along, p), (up, q)) = (grams(0, ORDER - k), grams(1, k));
-                add_product(&mut part, [&along, &up], binomial(ORDER, k) * p * q, [&knots[0], &knots[1]]);
-                part
-            })
-            .collect();
+        let up = (0..=ORDER).map(strip).collect();
         let spread = |k: usize, j: usize| j * (count[k] - 1) / (ORDER - 1);
         let pairs: Vec<[usize; 2]> = (0..ORDER).flat_map(|i| (0..ORDER - i).map(move |j| [i, j])).collect();
         let powers = [powers(&knots[0])?, powers(&knots[1])?];
@@ -153,16 +154,13 @@ impl Net {
         });
         let grounding = 2.0 * functions.lu().determinant().abs().max(f64::MIN_POSITIVE).ln();
         let grounded = places.iter().map(|[i, j]| i * count[1] + j).collect();
-        let mut net = Self { knots, intervals, breaks, parts, charges: None, grounded, grounding };
-        net.charges = (!net.breaks.is_empty()).then(|| net.charged(width));
-        Ok(net)
+        Ok(Self { knots, intervals, breaks, width, along, up, grounded, grounding })
     }
 
-    /// What jumps of a net are charged: its intervals times the integral over the break of their squares.
-    fn charged(&self, width: usize) -> SymmetricBand {
+    /// Adds what jumps of a net are charged: its intervals times the integral over the break of their squares.
+    fn charge(&self, sum: &mut SymmetricBand) {
         let [rows, columns] = self.shape();
-        let mut sum = SymmetricBand::zeros(self.size(), width);
-        let gram = Gram::new(&self.knots[0], &self.knots[0], [0, 0]);
+        let gram = &self.along[0];
         for line in &self.breaks {
             let (first, jumps) = line.jumps(&self.knots[1]);
             for (order, jump) in (line.order..).zip(&jumps) {
@@ -182,7 +180,6 @@ impl Net {
                 }
             }
         }
-        sum
     }
 
     /// Clamped uniform knots of so many spans.
@@ -217,7 +214,7 @@ impl Net {
     /// Diagonals below the main one of the energy, and of the normal matrix of rows at places.
     #[must_use]
     pub fn energy_width(&self) -> usize {
-        self.parts[0].width()
+        self.width
     }
 
     /// Factors of the squares of the derivatives by u and v, of order 4 - k and k, in the energy.
@@ -233,16 +230,51 @@ impl Net {
     /// P(a, g), with the factor of a density.
     #[must_use]
     pub fn energy(&self, metric: Metric, density: Option<&Density>) -> SymmetricBand {
-        let all = match density {
-            Some(density) => density.energy(self, metric),
-            None => {
-                let none = SymmetricBand::zeros(self.size(), self.parts[0].width());
-                self.parts.iter().enumerate().fold(none, |all, (k, part)| all.plus(metric.factor(k), part))
+        let mut all = SymmetricBand::zeros(self.size(), self.width);
+        match density {
+            Some(density) => density.add_energy(self, metric, &mut all),
+            None => self.add_even_energy(metric, &mut all),
+        }
+        self.charge(&mut all);
+        all
+    }
+
+    /// The parts of the energy of a field without a density, by the order of the derivative by v and without the factors of
+    /// a metric.
+    #[must_use]
+    pub fn even_energies(&self, values: &[f64]) -> [f64; ORDER + 1] {
+        let [rows, columns] = self.shape();
+        let plain = self.factors(Metric { anisotropy: 1.0, mixed: 1.0 });
+        let (column, lines) =
+            (|j: usize| values[j..].iter().step_by(columns).copied().collect::<Vec<f64>>(), 0..columns);
+        let columns_of: Vec<Vec<f64>> = lines.map(column).collect();
+        std::array::from_fn(|order| {
+            let along: Vec<Vec<f64>> = columns_of.iter().map(|line| self.along[ORDER - order].apply(line)).collect();
+            let product = |j: usize, l: usize| -> f64 { (0..rows).map(|i| along[j][i] * columns_of[l][i]).sum() };
+            let strip = self.up[order].iter().enumerate();
+            let energy = |(l, run): (usize, &[f64; DEGREE + 1])| -> f64 {
+                let terms = (1..run.len().min(columns - l)).map(|t| 2.0 * run[t] * product(l + t, l));
+                run[0] * product(l, l) + terms.sum::<f64>()
+            };
+            plain[order] * strip.map(energy).sum::<f64>()
+        })
+    }
+
+    /// Adds the energy without a density, a sum of products of the integrals along u and v.
+    fn add_even_energy(&self, metric: Metric, all: &mut SymmetricBand) {
+        let ([rows, columns], factors) = (self.shape(), self.factors(metric));
+        let mut strip = vec![[0.0; DEGREE + 1]; columns];
+        for i in 0..rows {
+            for k in i.saturating_sub(DEGREE)..=i {
+                strip.fill([0.0; DEGREE + 1]);
+                for (order, part) in self.up.iter().enumerate() {
+                    let factor = factors[order] * self.along[ORDER - order].get(i, k);
+                    for (sum, run) in strip.iter_mut().zip(part) {
+                        sum.iter_mut().zip(run).for_each(|(sum, value)| *sum += factor * value);
+                    }
+                }
+                add_block(all, [i, k], &strip);
             }
-        };
-        match &self.charges {
-            Some(charges) => all.plus(1.0, charges),
-            None => all,
         }
     }
 
@@ -253,15 +285,7 @@ impl Net {
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite.
     pub fn log_determinant(&self, energy: &SymmetricBand) -> Result<f64, SingularMatrix> {
-        let left: Vec<usize> = (0..self.size()).filter(|i| !self.grounded.contains(i)).collect();
-        let mut matrix = SymmetricBand::zeros(left.len(), energy.width().min(left.len() - 1));
-        for (row, &i) in left.iter().enumerate() {
-            let first = left.partition_point(|&j| j + energy.width() < i);
-            for (column, &j) in left[..=row].iter().enumerate().skip(first) {
-                matrix.add(row, column, energy.get(i, j));
-            }
-        }
-        Ok(matrix.factor()?.log_determinant() - self.grounding)
+        Ok(energy.clone().without(&self.grounded).factor()?.log_determinant() - self.grounding)
     }
 
     /// The values of the functions along one direction that are not zero at a place, and the first of them.
@@ -279,6 +303,21 @@ impl Net {
         let ((i, along), (j, up), [_, count]) = (self.basis(0, u), self.basis(1, v), self.shape());
         let entry = |r: usize, s: usize| ((i + r) * count + j + s, along[r] * up[s]);
         (0..=DEGREE).flat_map(|r| (0..=DEGREE).map(move |s| (r, s))).map(|(r, s)| entry(r, s)).collect()
+    }
+}
+
+/// Adds the symmetric strip to the block of two functions along u, the first not before the second.
+pub(super) fn add_block(matrix: &mut SymmetricBand, [i, k]: [usize; 2], strip: &[[f64; DEGREE + 1]]) {
+    let columns = strip.len();
+    for (l, run) in strip.iter().enumerate() {
+        let count = run.len().min(columns - l);
+        matrix.add_run(i * columns + l, k * columns + l, &run[..count]);
+        if i > k {
+            let from = l.saturating_sub(DEGREE);
+            let mut before = [0.0; DEGREE];
+            (from..l).for_each(|j| before[j - from] = strip[j][l - j]);
+            matrix.add_run(i * columns + from, k * columns + l, &before[..l - from]);
+        }
     }
 }
 
