@@ -9,7 +9,7 @@
 
 use super::chart::Chart;
 use super::choice::Chosen;
-use super::likelihood::{Cell, Observed, smoothed};
+use super::likelihood::{self, Cell, Observed, smoothed};
 use super::net::{Break, Net};
 use super::region::Field;
 use std::collections::BTreeSet;
@@ -61,12 +61,13 @@ pub fn broken(
     least: f64,
 ) -> (Net, Chosen, Vec<FoundBreak>) {
     let (chart, intervals) = (chosen.chart, net.intervals);
+    let cells_at = likelihood::places(&chart, cells);
     let mut lines = Vec::new();
     for _ in 0..MOST {
         let Ok(rough) = chosen.roughness(&net) else { break };
         let observed = Observed::new(&net, &chart, cells);
         let places = places(&chart, cells, &net.breaks);
-        let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &chart, cells)).collect();
+        let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &cells_at)).collect();
         let weight = 10f64.powf(chosen.exponent);
         let Ok(scores) = observed.scores(&rough, weight, &chosen.field, &functions) else { break };
         let trial = Trial { spans, intervals, cells, least, known: &net.breaks, chosen: &chosen };
@@ -192,10 +193,7 @@ fn places(chart: &Chart, cells: &[Cell], known: &[Break]) -> Vec<f64> {
 }
 
 /// The jumps of curvature of a break at the cells: (v - v0)+^2 times the powers of 2 u - 1.
-fn jumps(at: f64, chart: &Chart, cells: &[Cell]) -> Vec<Vec<f64>> {
-    let value = |cell: &Cell, power: usize| {
-        let along = 2.0 * chart.u(cell.x) - 1.0;
-        (chart.v(cell.z) - at).max(0.0).powi(2) * along.powi(power as i32)
-    };
-    (0..ALONG).map(|power| cells.iter().map(|cell| value(cell, power)).collect()).collect()
+fn jumps(at: f64, cells: &[[f64; 2]]) -> Vec<Vec<f64>> {
+    let value = |[u, v]: [f64; 2], power: usize| (v - at).max(0.0).powi(2) * (2.0 * u - 1.0).powi(power as i32);
+    (0..ALONG).map(|power| cells.iter().map(|&cell| value(cell, power)).collect()).collect()
 }

@@ -12,9 +12,13 @@
 
 use super::chart::Chart;
 use super::density::Density;
-use super::net::{KERNEL, Metric, Net, ORDER};
+use super::net::{DEGREE, KERNEL, Metric, Net, ORDER};
 use crate::numeric::{SingularMatrix, SymmetricBand};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use std::collections::HashMap;
+
+/// Candidates of a score test whose systems are solved at once.
+const AT_ONCE: usize = 16;
 
 /// An offset on the hull.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,13 +33,62 @@ pub struct Cell {
     pub scale: f64,
 }
 
+/// The functions of a net at a cell, over the scale of its errors: products along u and v.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    /// The first control value, and how many further that of the next function along u is.
+    first: usize,
+    stride: usize,
+    along: [f64; DEGREE + 1],
+    up: [f64; DEGREE + 1],
+}
+
+impl Row {
+    fn of(&self, net: &[f64]) -> f64 {
+        let line = |r: usize| -> f64 {
+            let from = self.first + r * self.stride;
+            self.up.iter().zip(&net[from..=from + DEGREE]).map(|(b, c)| b * c).sum()
+        };
+        (0..=DEGREE).map(|r| self.along[r] * line(r)).sum()
+    }
+
+    fn add_to(&self, net: &mut [f64], value: f64) {
+        for (r, along) in self.along.iter().enumerate() {
+            let from = self.first + r * self.stride;
+            net[from..=from + DEGREE].iter_mut().zip(&self.up).for_each(|(sum, b)| *sum += along * value * b);
+        }
+    }
+
+    fn add_square(&self, normal: &mut SymmetricBand) {
+        for k in 0..=DEGREE {
+            for l in 0..=DEGREE {
+                let value = self.along[k] * self.up[l];
+                let column = self.first + k * self.stride + l;
+                for i in k..=DEGREE {
+                    let factor = value * self.along[i];
+                    let run = self.up.map(|b| factor * b);
+                    let from = if i == k { l } else { 0 };
+                    normal.add_run(self.first + i * self.stride + from, column, &run[from..]);
+                }
+            }
+        }
+    }
+}
+
+/// u and v of cells on a chart; many share their x.
+pub(super) fn places(chart: &Chart, cells: &[Cell]) -> Vec<[f64; 2]> {
+    let mut known = HashMap::new();
+    let mut u = |x: f64| *known.entry(x.to_bits()).or_insert_with(|| chart.u(x));
+    cells.iter().map(|cell| [u(cell.x), chart.v(cell.z)]).collect()
+}
+
 /// The cells of a table as rows over a net on one chart.
 #[derive(Debug, Clone)]
 pub struct Observed {
     normal: SymmetricBand,
     right: Vec<f64>,
     /// Rows over the scales.
-    rows: Vec<Vec<(usize, f64)>>,
+    rows: Vec<Row>,
     values: Vec<f64>,
     scales: Vec<f64>,
     /// log det X'X.
@@ -46,17 +99,17 @@ impl Observed {
     /// Rows of the cells.
     #[must_use]
     pub fn new(net: &Net, chart: &Chart, cells: &[Cell]) -> Self {
-        let places: Vec<[f64; 2]> = cells.iter().map(|cell| [chart.u(cell.x), chart.v(cell.z)]).collect();
+        let places = places(chart, cells);
         let mut normal = SymmetricBand::zeros(net.size(), net.energy_width());
         let mut right = vec![0.0; net.size()];
         let (mut rows, mut values) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
-        for (cell, &at) in cells.iter().zip(&places) {
-            let row: Vec<(usize, f64)> = net.row(at).into_iter().map(|(j, b)| (j, b / cell.scale)).collect();
+        let stride = net.shape()[1];
+        for (cell, &[u, v]) in cells.iter().zip(&places) {
+            let ((i, along), (j, up)) = (net.basis(0, u), net.basis(1, v));
+            let row = Row { first: i * stride + j, stride, along, up: up.map(|b| b / cell.scale) };
             let value = cell.y / cell.scale;
-            for (k, &(i, b)) in row.iter().enumerate() {
-                right[i] += b * value;
-                row[..=k].iter().for_each(|&(j, c)| normal.add(i, j, b * c));
-            }
+            row.add_to(&mut right, value);
+            row.add_square(&mut normal);
             rows.push(row);
             values.push(value);
         }
@@ -94,28 +147,12 @@ impl Observed {
         field: &Smoothed,
         candidates: &[Vec<Vec<f64>>],
     ) -> Result<Vec<f64>, SingularMatrix> {
-        let factor = self.normal.plus(weight, &roughness.matrix).factor()?;
-        let of = |row: &[(usize, f64)], net: &[f64]| row.iter().map(|(j, b)| b * net[*j]).sum::<f64>();
+        let factor = self.normal.factor_plus(weight, &roughness.matrix)?;
         let residuals: Vec<f64> =
-            self.rows.iter().zip(&self.values).map(|(row, y)| y - of(row, &field.values)).collect();
-        let score = |functions: &Vec<Vec<f64>>| {
-            let scaled: Vec<Vec<f64>> = functions
-                .iter()
-                .map(|f| f.iter().zip(&self.scales).map(|(value, scale)| value / scale).collect())
-                .collect();
-            let left: Vec<Vec<f64>> = scaled
-                .iter()
-                .map(|f| {
-                    let mut net = vec![0.0; self.right.len()];
-                    for (row, value) in self.rows.iter().zip(f) {
-                        row.iter().for_each(|(j, b)| net[*j] += b * value);
-                    }
-                    factor.solve(&mut net);
-                    self.rows.iter().zip(f).map(|(row, value)| value - of(row, &net)).collect()
-                })
-                .collect();
-            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            let count = functions.len();
+            self.rows.iter().zip(&self.values).map(|(row, y)| y - row.of(&field.values)).collect();
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let score = |scaled: &[Vec<f64>], left: &[Vec<f64>]| {
+            let count = scaled.len();
             let gram =
                 DMatrix::from_fn(count, count, |i, j| 0.5 * (dot(&scaled[i], &left[j]) + dot(&scaled[j], &left[i])));
             let told = DVector::from_fn(count, |i, _| dot(&scaled[i], &residuals));
@@ -130,7 +167,29 @@ impl Observed {
                 .sum();
             sum / (field.sigma * field.sigma)
         };
-        Ok(candidates.iter().map(score).collect())
+        let size = self.right.len();
+        let scores = candidates.chunks(AT_ONCE).flat_map(|candidates| {
+            let scaled: Vec<Vec<Vec<f64>>> = candidates
+                .iter()
+                .map(|functions| functions.iter().map(|f| f.iter().zip(&self.scales).map(|(f, s)| f / s).collect()))
+                .map(Iterator::collect)
+                .collect();
+            let mut solved = vec![0.0; size * scaled.iter().map(Vec::len).sum::<usize>()];
+            for (net, f) in solved.chunks_exact_mut(size).zip(scaled.iter().flatten()) {
+                self.rows.iter().zip(f).for_each(|(row, value)| row.add_to(net, *value));
+            }
+            factor.solve_blocks(&mut solved);
+            let mut solved = solved.chunks_exact(size);
+            let left = |f: &Vec<f64>, net: &[f64]| -> Vec<f64> {
+                self.rows.iter().zip(f).map(|(row, value)| value - row.of(net)).collect()
+            };
+            let score = |functions: &Vec<Vec<f64>>| {
+                let left: Vec<Vec<f64>> = functions.iter().zip(&mut solved).map(|(f, net)| left(f, net)).collect();
+                score(functions, &left)
+            };
+            scaled.iter().map(score).collect::<Vec<_>>()
+        });
+        Ok(scores.collect())
     }
 
     /// Standard deviations \[m\] of values of the field of a weight, by their rows: sigma sqrt(l'(M'M + wP)^-1 l).
@@ -144,7 +203,7 @@ impl Observed {
         field: &Smoothed,
         rows: &[Vec<(usize, f64)>],
     ) -> Result<Vec<f64>, SingularMatrix> {
-        let factor = self.normal.plus(weight, &roughness.matrix).factor()?;
+        let factor = self.normal.factor_plus(weight, &roughness.matrix)?;
         let error = |row: &Vec<(usize, f64)>| {
             let mut solved = vec![0.0; self.right.len()];
             row.iter().for_each(|&(j, b)| solved[j] = b);
@@ -202,16 +261,10 @@ pub fn smoothed(
     weight: f64,
     least: f64,
 ) -> Result<Smoothed, SingularMatrix> {
-    let matrix = observed.normal.plus(weight, &roughness.matrix);
-    let factor = matrix.factor()?;
+    let factor = observed.normal.factor_plus(weight, &roughness.matrix)?;
     let mut values = observed.right.clone();
     factor.solve(&mut values);
-    let misfit: f64 = observed
-        .rows
-        .iter()
-        .zip(&observed.values)
-        .map(|(row, y)| (row.iter().map(|(j, b)| b * values[*j]).sum::<f64>() - y).powi(2))
-        .sum();
+    let misfit: f64 = observed.rows.iter().zip(&observed.values).map(|(row, y)| (row.of(&values) - y).powi(2)).sum();
     let left = misfit + weight * roughness.matrix.quadratic(&values).max(0.0);
     let freedom = observed.count().saturating_sub(KERNEL).max(1) as f64;
     let variance = (left / freedom).max(least * least);
