@@ -7,8 +7,8 @@ use super::density::Density;
 use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
 use super::net::{Metric, Net};
 use crate::numeric::SingularMatrix;
+use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
 
 /// Values of b.
@@ -42,12 +42,23 @@ const WORTH: f64 = 10.0;
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
+/// What -2 log l rises by, and by for each offset, where no better chart is expected further along a grid.
+const RISE: [f64; 2] = [50.0, 0.3];
+
+/// What -2 log l falls by at most for each offset from the first weight that is tried to the best.
+const FALL: f64 = 0.3;
+
+/// Least curvature of -2 log l over steps of the weight, for each offset.
+const CURVATURE: f64 = 0.015;
+
 /// Decimal logarithms of the least and of the greatest weight.
 const WEIGHTS: [f64; 2] = [-10.0, 5.0];
 
-/// Decimal logarithms of the weight that is tried first and of the first and the least step from it.
+/// Decimal logarithm of the weight that is tried first.
 const FIRST: f64 = -4.0;
-const STEPS: [f64; 2] = [1.0, 0.2];
+
+/// Weights a decade.
+const PLACES: f64 = 4.0;
 
 /// The energies of a net, each made once.
 #[derive(Debug)]
@@ -138,8 +149,9 @@ impl Chosen {
     /// logarithm) on. None where the cells determine no field.
     pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64) -> Option<Self> {
         let rough = self.roughness(net).ok()?;
-        let (found, trials) = weighed(&Observed::new(net, &self.chart, cells), &rough, start, least);
-        let (exponent, field) = found?;
+        let observed = Observed::new(net, &self.chart, cells);
+        let (found, trials) = weighed(&observed, &rough, start, least, f64::INFINITY);
+        let Weighed::Best(exponent, field) = found else { return None };
         Some(Self { exponent, field, trials: self.trials + trials, ..self.clone() })
     }
 }
@@ -150,7 +162,8 @@ struct Search<'a, 'n> {
     rectangle: Chart,
     least: f64,
     known: BTreeMap<[usize; 5], (f64, Smoothed)>,
-    exponent: f64,
+    /// Costs that places without a known one have at least.
+    bounds: BTreeMap<[usize; 5], f64>,
     trials: usize,
 }
 
@@ -167,75 +180,158 @@ impl Search<'_, '_> {
         Chart { shape: Self::shape(at), ..self.rectangle }
     }
 
-    /// Cost of a chart with its best weight.
-    fn cost(&mut self, at: [usize; 5]) -> f64 {
+    /// Cost of a chart with its best weight, looked for from `start` on; a lower bound that is above `rival` where it is
+    /// not below that.
+    fn cost(&mut self, at: [usize; 5], start: f64, rival: f64) -> f64 {
         if let Some((_, known)) = self.known.get(&at) {
             return known.cost;
         }
+        if let Some(bound) = self.bounds.get(&at).filter(|bound| **bound > rival) {
+            return *bound;
+        }
         let observed = Observed::new(self.energies.net, &self.chart(at), self.cells);
         let Ok(rough) = self.energies.of(Self::metric(at)) else { return f64::INFINITY };
-        let (best, trials) = weighed(&observed, rough, self.exponent, self.least);
+        let (found, trials) = weighed(&observed, rough, start, self.least, rival);
         self.trials += trials;
-        let Some((exponent, found)) = best else { return f64::INFINITY };
-        self.exponent = exponent;
-        let cost = found.cost;
-        self.known.insert(at, (exponent, found));
-        cost
+        match found {
+            Weighed::Best(exponent, found) => {
+                let cost = found.cost;
+                self.known.insert(at, (exponent, found));
+                cost
+            }
+            Weighed::AtLeast(bound) => {
+                self.bounds.insert(at, bound);
+                bound
+            }
+        }
     }
 
-    /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid.
-    fn descent(&mut self, mut at: [usize; 5], beside: usize) -> Option<[usize; 5]> {
+    /// The exponent with which the field of a place has the same energy in another metric.
+    fn exponent(&self, from: [usize; 5], to: [usize; 5]) -> Option<f64> {
+        let (exponent, field) = self.known.get(&from)?;
+        let energies = self.energies.net.even_energies(&field.values);
+        let [old, new] = [from, to].map(|at| {
+            let metric = Self::metric(at);
+            energies.iter().enumerate().map(|(k, energy)| metric.factor(k) * energy).sum::<f64>()
+        });
+        let shift = (old / new).log10();
+        Some(if shift.is_finite() { exponent + shift } else { *exponent })
+    }
+
+    /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid. On a grid the
+    /// places to each side are tried as far as cost does not rise by [`RISE`].
+    fn descent(&mut self, mut at: [usize; 5], beside: usize, start: f64) -> Option<[usize; 5]> {
+        let rise = RISE[0] + RISE[1] * self.cells.len() as f64;
+        let mut best = self.cost(at, start, f64::INFINITY);
         for _ in 0..ROUNDS {
             let before = at;
             for k in [1, 4, 0, 2, 3] {
                 let count = [KEELS.len(), ANISOTROPIES.len(), ENDS.len(), ENDS.len(), MIXED.len()][k];
-                let last = count.min(at[k].saturating_add(beside).saturating_add(1));
-                let tried = (at[k].saturating_sub(beside)..last).map(|q| {
-                    let mut place = at;
-                    place[k] = q;
-                    (self.cost(place), place)
-                });
-                at = tried.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+                let centre = at;
+                let down = (0..centre[k]).rev().take(beside);
+                let up = (centre[k] + 1..count).take(beside);
+                for side in [down.collect::<Vec<_>>(), up.collect()] {
+                    let mut from = centre;
+                    for q in side {
+                        let mut place = centre;
+                        place[k] = q;
+                        let cost = self.cost(place, self.exponent(from, place)?, best);
+                        if cost < best {
+                            (best, at) = (cost, place);
+                        }
+                        if cost > best + rise {
+                            break;
+                        }
+                        if self.known.contains_key(&place) {
+                            from = place;
+                        }
+                    }
+                }
             }
             if at == before {
                 break;
             }
         }
-        Some(at)
+        (best < f64::INFINITY).then_some(at)
     }
 }
 
-/// The decimal logarithm of the weight of greatest likelihood with its field, outwards from `start` in steps of a decade,
-/// then finer; and how many were tried.
-fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64) -> (Option<(f64, Smoothed)>, usize) {
-    let mut trials = 0;
+/// The field of the best weight.
+enum Weighed {
+    /// The decimal logarithm of the weight, and the field.
+    Best(f64, Smoothed),
+    /// A lower bound of its cost, that is above that of the rival.
+    AtLeast(f64),
+}
+
+/// The weight of greatest likelihood with its field, and how many were tried: the least of three neighbours on the grid of
+/// steps of a quarter decade. It is bracketed from `start` on with steps that double, then found by parabolas (Brent 1973,
+/// chapter 5). The search ends early where the best weight costs more than `rival`. For that -2 log l of n offsets is taken
+/// to fall by [`FALL`] n at most, and by s^2 / (4 k n) where it changes by s between two weights, with the curvature k of
+/// [`CURVATURE`].
+fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival: f64) -> (Weighed, usize) {
+    let mut costs: BTreeMap<i32, f64> = BTreeMap::new();
     let mut best: Option<(f64, Smoothed)> = None;
-    let mut seen = BTreeSet::new();
-    let mut look = |exponent: f64, best: &mut Option<(f64, Smoothed)>| {
-        let key = (exponent * 16.0).round() as i64;
-        if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) || !seen.insert(key) {
-            return;
-        }
-        trials += 1;
-        if let Ok(found) = smoothed(observed, rough, 10f64.powf(exponent), least)
-            && best.as_ref().is_none_or(|(_, b)| found.cost < b.cost)
-        {
-            *best = Some((exponent, found));
-        }
+    let mut cost = |place: i32, best: &mut Option<(f64, Smoothed)>| {
+        *costs.entry(place).or_insert_with(|| {
+            let exponent = f64::from(place) / PLACES;
+            if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) {
+                return f64::INFINITY;
+            }
+            let Ok(found) = smoothed(observed, rough, 10f64.powf(exponent), least) else { return f64::INFINITY };
+            let cost = found.cost;
+            if best.as_ref().is_none_or(|(_, b)| cost < b.cost) {
+                *best = Some((exponent, found));
+            }
+            cost
+        })
     };
-    let mut step = STEPS[0];
-    look(start, &mut best);
-    while step > STEPS[1] {
-        while let Some(centre) = best.as_ref().map(|b| b.0) {
-            look(centre - step, &mut best);
-            look(centre + step, &mut best);
-            if best.as_ref().is_none_or(|b| (b.0 - centre).abs() < 1e-9) {
-                break;
+    let mut middle = (start * PLACES).round() as i32;
+    let first = cost(middle, &mut best);
+    let count = observed.count() as f64;
+    if first.is_infinite() || first - FALL * count > rival {
+        return (Weighed::AtLeast(first - FALL * count), 1);
+    }
+    let second = cost(middle + 1, &mut best);
+    let bound = first.min(second) - (second - first).powi(2) / (4.0 * CURVATURE * count);
+    if bound > rival {
+        return (Weighed::AtLeast(bound), 2);
+    }
+    if first < f64::INFINITY {
+        // Places beside the middle at which it is higher.
+        let mut ends = [middle, middle];
+        for (side, direction) in [(1, 1), (0, -1)] {
+            if ends[side] != middle {
+                continue;
+            }
+            let mut step = direction;
+            while cost(middle + step, &mut best) < cost(middle, &mut best) {
+                ends[1 - side] = middle;
+                middle += step;
+                step *= 2;
+            }
+            ends[side] = middle + step;
+        }
+        let [mut low, mut high] = ends;
+        while high - low > 2 {
+            let [left, right] =
+                [low, high].map(|end| (cost(end, &mut best) - cost(middle, &mut best)) / f64::from(end - middle));
+            // Of the parabola through the three, from the middle.
+            let least = -0.5 * (left * f64::from(high - middle) - right * f64::from(low - middle)) / (right - left);
+            let beside = if low + 1 == middle || (least > 0.0 && middle + 1 < high) { middle + 1 } else { middle - 1 };
+            let vertex = middle + least.round() as i32;
+            let next = if vertex != middle && low < vertex && vertex < high { vertex } else { beside };
+            let is_less = cost(next, &mut best) < cost(middle, &mut best);
+            match (next < middle, is_less) {
+                (true, true) => (middle, high) = (next, middle),
+                (true, false) => low = next,
+                (false, true) => (low, middle) = (middle, next),
+                (false, false) => high = next,
             }
         }
-        step *= 0.5;
     }
-    (best, trials)
+    let found = best.map_or(Weighed::AtLeast(f64::INFINITY), |(exponent, field)| Weighed::Best(exponent, field));
+    (found, costs.len())
 }
 
 /// The chart of greatest likelihood over a rectangle; the noise is at least `least` \[m\]. With an earlier choice only charts
@@ -248,13 +344,13 @@ pub fn choose(
     least: f64,
     earlier: Option<&Chosen>,
 ) -> Option<Chosen> {
-    let known = BTreeMap::new();
+    let (known, bounds) = (BTreeMap::new(), BTreeMap::new());
+    let mut search = Search { energies, cells, rectangle, least, known, bounds, trials: 0 };
     let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
-    let mut search = Search { energies, cells, rectangle, least, known, exponent, trials: 0 };
     let starts = earlier.map_or(STARTS.to_vec(), |earlier| vec![place(earlier)]);
     let beside = if earlier.is_some() { 1 } else { usize::MAX };
-    let ends = starts.into_iter().filter_map(|start| search.descent(start, beside)).collect::<Vec<_>>();
-    let at = ends.into_iter().min_by(|a, b| search.cost(*a).total_cmp(&search.cost(*b)))?;
+    let ends: Vec<_> = starts.into_iter().filter_map(|start| search.descent(start, beside, exponent)).collect();
+    let at = ends.into_iter().min_by(|a, b| search.known[a].1.cost.total_cmp(&search.known[b].1.cost))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
     Some(Chosen { chart, metric: Search::metric(at), density: None, exponent, field, trials: search.trials })
