@@ -39,6 +39,9 @@ const ALONG: usize = 4;
 const CHARGES: [f64; 7] = [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 const FIRST: [f64; 2] = [1e-1, 1e-4];
 
+/// What -2 log l rises by from one charge to the next where no better one is expected beyond it.
+const RISE: f64 = 5.0;
+
 /// Least step of a break, in spans of the net.
 const STEP: f64 = 0.04;
 
@@ -74,13 +77,14 @@ pub fn broken(
         let mut best: Option<(f64, f64, Break)> = None;
         for (k, charge) in peaks(&scores).into_iter().take(TRIED).flat_map(|k| FIRST.map(|charge| (k, charge))) {
             let line = Break { at: places[k], order: 2, charge };
-            if let Some((_, found)) = trial.weighed(line, chosen.exponent)
-                && best.as_ref().is_none_or(|best| found.field.cost < best.0)
+            let rival = best.map_or(f64::INFINITY, |best| best.0);
+            if let Some((_, found)) = trial.weighed(line, chosen.exponent, rival)
+                && found.field.cost < rival
             {
                 best = Some((found.field.cost, found.exponent, line));
             }
         }
-        let Some((_, exponent, line)) = best else { break };
+        let Some((_, exponent, line)) = best.filter(|best| best.0 < chosen.field.cost) else { break };
         let Some((tried, found, line)) = trial.refined(line, exponent) else { break };
         let gain = chosen.field.cost - found.field.cost;
         if gain < GAIN || depth(&tried, &found, cells) > depth(&net, &chosen, cells).max(DEPTH * found.field.sigma) {
@@ -121,10 +125,10 @@ impl Trial<'_> {
         Net::broken(self.spans, self.intervals, breaks).ok()
     }
 
-    /// The net with the break, and the choice on it.
-    fn weighed(&self, line: Break, start: f64) -> Option<(Net, Chosen)> {
+    /// The net with the break, and the choice on it; none where it costs more than `rival`.
+    fn weighed(&self, line: Break, start: f64, rival: f64) -> Option<(Net, Chosen)> {
         let net = self.net(line)?;
-        let found = self.chosen.on(&net, self.cells, start, self.least)?;
+        let found = self.chosen.on(&net, self.cells, start, self.least, rival)?;
         Some((net, found))
     }
 
@@ -139,29 +143,48 @@ impl Trial<'_> {
         field().map_or(f64::INFINITY, |field| field.cost)
     }
 
-    /// The break where it is likeliest, with the charge that is.
+    /// The break where it is likeliest, with the charge that is. Charges to each side are tried as far as cost does not rise
+    /// by [`RISE`].
     fn refined(&self, line: Break, exponent: f64) -> Option<(Net, Chosen, Break)> {
         let spacing = 1.0 / self.spans[1] as f64;
         let mut best = (self.cost(line, exponent), line);
         let mut step = 0.5 * spacing;
+        // Where the break came from costs more.
+        let mut from = f64::NAN;
         while step > STEP * spacing {
             let moved = [-step, step].into_iter().find_map(|by| {
                 let next = Break { at: best.1.at + by, ..line };
+                let is_known = (next.at - from).abs() < 1e-9 * spacing;
                 let inside = (0.5 * spacing..=1.0 - 0.5 * spacing).contains(&next.at);
-                let cost = if inside { self.cost(next, exponent) } else { f64::INFINITY };
+                let cost = if inside && !is_known { self.cost(next, exponent) } else { f64::INFINITY };
                 (cost < best.0).then_some((cost, next))
             });
             match moved {
-                Some(moved) => best = moved,
+                Some(moved) => {
+                    from = best.1.at;
+                    best = moved;
+                }
                 None => step *= 0.5,
             }
         }
-        let tried = CHARGES.into_iter().filter_map(|charge| {
-            let line = Break { charge, ..best.1 };
-            let (net, found) = self.weighed(line, exponent)?;
-            Some((net, found, line))
-        });
-        tried.min_by(|a, b| a.1.field.cost.total_cmp(&b.1.field.cost))
+        let line = best.1;
+        let own = CHARGES.iter().position(|charge| line.charge.total_cmp(charge).is_eq())?;
+        let mut best: Option<(Net, Chosen, Break)> = None;
+        for charges in [CHARGES[own..].to_vec(), CHARGES[..own].iter().rev().copied().collect()] {
+            for charge in charges {
+                let line = Break { charge, ..line };
+                let least = best.as_ref().map_or(f64::INFINITY, |best| best.1.field.cost);
+                let found = self.weighed(line, exponent, least + RISE);
+                let cost = found.as_ref().map_or(f64::INFINITY, |(_, found)| found.field.cost);
+                if let Some((net, found)) = found.filter(|_| cost < least) {
+                    best = Some((net, found, line));
+                }
+                if cost > least + RISE {
+                    break;
+                }
+            }
+        }
+        best
     }
 }
 

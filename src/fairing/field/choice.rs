@@ -120,21 +120,24 @@ impl Chosen {
     }
 
     /// With the density of its field where that is likelier by more than its price: of each of the `widths` the one of a few
-    /// rounds, each of the field with the one before.
+    /// rounds, each of the field with the one before. Later rounds are not tried where the density would still be worth less
+    /// with half the gain of the first again.
     pub(super) fn with_density(&self, net: &Net, cells: &[Cell], least: f64, widths: &[f64]) -> Self {
+        let observed = Observed::new(net, &self.chart, cells);
         let mut best = self.clone();
         for width in widths {
             let mut last = self.clone();
-            for _ in 0..DENSITIES {
+            for round in 0..DENSITIES {
                 let density = Some(Density::of(net, self.metric, &last.field.values, *width));
-                let Some(found) = (Self { density, ..self.clone() }).on(net, cells, last.exponent, least) else {
-                    break;
-                };
+                let (start, rival) = (last.exponent, last.field.cost);
+                let next = Self { density, ..self.clone() };
+                let Some(found) = next.weighed(net, &observed, start, least, rival) else { break };
                 let gain = last.field.cost - found.field.cost;
                 if gain > 0.0 {
                     last = found;
                 }
-                if gain < WORTH {
+                let hoped = last.field.cost - 0.5 * gain + last.price(net);
+                if gain < WORTH || (round == 0 && hoped > best.field.cost + best.price(net)) {
                     break;
                 }
             }
@@ -146,11 +149,14 @@ impl Chosen {
     }
 
     /// The same chart and metric on another net, with the weight of greatest likelihood from `start` (its decimal
-    /// logarithm) on. None where the cells determine no field.
-    pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64) -> Option<Self> {
+    /// logarithm) on. None where the cells determine no field, or where it costs more than `rival`.
+    pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64, rival: f64) -> Option<Self> {
+        self.weighed(net, &Observed::new(net, &self.chart, cells), start, least, rival)
+    }
+
+    fn weighed(&self, net: &Net, observed: &Observed, start: f64, least: f64, rival: f64) -> Option<Self> {
         let rough = self.roughness(net).ok()?;
-        let observed = Observed::new(net, &self.chart, cells);
-        let (found, trials) = weighed(&observed, &rough, start, least, f64::INFINITY);
+        let (found, trials) = weighed(observed, &rough, start, least, rival);
         let Weighed::Best(exponent, field) = found else { return None };
         Some(Self { exponent, field, trials: self.trials + trials, ..self.clone() })
     }

@@ -79,17 +79,20 @@ pub(super) fn likeliest(
     let spans = [0, 1].map(|k| (FINER * (coarse.knots[k].breakpoints().len() - 1) as f64).round() as usize);
     let net = Net::uniform(spans, coarse.intervals)?;
     let on_finer = |Scaled { power, cells, chosen, .. }: Scaled| {
-        let chosen = chosen.on(&net, &cells, chosen.exponent, least)?;
+        let chosen = chosen.on(&net, &cells, chosen.exponent, least, f64::INFINITY)?;
         Some(Scaled::new(power, cells, chosen, &net))
     };
     let mut tried = tried.into_iter().filter_map(on_finer);
     let first = tried.next().ok_or(FieldError::Undetermined)?;
     // Breaks, and then a density of the energy.
     let (scaled, broken_net, lines) = first.broken(&net, spans, least);
+    let unbroken = lines.is_empty();
     let mut best = (scaled.with_density(&broken_net, least, &WIDTHS), broken_net, lines);
     if let Some(width) = best.0.chosen.density.as_ref().map(|density| density.width) {
         // Where the hull bends unlike from place to place, the power and the breaks are known after that alone.
-        let dense = std::iter::once(first).chain(tried).map(|scaled| scaled.with_density(&net, least, &[width]));
+        let with_density = |scaled: Scaled| scaled.with_density(&net, least, &[width]);
+        let first = if unbroken { best.0.clone() } else { with_density(first) };
+        let dense = std::iter::once(first).chain(tried.map(with_density));
         if let Some(scaled) = dense.min_by(|a, b| a.cost.total_cmp(&b.cost)) {
             let other = scaled.broken(&net, spans, least);
             if other.0.cost < best.0.cost {
