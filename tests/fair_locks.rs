@@ -74,7 +74,7 @@ fn what_is_locked_right_leaves_the_rest_to_be_smoothed() {
     }
 }
 
-/// A whole station or waterline of locked cells is more than a net of its own with fewer control values can meet.
+/// A field passes through a whole station or waterline of locked cells.
 #[test]
 fn a_line_whose_cells_are_all_locked_stays() {
     let table = wigley(0.01);
@@ -82,11 +82,10 @@ fn a_line_whose_cells_are_all_locked_stays() {
         let count = locked.len();
         let outcome = run(&Job { locked, ..Job::default() }, &table);
         assert_eq!(outcome.changes.iter().filter(|change| change.locked).count(), count);
-        assert!(largest(&outcome, true) < 1e-12, "{:e}", largest(&outcome, true));
+        assert!(outcome.is_field && largest(&outcome, true) < 1e-9, "{:e}", largest(&outcome, true));
         assert!(largest(&outcome, false) < 0.05, "{}", largest(&outcome, false));
         let [before, after] = outcome.all_inflections();
         assert!(after <= before, "{before} > {after}");
-        assert!(outcome.notes.iter().any(|note| note.contains("on an independent net")), "{:?}", outcome.notes);
     }
 }
 
@@ -130,7 +129,7 @@ fn edges_on_the_centreplane_are_locked_on_any_net() {
     let free = run(&Job::default(), &table);
     for edge in [FixedLine::Keel, FixedLine::Stem, FixedLine::Stern] {
         let outcome = run(&Job { rules: vec![Rule::Fixed(edge)], ..Job::default() }, &table);
-        assert!(outcome.own && outcome.rules[0].violation < 1e-12);
+        assert!(outcome.is_field && outcome.rules[0].violation < 1e-12);
         assert_eq!(outcome.all_inflections()[1], free.all_inflections()[1]);
         let net = outcome.after.surface();
         let [rows, columns] = net.shape();

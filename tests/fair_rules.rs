@@ -57,14 +57,16 @@ fn slope(hull: &Hull, [x, z]: [f64; 2], station: bool) -> f64 {
 fn fixed_lines_do_not_move_and_others_do() {
     let lines = [FixedLine::Line(Line::Station(30.48)), FixedLine::Line(Line::Waterline(6.5024)), FixedLine::Stem];
     let outcome = faired(lines.into_iter().map(Rule::Fixed).collect());
-    let heights: Vec<[f64; 2]> = (1..90).map(|k| [30.48, 0.1 * f64::from(k)]).collect();
-    let lengths: Vec<[f64; 2]> = (1..120).map(|k| [f64::from(k), 6.5024]).collect();
-    // The waterline is a line of the net, the station one only where the ends do not lean.
-    for [before, after] in along(&outcome, &lengths) {
-        assert!((before - after).abs() < 1e-8, "{before} {after}");
+    // Their offsets stay; between them the lines are those of the fair surface through them.
+    let stays = |change: &&Change| (change.x - 30.48).abs() < 1e-9 || (change.z - 6.5024).abs() < 1e-9;
+    let kept: Vec<&Change> = outcome.changes.iter().filter(stays).collect();
+    assert!(kept.len() > 30 && kept.iter().all(|change| change.locked), "{}", kept.len());
+    for change in kept {
+        assert!((change.before - change.after).abs() < 1e-8, "{change:?}");
     }
-    for [before, after] in along(&outcome, &heights) {
-        assert!((before - after).abs() < 1e-5, "{before} {after}");
+    let lengths: Vec<[f64; 2]> = (2..119).map(|k| [f64::from(k), 6.5024]).collect();
+    for [before, after] in along(&outcome, &lengths) {
+        assert!((before - after).abs() < 0.05, "{before} {after}");
     }
     let beside: Vec<[f64; 2]> = (1..110).map(|k| [f64::from(k), 4.8]).collect();
     assert!(along(&outcome, &beside).iter().any(|[before, after]| (before - after).abs() > 1e-3));
@@ -213,7 +215,7 @@ fn contradictory_rules_are_infeasible_and_say_which() {
     let given_up: Vec<bool> = outcome.rules.iter().map(|rule| rule.given_up).collect();
     assert_eq!(given_up, [true, false]);
     assert!(outcome.rules[0].violation > 1e-3 && outcome.rules[1].violation < 1e-9, "{:?}", outcome.rules);
-    assert!(outcome.held.iter().all(|held| (held.after - held.constraint.target()).abs() < 1e-9 * held.scale));
+    assert!(outcome.targets_off(1e-9) == 0, "{:?}", outcome.held);
     let counts = ["station", "waterline"].map(|kind| outcome.inflections(kind));
     assert!(counts.iter().all(|[before, after]| after <= before), "{counts:?}");
 }

@@ -4,11 +4,12 @@
 //! stem. Targets then move it by a change d of least energy. The field F makes the sum of squares and energy J
 //! stationary, so that J(F + d) = J(F) + |S^-1 M d|^2 + w d'Pd. Without targets the answer is the field itself.
 
-use super::constraint::{Constraint, breadths};
-use super::fair::{FairError, FairSettings, MISFIT, Prepared};
+use super::constraint::{Constraint, Rule, breadths};
+use super::fair::{FairError, FairSettings, Prepared};
 use super::field::observed::Observations;
+use super::field::rocker::Rocker;
 use super::field::surface::LevelField;
-use super::model::{Model, Reading, Stationary, value};
+use super::model::{Limit, Model, Reading, Stationary, value};
 use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
 use super::robust::typical;
@@ -21,15 +22,11 @@ use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 /// A half-breadth of the bottom above this part of B is none of a keel.
 const KEEL: f64 = 1e-2;
 
-/// The noise of a field over that of the table where its neighbourhood is smooth, from which the field does not follow
-/// the table: where it is above [`ROUGH`], and in any case.
-const LACK_OF_FIT: [f64; 2] = [1.25, 3.0];
+/// Correlation of the residuals along a waterline, over its standard deviation, from which a field does not follow a table.
+const CORRELATED: f64 = 3.0;
 
 /// Half-breadths of control values over the greatest offset from which a field swings between the offsets.
 const BEYOND: f64 = 1.5;
-
-/// Noise of a rough drawing, over the breadth.
-const ROUGH: f64 = 1.25e-3;
 
 /// Part of the volume by which a field may differ from the surface through the table: more is open between its waterlines.
 const VOLUME: f64 = 0.02;
@@ -52,6 +49,9 @@ const PRIOR: f64 = 4.0;
 /// Least 1 - h of a reading.
 const LEAST_FREEDOM: f64 = 0.05;
 
+/// Least error of a height of the keel, over the depth.
+const LEAST_KEEL: f64 = 1e-6;
+
 /// Powers of ten to each side of the weight of a field that are drawn.
 const TRIALS: i32 = 3;
 
@@ -66,22 +66,31 @@ pub(super) struct Likely {
 
 impl FairSurface {
     /// The field of a level table of this noise \[m\] over the chart of its hull; none where the offsets determine none, or
-    /// it does not follow them. Deck and particulars are those of `fitted`.
-    pub(super) fn of_field(table: &OffsetTable, fitted: &Hull, noise: f64) -> Option<(Self, Likely)> {
-        let seen = Observations::new(table);
+    /// it does not follow them. It passes through offsets that are locked, and those of lines that do not move by the
+    /// `rules`. Deck and particulars are those of `fitted`.
+    pub(super) fn of_field(
+        table: &OffsetTable,
+        fitted: &Hull,
+        (noise, rules): (f64, &[Rule]),
+    ) -> Option<(Self, Likely)> {
+        let marked = with_fixed_lines(table, rules);
+        if table.stations.iter().any(|station| !station.outlines.is_empty()) {
+            return None;
+        }
+        let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
+        let rocker = if fitted.is_level() { None } else { Rocker::new(table, least) };
+        let seen = match rocker {
+            Some(rocker) => Observations::over_keel(&marked, rocker),
+            None => Observations::new(&marked),
+        };
         let shape = [table.stations.len(), table.waterlines.len()];
-        if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 3 || seen.readings.len() < 16 {
+        if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 2 || seen.readings.len() < 16 {
             return None;
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = LevelField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
-        let sigma = field.chosen.field.sigma;
-        let level = noise.max(quantum);
-        if sigma > LACK_OF_FIT[1] * level
-            || sigma > (LACK_OF_FIT[0] * level).max(ROUGH * breadth)
-            || lacks_fit(&field.residuals, quantum.max(LEAST_NOISE * noise))
-        {
+        if field.correlation > CORRELATED || far_off(&field.residuals, quantum.max(LEAST_NOISE * noise)) {
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -108,7 +117,7 @@ impl FairSurface {
         weigh(&mut readings, &places, &field, &known);
         let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
-        let scale = |x: f64, z: f64| field.field.steepness(x, z).powf(field.power);
+        let scale = |x: f64, z: f64| field.steepness([x, z]).powf(field.power);
         // A move bends no sharper across a corner of the chart than the field may.
         let mut moves = field.bent.jumps(&field.net);
         moves.add_band(1.0, &move_metric(hull.surface(), readings.len(), scale));
@@ -118,22 +127,33 @@ impl FairSurface {
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let mut found = Self::over(hull, model, places, start);
         found.breaks = field.lines;
-        let field = found.off_the_centreplane(likely)?;
+        found.keel = field.rocker.map(|rocker| rocker.off);
+        let field = found.within_limits(likely, rules)?;
         let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));
         ((own - through).abs() <= VOLUME * through.abs()).then_some((field, likely))
     }
 
-    /// The field of least objective that passes the centreplane by no more than its errors; none where that was not found.
-    fn off_the_centreplane(mut self, likely: Likely) -> Option<Self> {
+    /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
+    /// errors; none where that was not found.
+    fn within_limits(mut self, likely: Likely, rules: &[Rule]) -> Option<Self> {
         let margin = below_centreplane(likely.sigma, &self.hull);
         let mut limits = breadths(&self.hull, &self.start, f64::INFINITY, margin);
         limits.iter_mut().for_each(|limit| limit.lower = -margin);
-        if limits.iter().all(|limit| value(&limit.row, &self.start) >= limit.lower) {
+        let stays = |(reading, place): &(&Reading, &Place)| {
+            let deck = matches!(place.origin, Origin::Deck { .. });
+            reading.weight > 0.0 && (place.locked || rules.iter().any(|rule| rule.fixes([place.x, place.z], deck)))
+        };
+        let readings = self.model.readings.iter().zip(&self.places);
+        let exact: Vec<(usize, Limit)> = readings
+            .filter(stays)
+            .map(|(reading, _)| (0, Limit { row: reading.row.clone(), lower: reading.value, upper: reading.value }))
+            .collect();
+        if exact.is_empty() && limits.iter().all(|limit| value(&limit.row, &self.start) >= limit.lower) {
             return Some(self);
         }
         let smoother = Smoother::new(&self.model);
         let lambda = likely.weight / smoother.unit;
-        let wishes = Wishes { breadths: limits, widening: 1.0, ..Wishes::default() };
+        let wishes = Wishes { breadths: limits, rules: exact, widening: 1.0, ..Wishes::default() };
         let program = Program::new(&self.model, &smoother, lambda, &wishes, None);
         let solved = program.solve(&smoother, lambda, &Settings::default()).ok()?;
         if !solved.is_optimal() {
@@ -150,29 +170,34 @@ impl FairSurface {
     }
 }
 
+/// The table with the offsets of lines that do not move locked.
+fn with_fixed_lines(table: &OffsetTable, rules: &[Rule]) -> OffsetTable {
+    let mut marked = table.clone();
+    for station in &mut marked.stations {
+        for (cell, &z) in station.half_breadths.iter_mut().zip(&table.waterlines) {
+            cell.marks.locked |= rules.iter().any(|rule| rule.fixes([station.station.x, z], false));
+        }
+    }
+    marked
+}
+
 /// What a field of this noise \[m\] may pass the centreplane by \[m\].
 pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
     (NEGATIVE[0] * sigma).max(NEGATIVE[1] * hull.particulars().breadth)
 }
 
-/// Whether a field follows its table in most places and not in some: the residuals are above `least` \[m\], and
-/// [`MISFIT`] times what the typical one says, or one is [`FARTHEST`] times it.
-fn lacks_fit(residuals: &[f64], least: f64) -> bool {
-    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
-    let all = (squares / residuals.len().max(1) as f64).sqrt();
+/// Whether one of the residuals of a field is above `least` \[m\] and [`FARTHEST`] times the typical one.
+fn far_off(residuals: &[f64], least: f64) -> bool {
     let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
-    let typical = typical(residuals.iter().copied());
-    all > least && (all > MISFIT * typical || most > FARTHEST * typical)
+    most > least.max(FARTHEST * typical(residuals.iter().copied()))
 }
 
 /// The hull of a field.
 fn hull_of(field: &LevelField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
-    let places = bent.places()?;
+    let places = field.places()?;
     let values = bent.half_breadths(&field.field)?;
-    let columns = bent.shape()[1];
-    let points = places.iter().zip(values).enumerate().map(|(k, ([x, _], y))| [*x, y, places[k % columns][1]]);
-    let points: Vec<[f64; 3]> = points.collect();
+    let points: Vec<[f64; 3]> = places.into_iter().zip(values).map(|([x, z], y)| [x, y, z]).collect();
     let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
     let extent = |axis: usize| {
         let values = surface.points().iter().map(|p| p[axis]);
@@ -200,7 +225,7 @@ fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) ->
 /// Weights of the readings: one over the square of the factor of their errors.
 fn weigh(readings: &mut [Reading], places: &[Place], field: &LevelField, known: &[Option<f64>]) {
     for (reading, place) in readings.iter_mut().zip(places) {
-        let scale = field.field.steepness(place.x, place.z).powf(field.power);
+        let scale = field.steepness([place.x, place.z]).powf(field.power);
         reading.weight /= scale * scale;
         let free = reading.row.iter().filter(|(i, _)| known[*i].is_none()).map(|(_, value)| value.abs()).sum::<f64>();
         if free < 1e-9 {
@@ -220,7 +245,7 @@ impl Prepared {
         likely: Likely,
     ) -> Result<Self, FairError> {
         let smoother = Smoother::new(&surface.model);
-        let lambda = likely.weight / smoother.unit;
+        let lambda = settings.weight.unwrap_or(likely.weight / smoother.unit);
         let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
         Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
     }

@@ -185,10 +185,8 @@ impl Job {
     /// Whether a field is asked for, and nothing that only the net of a fit can do; `noise` \[m\] is that of the table.
     pub(super) fn suits_a_field(&self, noise: f64) -> bool {
         self.field
-            && self.weight.is_none()
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
-            && self.rules.is_empty()
-            && self.locked.is_empty()
+            && !self.rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }))
             && self.lines.is_empty()
             && self.accepted == Accepted::None
     }
@@ -306,11 +304,19 @@ impl Job {
     pub(super) fn holds(&self, table: &OffsetTable, (station, waterline): (usize, usize)) -> bool {
         let column = &table.stations[station];
         let place = [column.station.x, table.waterlines[waterline]];
-        let fixed = |rule: &Rule| matches!(rule, Rule::Fixed(line) if line.has(place, false));
         column.half_breadths[waterline].marks.locked
             || self.locked.contains(&(station, waterline))
             || self.tolerance.cells.iter().any(|(s, w, _)| (*s, *w) == (station, waterline))
-            || self.rules.iter().any(fixed)
+            || self.rules.iter().any(|rule| rule.fixes(place, false))
+    }
+
+    /// The table with what the job locks marked so.
+    pub(super) fn marked(&self, table: &OffsetTable) -> OffsetTable {
+        let mut marked = table.clone();
+        for &(station, waterline) in &self.locked {
+            marked.stations[station].half_breadths[waterline].marks.locked = true;
+        }
+        marked
     }
 
     /// Tolerances that the job names, one a reading.

@@ -67,8 +67,12 @@ pub type Progress<'t> = &'t (dyn Fn(&str) + Sync);
 impl Job {
     /// Fairs a table in one way.
     pub(super) fn run_on(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
-        let started = Arc::new(Started::new(self, table, way.own)?);
-        let (run, watched) = Run::new(self, table, way, started)?;
+        self.run_from(table, way, Started::new(self, table, way.own)?)
+    }
+
+    /// The same, from a start.
+    pub(super) fn run_from(&self, table: &OffsetTable, way: Way<'_>, start: Started) -> Result<Outcome, JobError> {
+        let (run, watched) = Run::new(self, table, way, Arc::new(start))?;
         run.at(self.fairness)?.outcome(watched)
     }
 
@@ -332,8 +336,7 @@ impl<'a> Run<'a> {
         let mut changes = changes(self.table, &self.surface, &after, &self.excluded);
         for change in &mut changes {
             let deck = matches!(change.origin, Origin::Deck { .. });
-            let has = |rule: &Rule| matches!(rule, Rule::Fixed(line) if line.has([change.x, change.z], deck));
-            change.locked |= self.settings.rules.iter().any(has);
+            change.locked |= self.settings.rules.iter().any(|rule| rule.fixes([change.x, change.z], deck));
         }
         let predicted = predicted(self.table, &after);
         if !predicted.is_empty() {
@@ -526,7 +529,7 @@ impl<'a> Run<'a> {
             }
         };
         surface.straight_parts().iter().for_each(|note| when(true, note));
-        surface.break_lines().for_each(|note| when(true, &note));
+        surface.lines_of_field().for_each(|note| when(true, &note));
         let [start, fair] = beyond.map(|beyond| 1e3 * beyond);
         when(
             beyond[1] > self.quantum.max(BREADTH * self.greatest),
@@ -537,7 +540,7 @@ impl<'a> Run<'a> {
             ),
         );
         when(
-            !surface.own && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),
+            !surface.own && !surface.is_field && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),
             "a line that does not move, or a flat, keeps the net of the surface through the table, on which less is taken for noise \
              than on an independent net",
         );

@@ -95,7 +95,7 @@ impl Started {
     /// ([`super::robust`]), where the net follows what is left; `own` says whether there may be one.
     pub(super) fn new(job: &Job, table: &OffsetTable, own: bool) -> Result<Self, JobError> {
         let mut found = suspects(table);
-        let mut cleaned = Cleaned { clean: table.clone(), charted: table.clone(), excluded: Vec::new() };
+        let mut cleaned = Cleaned { clean: job.marked(table), charted: table.clone(), excluded: Vec::new() };
         let mut kept = Vec::new();
         for suspect in found.suspects.iter().filter(|suspect| job.exclude_suspects && suspect.probability > 0.5) {
             let cell = (suspect.station, suspect.waterline);
@@ -122,8 +122,7 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
         let mut likely = None;
         if as_field {
-            let level = modelled.before.is_level();
-            match level.then(|| FairSurface::of_field(&cleaned.clean, &modelled.before, noise)).flatten() {
+            match FairSurface::of_field(&cleaned.clean, &modelled.before, (noise, &job.rules)) {
                 Some(field) => (modelled.surface, likely) = (field.0, Some(field.1)),
                 None => modelled.net_again(job, &cleaned, &found, noise)?,
             }
@@ -155,8 +154,6 @@ impl Started {
                 (modelled.search, gap) = (None, 0.0);
             }
         }
-        let locked = |origin: Origin| matches!(origin, Origin::HalfBreadth { station, waterline } if job.locked.contains(&(station, waterline)));
-        modelled.surface.places.iter_mut().for_each(|place| place.locked |= locked(place.origin));
         let Modelled { before, notes: assumed, proposals, surface, search, watched, .. } = modelled;
         let mut notes = Vec::new();
         for (station, waterline) in kept {

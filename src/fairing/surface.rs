@@ -148,6 +148,8 @@ pub struct FairSurface {
     pub is_field: bool,
     /// Waterlines across which a field breaks.
     pub breaks: Vec<FoundBreak>,
+    /// How far the keel line of a field with rocker is from its heights at most \[m\].
+    pub keel: Option<f64>,
 }
 
 /// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one
@@ -368,6 +370,7 @@ impl FairSurface {
             own: smooth,
             is_field: false,
             breaks: Vec::new(),
+            keel: None,
             simple: over.is_none_or(|(over, _)| over.simple),
             hull,
         })
@@ -388,6 +391,7 @@ impl FairSurface {
             courses: [Course::default(), Course::default()],
             is_field: true,
             breaks: Vec::new(),
+            keel: None,
         }
     }
 
@@ -410,15 +414,22 @@ impl FairSurface {
         self.model.readings.iter().zip(&self.places).filter_map(named).collect()
     }
 
-    /// Waterlines across which the curvature of a field breaks, in words.
-    pub(super) fn break_lines(&self) -> impl Iterator<Item = String> {
-        self.breaks.iter().map(|line| {
+    /// What a field does with the keel line, in words, and across which waterlines its curvature breaks.
+    pub(super) fn lines_of_field(&self) -> impl Iterator<Item = String> {
+        let keel = self.keel.map(|off| {
+            format!(
+                "the keel line is the likeliest one through the heights of the keel: it leaves them by {:.1} mm at most",
+                1e3 * off
+            )
+        });
+        let breaks = self.breaks.iter().map(|line| {
             format!(
                 "curvature breaks along the waterline at z = {:.2} m, as at the end of a bilge: the offsets show it (-2 ln of the likelihood \
                  falls by {:.0})",
                 line.z, line.gain
             )
-        })
+        });
+        keel.into_iter().chain(breaks)
     }
 
     /// Straight parts that were found and are kept straight, in words.

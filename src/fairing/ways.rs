@@ -102,11 +102,23 @@ impl Job {
 
     /// The table faired in the way that suits it.
     fn run_within_ways(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
-        let way = Way { own: true, another: ANOTHER, followed: self.followed(table)?, progress };
-        let mut outcome = self.run_within(table, way)?;
-        if outcome.is_field {
+        let mut way = Way { own: true, another: ANOTHER, followed: None, progress };
+        let start = Started::new(self, table, way.own)?;
+        if start.surface.is_field {
+            let outcome = self.run_from(table, way, start)?;
             return self.or_without_the_field(table, progress, outcome);
         }
+        // What has no field has none in any other way.
+        let job = Self { field: false, ..self.clone() };
+        way.followed = job.followed(table)?;
+        let first = job.run_from(table, way, start)?;
+        job.within_other_ways(table, way, first)
+    }
+
+    /// The table faired on the net of the fit or on one of its own, in the way that suits it.
+    fn within_other_ways(&self, table: &OffsetTable, way: Way<'_>, first: Outcome) -> Result<Outcome, JobError> {
+        let progress = way.progress;
+        let mut outcome = self.run_after(table, way, first)?;
         if !self.signs || !outcome.is_proved_on_the_fit() {
             return Ok(outcome);
         }
@@ -174,6 +186,11 @@ impl Job {
     /// Fairs a table.
     fn run_within(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
         let first = self.run_on(table, way)?;
+        self.run_after(table, way, first)
+    }
+
+    /// The same, where a first outcome is known.
+    fn run_after(&self, table: &OffsetTable, way: Way<'_>, first: Outcome) -> Result<Outcome, JobError> {
         if first.is_field {
             return Ok(first);
         }

@@ -214,6 +214,12 @@ impl Rule {
         }
     }
 
+    /// Whether the rule lets a place (x, z) \[m\] of the table, or its offset at the deck at side (`deck`), not move.
+    #[must_use]
+    pub fn fixes(&self, place: [f64; 2], deck: bool) -> bool {
+        matches!(self, Self::Fixed(line) if line.has(place, deck))
+    }
+
     /// The line whose inflections the rule decides, which nothing else should; none where it decides a part of it.
     #[must_use]
     pub fn counted_line(&self) -> Option<Line> {

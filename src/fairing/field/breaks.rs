@@ -2,16 +2,13 @@
 //!
 //! The score test ([`Observed::scores`]) says where a break is likely: between any two waterlines, with a jump that is a
 //! polynomial along the ship. The likeliest is tried in the net, moved to where it is likeliest, and given the charge that
-//! is. It is taken where -2 log l falls by more than 24, unless the field with it passes the centreplane between offsets:
-//! on a fishing vessel one did so by 60 mm, where the keel is narrow. Then the next is looked for. Sections x = constant are no
+//! is. It is taken where -2 log l falls by more than 24. Then the next is looked for. Sections x = constant are no
 //! candidates: a middle body ends at another place at every height. With them the error of 53 random tables was 2 % more
 //! in the geometric mean; breaks of waterlines alone make it 9 % less.
 
-use super::chart::Chart;
 use super::choice::Chosen;
-use super::likelihood::{self, Cell, Observed, smoothed};
+use super::likelihood::{self, Observed, Readings, smoothed};
 use super::net::{Break, Net};
-use super::region::Field;
 use std::collections::BTreeSet;
 
 /// Least gain in -2 log l of a break. Those of less made as many tables worse as better.
@@ -19,9 +16,6 @@ const GAIN: f64 = 24.0;
 
 /// Least score of a break that is tried.
 const SCORE: f64 = 25.0;
-
-/// Noise levels by which a field with a break may pass the centreplane between offsets.
-const DEPTH: f64 = 3.0;
 
 /// Most breaks.
 const MOST: usize = 6;
@@ -59,21 +53,21 @@ pub struct FoundBreak {
 pub fn broken(
     mut net: Net,
     spans: [usize; 2],
-    cells: &[Cell],
+    readings: &Readings,
     mut chosen: Chosen,
     least: f64,
 ) -> (Net, Chosen, Vec<FoundBreak>) {
     let (chart, intervals) = (chosen.chart, net.intervals);
-    let cells_at = likelihood::places(&chart, cells);
+    let cells_at = likelihood::places(&chart, readings.cells.iter().map(|cell| [cell.x, cell.z]));
     let mut lines = Vec::new();
     for _ in 0..MOST {
         let Ok(rough) = chosen.roughness(&net) else { break };
-        let observed = Observed::new(&net, &chart, cells);
-        let places = places(&chart, cells, &net.breaks);
+        let observed = Observed::new(&net, &chart, readings);
+        let places = places(&cells_at, &net.breaks);
         let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &cells_at)).collect();
         let weight = 10f64.powf(chosen.exponent);
         let Ok(scores) = observed.scores(&rough, weight, &chosen.field, &functions) else { break };
-        let trial = Trial { spans, intervals, cells, least, known: &net.breaks, chosen: &chosen };
+        let trial = Trial { spans, intervals, readings, least, known: &net.breaks, chosen: &chosen };
         let mut best: Option<(f64, f64, Break)> = None;
         for (k, charge) in peaks(&scores).into_iter().take(TRIED).flat_map(|k| FIRST.map(|charge| (k, charge))) {
             let line = Break { at: places[k], order: 2, charge };
@@ -87,7 +81,7 @@ pub fn broken(
         let Some((_, exponent, line)) = best.filter(|best| best.0 < chosen.field.cost) else { break };
         let Some((tried, found, line)) = trial.refined(line, exponent) else { break };
         let gain = chosen.field.cost - found.field.cost;
-        if gain < GAIN || depth(&tried, &found, cells) > depth(&net, &chosen, cells).max(DEPTH * found.field.sigma) {
+        if gain < GAIN {
             break;
         }
         lines.push(FoundBreak { z: chart.z(line.at), gain });
@@ -96,24 +90,11 @@ pub fn broken(
     (net, chosen, lines)
 }
 
-/// How far the field passes the centreplane between two offsets with breadth of a station \[m\].
-fn depth(net: &Net, chosen: &Chosen, cells: &[Cell]) -> f64 {
-    let Ok(field) = Field::new(chosen.chart, net, &chosen.field.values) else { return f64::INFINITY };
-    let mut wide: Vec<&Cell> = cells.iter().filter(|cell| cell.y > 0.0).collect();
-    wide.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.z.total_cmp(&b.z)));
-    let pairs = wide.windows(2).filter(|pair| pair[0].x.total_cmp(&pair[1].x).is_eq());
-    let between = pairs.flat_map(|pair| {
-        let (u, [low, high]) = (chosen.chart.u(pair[0].x), [0, 1].map(|k| chosen.chart.v(pair[k].z)));
-        (1..PLACES).map(move |k| [u, low + (high - low) * k as f64 / PLACES as f64])
-    });
-    between.map(|at| -field.at(at)).fold(0.0, f64::max)
-}
-
 /// A break beside those that are known.
 struct Trial<'a> {
     spans: [usize; 2],
     intervals: [f64; 2],
-    cells: &'a [Cell],
+    readings: &'a Readings,
     least: f64,
     known: &'a [Break],
     chosen: &'a Chosen,
@@ -128,7 +109,7 @@ impl Trial<'_> {
     /// The net with the break, and the choice on it; none where it costs more than `rival`.
     fn weighed(&self, line: Break, start: f64, rival: f64) -> Option<(Net, Chosen)> {
         let net = self.net(line)?;
-        let found = self.chosen.on(&net, self.cells, start, self.least, rival)?;
+        let found = self.chosen.on(&net, self.readings, start, self.least, rival)?;
         Some((net, found))
     }
 
@@ -137,7 +118,7 @@ impl Trial<'_> {
         let field = || {
             let net = self.net(line)?;
             let rough = self.chosen.roughness(&net).ok()?;
-            let observed = Observed::new(&net, &self.chosen.chart, self.cells);
+            let observed = Observed::new(&net, &self.chosen.chart, self.readings);
             smoothed(&observed, &rough, 10f64.powf(exponent), self.least).ok()
         };
         field().map_or(f64::INFINITY, |field| field.cost)
@@ -200,9 +181,9 @@ fn peaks(scores: &[f64]) -> Vec<usize> {
 }
 
 /// Where a break may be in v: between the second waterline of the cells and the last but one, not beside one that is there.
-fn places(chart: &Chart, cells: &[Cell], known: &[Break]) -> Vec<f64> {
+fn places(cells: &[[f64; 2]], known: &[Break]) -> Vec<f64> {
     const UNIT: f64 = 1e-9;
-    let lines: BTreeSet<u64> = cells.iter().map(|cell| (chart.v(cell.z).max(0.0) / UNIT).round() as u64).collect();
+    let lines: BTreeSet<u64> = cells.iter().map(|[_, v]| (v.max(0.0) / UNIT).round() as u64).collect();
     let lines: Vec<f64> = lines.into_iter().map(|line| line as f64 * UNIT).collect();
     let mean = 1.0 / (lines.len().max(2) - 1) as f64;
     let between = |pair: &[f64]| {

@@ -4,7 +4,7 @@
 
 use super::chart::{Chart, Shape};
 use super::density::Density;
-use super::likelihood::{Cell, Observed, Roughness, Smoothed, smoothed};
+use super::likelihood::{Observed, Readings, Roughness, Smoothed, smoothed};
 use super::net::{Metric, Net};
 use crate::numeric::SingularMatrix;
 use std::collections::BTreeMap;
@@ -122,8 +122,8 @@ impl Chosen {
     /// With the density of its field where that is likelier by more than its price: of each of the `widths` the one of a few
     /// rounds, each of the field with the one before. Later rounds are not tried where the density would still be worth less
     /// with half the gain of the first again.
-    pub(super) fn with_density(&self, net: &Net, cells: &[Cell], least: f64, widths: &[f64]) -> Self {
-        let observed = Observed::new(net, &self.chart, cells);
+    pub(super) fn with_density(&self, net: &Net, readings: &Readings, least: f64, widths: &[f64]) -> Self {
+        let observed = Observed::new(net, &self.chart, readings);
         let mut best = self.clone();
         for width in widths {
             let mut last = self.clone();
@@ -150,8 +150,8 @@ impl Chosen {
 
     /// The same chart and metric on another net, with the weight of greatest likelihood from `start` (its decimal
     /// logarithm) on. None where the cells determine no field, or where it costs more than `rival`.
-    pub(super) fn on(&self, net: &Net, cells: &[Cell], start: f64, least: f64, rival: f64) -> Option<Self> {
-        self.weighed(net, &Observed::new(net, &self.chart, cells), start, least, rival)
+    pub(super) fn on(&self, net: &Net, readings: &Readings, start: f64, least: f64, rival: f64) -> Option<Self> {
+        self.weighed(net, &Observed::new(net, &self.chart, readings), start, least, rival)
     }
 
     fn weighed(&self, net: &Net, observed: &Observed, start: f64, least: f64, rival: f64) -> Option<Self> {
@@ -164,7 +164,7 @@ impl Chosen {
 
 struct Search<'a, 'n> {
     energies: &'a mut Energies<'n>,
-    cells: &'a [Cell],
+    readings: &'a Readings,
     rectangle: Chart,
     least: f64,
     known: BTreeMap<[usize; 5], (f64, Smoothed)>,
@@ -195,7 +195,7 @@ impl Search<'_, '_> {
         if let Some(bound) = self.bounds.get(&at).filter(|bound| **bound > rival) {
             return *bound;
         }
-        let observed = Observed::new(self.energies.net, &self.chart(at), self.cells);
+        let observed = Observed::new(self.energies.net, &self.chart(at), self.readings);
         let Ok(rough) = self.energies.of(Self::metric(at)) else { return f64::INFINITY };
         let (found, trials) = weighed(&observed, rough, start, self.least, rival);
         self.trials += trials;
@@ -227,7 +227,7 @@ impl Search<'_, '_> {
     /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid. On a grid the
     /// places to each side are tried as far as cost does not rise by [`RISE`].
     fn descent(&mut self, mut at: [usize; 5], beside: usize, start: f64) -> Option<[usize; 5]> {
-        let rise = RISE[0] + RISE[1] * self.cells.len() as f64;
+        let rise = RISE[0] + RISE[1] * self.readings.cells.len() as f64;
         let mut best = self.cost(at, start, f64::INFINITY);
         for _ in 0..ROUNDS {
             let before = at;
@@ -345,13 +345,13 @@ fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival
 #[must_use]
 pub fn choose(
     energies: &mut Energies<'_>,
-    cells: &[Cell],
+    readings: &Readings,
     rectangle: Chart,
     least: f64,
     earlier: Option<&Chosen>,
 ) -> Option<Chosen> {
     let (known, bounds) = (BTreeMap::new(), BTreeMap::new());
-    let mut search = Search { energies, cells, rectangle, least, known, bounds, trials: 0 };
+    let mut search = Search { energies, readings, rectangle, least, known, bounds, trials: 0 };
     let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
     let starts = earlier.map_or(STARTS.to_vec(), |earlier| vec![place(earlier)]);
     let beside = if earlier.is_some() { 1 } else { usize::MAX };

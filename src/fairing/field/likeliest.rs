@@ -3,7 +3,7 @@
 use super::breaks::{FoundBreak, broken};
 use super::chart::Chart;
 use super::choice::{Chosen, Energies, WIDTHS, choose};
-use super::likelihood::Cell;
+use super::likelihood::{Cell, Readings};
 use super::net::Net;
 use super::surface::FieldError;
 
@@ -18,8 +18,8 @@ const FINER: f64 = 1.5;
 pub(super) struct Likeliest {
     /// The power of the steepness that the errors go with.
     pub(super) power: f64,
-    /// The readings, with the scales of their errors.
-    pub(super) cells: Vec<Cell>,
+    /// What it is made from, with the scales of the errors.
+    pub(super) readings: Readings,
     /// Chart, weight and field.
     pub(super) chosen: Chosen,
     /// The net of the field.
@@ -34,25 +34,25 @@ struct Scaled {
     /// -2 log l with the scales of the errors.
     cost: f64,
     power: f64,
-    cells: Vec<Cell>,
+    readings: Readings,
     chosen: Chosen,
 }
 
 impl Scaled {
-    fn new(power: f64, cells: Vec<Cell>, chosen: Chosen, net: &Net) -> Self {
-        let jacobian = cells.iter().map(|cell| 2.0 * cell.scale.ln()).sum::<f64>();
-        Self { cost: chosen.field.cost + chosen.price(net) + jacobian, power, cells, chosen }
+    fn new(power: f64, readings: Readings, chosen: Chosen, net: &Net) -> Self {
+        let jacobian = readings.cells.iter().map(|cell| 2.0 * cell.scale.ln()).sum::<f64>();
+        Self { cost: chosen.field.cost + chosen.price(net) + jacobian, power, readings, chosen }
     }
 
     /// With the breaks that it shows.
     fn broken(&self, net: &Net, spans: [usize; 2], least: f64) -> (Self, Net, Vec<FoundBreak>) {
-        let (net, chosen, lines) = broken(net.clone(), spans, &self.cells, self.chosen.clone(), least);
-        (Self::new(self.power, self.cells.clone(), chosen, &net), net, lines)
+        let (net, chosen, lines) = broken(net.clone(), spans, &self.readings, self.chosen.clone(), least);
+        (Self::new(self.power, self.readings.clone(), chosen, &net), net, lines)
     }
 
     fn with_density(&self, net: &Net, least: f64, widths: &[f64]) -> Self {
-        let chosen = self.chosen.with_density(net, &self.cells, least, widths);
-        Self::new(self.power, self.cells.clone(), chosen, net)
+        let chosen = self.chosen.with_density(net, &self.readings, least, widths);
+        Self::new(self.power, self.readings.clone(), chosen, net)
     }
 }
 
@@ -62,7 +62,7 @@ impl Scaled {
 /// [`FieldError`] where the readings determine none.
 pub(super) fn likeliest(
     energies: &mut Energies<'_>,
-    readings: &[Cell],
+    seen: &Readings,
     steepness: &[f64],
     (rectangle, least): (Chart, f64),
 ) -> Result<Likeliest, FieldError> {
@@ -70,17 +70,18 @@ pub(super) fn likeliest(
     let mut tried: Vec<Scaled> = Vec::new();
     for power in POWERS {
         let scale = |(cell, s): (&Cell, &f64)| Cell { scale: cell.scale * s.powf(power), ..*cell };
-        let cells: Vec<Cell> = readings.iter().zip(steepness).map(scale).collect();
+        let cells = seen.cells.iter().zip(steepness).map(scale).collect();
+        let readings = Readings { cells, inside: seen.inside.clone() };
         let earlier = tried.iter().min_by(|a, b| a.cost.total_cmp(&b.cost)).map(|best| &best.chosen);
-        let chosen = choose(energies, &cells, rectangle, least, earlier);
-        tried.extend(chosen.map(|chosen| Scaled::new(power, cells, chosen, coarse)));
+        let chosen = choose(energies, &readings, rectangle, least, earlier);
+        tried.extend(chosen.map(|chosen| Scaled::new(power, readings, chosen, coarse)));
     }
     tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let spans = [0, 1].map(|k| (FINER * (coarse.knots[k].breakpoints().len() - 1) as f64).round() as usize);
     let net = Net::uniform(spans, coarse.intervals)?;
-    let on_finer = |Scaled { power, cells, chosen, .. }: Scaled| {
-        let chosen = chosen.on(&net, &cells, chosen.exponent, least, f64::INFINITY)?;
-        Some(Scaled::new(power, cells, chosen, &net))
+    let on_finer = |Scaled { power, readings, chosen, .. }: Scaled| {
+        let chosen = chosen.on(&net, &readings, chosen.exponent, least, f64::INFINITY)?;
+        Some(Scaled::new(power, readings, chosen, &net))
     };
     let mut tried = tried.into_iter().filter_map(on_finer);
     let first = tried.next().ok_or(FieldError::Undetermined)?;
@@ -100,6 +101,6 @@ pub(super) fn likeliest(
             }
         }
     }
-    let (Scaled { power, cells, chosen, .. }, net, lines) = best;
-    Ok(Likeliest { power, cells, chosen, net, lines })
+    let (Scaled { power, readings, chosen, .. }, net, lines) = best;
+    Ok(Likeliest { power, readings, chosen, net, lines })
 }

@@ -9,6 +9,9 @@
 //! -2 log l = (n - k) log sigma^2 + y'Ay / sigma^2 - log det+ A,   sigma^2 = max(y'Ay / (n - k), least)
 //! log det+ A = r log w + log det+ P - log det(M'M + wP) + log det X'X,   r = rank P
 //! ```
+//!
+//! A field that passes the centreplane by d between the offsets of a station is as unlikely as with a reading there that is
+//! off by d: it costs (d / sigma)^2.
 
 use super::chart::Chart;
 use super::density::Density;
@@ -32,6 +35,18 @@ pub struct Cell {
     /// Standard deviation of its error over that of an error normal to the hull.
     pub scale: f64,
 }
+
+/// What a field is made from.
+#[derive(Debug, Clone, Default)]
+pub struct Readings {
+    /// Offsets.
+    pub cells: Vec<Cell>,
+    /// Places (x, z) \[m\] between the offsets at which the hull is: half-breadths are not negative there.
+    pub inside: Vec<[f64; 2]>,
+}
+
+/// Places between two offsets of a station at which a field is looked at, one after the other.
+pub const PLACES: usize = 3;
 
 /// The functions of a net at a cell, over the scale of its errors: products along u and v.
 #[derive(Debug, Clone, Copy)]
@@ -75,11 +90,11 @@ impl Row {
     }
 }
 
-/// u and v of cells on a chart; many share their x.
-pub(super) fn places(chart: &Chart, cells: &[Cell]) -> Vec<[f64; 2]> {
+/// u and v of places (x, z) on a chart; many share their x.
+pub(super) fn places(chart: &Chart, places: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut known = HashMap::new();
     let mut u = |x: f64| *known.entry(x.to_bits()).or_insert_with(|| chart.u(x));
-    cells.iter().map(|cell| [u(cell.x), chart.v(cell.z)]).collect()
+    places.map(|[x, z]| [u(x), chart.v(z)]).collect()
 }
 
 /// The cells of a table as rows over a net on one chart.
@@ -89,6 +104,8 @@ pub struct Observed {
     right: Vec<f64>,
     /// Rows over the scales.
     rows: Vec<Row>,
+    /// Rows of places at which the hull is.
+    inside: Vec<Row>,
     values: Vec<f64>,
     scales: Vec<f64>,
     /// log det X'X.
@@ -96,23 +113,27 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// Rows of the cells.
+    /// Rows of the readings.
     #[must_use]
-    pub fn new(net: &Net, chart: &Chart, cells: &[Cell]) -> Self {
-        let places = places(chart, cells);
+    pub fn new(net: &Net, chart: &Chart, Readings { cells, inside }: &Readings) -> Self {
+        let places = places(chart, cells.iter().map(|cell| [cell.x, cell.z]));
         let mut normal = SymmetricBand::zeros(net.size(), net.energy_width());
         let mut right = vec![0.0; net.size()];
         let (mut rows, mut values) = (Vec::with_capacity(cells.len()), Vec::with_capacity(cells.len()));
         let stride = net.shape()[1];
-        for (cell, &[u, v]) in cells.iter().zip(&places) {
+        let row = |[u, v]: [f64; 2], scale: f64| {
             let ((i, along), (j, up)) = (net.basis(0, u), net.basis(1, v));
-            let row = Row { first: i * stride + j, stride, along, up: up.map(|b| b / cell.scale) };
+            Row { first: i * stride + j, stride, along, up: up.map(|b| b / scale) }
+        };
+        for (cell, &at) in cells.iter().zip(&places) {
+            let row = row(at, cell.scale);
             let value = cell.y / cell.scale;
             row.add_to(&mut right, value);
             row.add_square(&mut normal);
             rows.push(row);
             values.push(value);
         }
+        let inside = self::places(chart, inside.iter().copied()).into_iter().map(|at| row(at, 1.0)).collect();
         let powers = |[u, v]: [f64; 2]| -> Vec<f64> {
             let of = |t: f64, k: usize| (2.0 * t - 1.0).powi(k as i32);
             (0..ORDER).flat_map(|i| (0..ORDER - i).map(move |j| of(u, i) * of(v, j))).collect()
@@ -128,7 +149,7 @@ impl Observed {
         }
         let kernel = SymmetricEigen::new(gram).eigenvalues.iter().map(|e| e.max(1e-300).ln()).sum();
         let scales = cells.iter().map(|cell| cell.scale).collect();
-        Self { normal, right, rows, values, scales, kernel }
+        Self { normal, right, rows, inside, values, scales, kernel }
     }
 
     /// How likely it is that functions, given by their values at the cells, are in the errors of the field of a weight: the
@@ -270,6 +291,8 @@ pub fn smoothed(
     let variance = (left / freedom).max(least * least);
     let rank = (values.len() - KERNEL) as f64;
     let determinant = rank * weight.ln() + roughness.log_determinant - factor.log_determinant() + observed.kernel;
-    let cost = freedom * variance.ln() + left / variance - determinant;
+    let deepest = |gap: &[Row]| gap.iter().map(|row| row.of(&values)).fold(0.0, f64::min).powi(2);
+    let below = observed.inside.chunks(PLACES).map(deepest).sum::<f64>();
+    let cost = freedom * variance.ln() + (left + below) / variance - determinant;
     Ok(Smoothed { values, sigma: variance.sqrt(), cost })
 }

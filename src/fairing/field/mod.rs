@@ -14,6 +14,8 @@
 //! Where a hull bends unlike from place to place, the energy has a density that follows it ([`density`]). [`likeliest`] has
 //! the order in which all of this is chosen.
 //!
+//! On a keel with rocker the field is one over heights relative to it ([`rocker`]).
+//!
 //! [`observed`] has what the table says of ends, [`region`] where the hull is within its rectangle. [`bent`] is the net
 //! of the hull with the same energy.
 
@@ -32,6 +34,7 @@ pub mod likelihood;
 pub mod net;
 pub mod observed;
 pub mod region;
+pub mod rocker;
 pub mod surface;
 #[cfg(test)]
 #[allow(clippy::needless_range_loop, reason = "orders of derivatives are what the loops run over")]

@@ -3,10 +3,11 @@
 //!
 //! An end of a waterline is, in this order: the one the table gives; on the plane of the transom; the edge of the table
 //! where the last station still has breadth; a zero that neighbouring waterlines have at the same station, where the
-//! offsets agree to that (a perpendicular). Otherwise it lies between the last station with breadth and the next one: the
+//! offsets agree to that (a perpendicular); a zero at which the field would have breadth. Otherwise it lies between the last station with breadth and the next one: the
 //! field says where.
 
-use super::likelihood::Cell;
+use super::likelihood::{Cell, PLACES, Readings};
+use super::rocker::Rocker;
 use crate::hull::{OffsetTable, StationOffsets, TransomPlane};
 
 /// Scale of the errors of an offset that is exact, over that of others.
@@ -30,8 +31,15 @@ pub enum End {
     Cut(f64),
     /// It closes between the last station with breadth and the next one \[m\].
     Between(f64, f64),
-    /// The same, and neighbouring waterlines have a zero at that next station as well: it may be a perpendicular.
-    Shared(f64, f64),
+    /// The same, and the table has a zero at that next station.
+    Zero {
+        /// The last station with breadth \[m\].
+        last: f64,
+        /// The next one \[m\].
+        at: f64,
+        /// Whether neighbouring waterlines have a zero there as well: it may be a perpendicular.
+        shared: bool,
+    },
 }
 
 impl End {
@@ -39,7 +47,7 @@ impl End {
     #[must_use]
     pub fn outermost(self) -> f64 {
         match self {
-            Self::Closed(x) | Self::Cut(x) | Self::Between(_, x) | Self::Shared(_, x) => x,
+            Self::Closed(x) | Self::Cut(x) | Self::Between(_, x) | Self::Zero { at: x, .. } => x,
         }
     }
 }
@@ -62,8 +70,19 @@ pub struct Zero {
     pub cell: Cell,
     /// The half-breadth beside it: of the station before an end, of the waterline above a keel \[m\].
     pub beside: f64,
-    /// Whether it is the end of a waterline.
-    pub is_end: bool,
+    /// What it is.
+    pub kind: ZeroKind,
+}
+
+/// What a zero beside the hull is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ZeroKind {
+    /// A keel above the base.
+    Keel,
+    /// The end of a waterline, at the station of that of its neighbours.
+    SharedEnd,
+    /// The end of a waterline alone.
+    End,
 }
 
 /// All of it.
@@ -71,6 +90,8 @@ pub struct Zero {
 pub struct Observations {
     /// Offsets and other values of the field.
     pub readings: Vec<Cell>,
+    /// Places (x, z) \[m\] between two offsets of a station, or above its keel, at which the hull is.
+    pub inside: Vec<[f64; 2]>,
     /// Keels above the base.
     pub keels: Vec<Zero>,
     /// Half-breadths above the deck, where the side goes on.
@@ -81,6 +102,8 @@ pub struct Observations {
     pub extent: [[f64; 2]; 2],
     /// Whether the lowest line is on the centreplane all along.
     pub keel_closed: bool,
+    /// The keel line to which all heights are relative; none: heights are those of the table.
+    pub rocker: Option<Rocker>,
 }
 
 struct Line<'a> {
@@ -120,7 +143,7 @@ impl Observations {
             found.waterline(&Line { table, j }, lowest);
         }
         for (station, z) in keels() {
-            let level = z - bottom <= LEVEL * height;
+            let level = level_keel(Some(z), bottom, height);
             // On the lowest waterline an offset says it already.
             if level && bottom >= lowest {
                 continue;
@@ -133,8 +156,11 @@ impl Observations {
                 let above = (0..table.waterlines.len()).filter(|&j| table.waterlines[j] > z);
                 let breadth = above.filter_map(|j| station.half_breadth(j)).next().unwrap_or(0.0);
                 let cell = Cell { x, z, y: 0.0, scale: EXACT };
-                found.keels.push(Zero { cell, beside: breadth, is_end: false });
+                found.keels.push(Zero { cell, beside: breadth, kind: ZeroKind::Keel });
             }
+        }
+        for k in 0..stations.len() {
+            found.inside_of(table, k, bottom, level_keel(stations[k].keel_height, bottom, height));
         }
         for station in stations {
             let deck = station.deck_height.zip(station.deck_half_breadth);
@@ -154,7 +180,31 @@ impl Observations {
         found
     }
 
-    /// The zeros that may belong to the hull: keels above the base, and ends that neighbouring waterlines share.
+    /// What a field is made from.
+    #[must_use]
+    pub fn of_field(&self) -> Readings {
+        Readings { cells: self.readings.clone(), inside: self.inside.clone() }
+    }
+
+    /// Notes where the hull is at a station, `bottom` being its keel where that is on the base.
+    fn inside_of(&mut self, table: &OffsetTable, k: usize, bottom: f64, on_base: bool) {
+        let breadth = |k: usize, j: usize| table.stations[k].half_breadth(j).is_some_and(|y| y > 0.0);
+        let x = table.stations[k].station.x;
+        let count = table.stations.len();
+        for (j, &z) in table.waterlines.iter().enumerate().filter(|(j, _)| breadth(k, *j)) {
+            // Next to an end of a waterline the stem may rise between this one and the keel.
+            let surrounded = (0..k).any(|k| breadth(k, j)) && (k + 1..count).any(|k| breadth(k, j));
+            let (from, power) = match j.checked_sub(1) {
+                Some(below) if breadth(k, below) => (table.waterlines[below], 1),
+                below if on_base && surrounded && below.is_none_or(|j| table.waterlines[j] <= bottom) => (bottom, 2),
+                _ => continue,
+            };
+            let part = |place: usize| (place as f64 / (PLACES + 1) as f64).powi(power);
+            self.inside.extend((1..=PLACES).map(|place| [x, from + (z - from) * part(place)]));
+        }
+    }
+
+    /// The zeros that may belong to the hull: keels above the base, and ends of waterlines.
     #[must_use]
     pub fn zeros(&self) -> Vec<Zero> {
         let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();
@@ -163,8 +213,9 @@ impl Observations {
             cell.map_or(0.0, |cell| cell.y)
         };
         let end = |line: &Waterline, end: End| {
-            let End::Shared(x, beyond) = end else { return None };
-            Some(Zero { cell: shared(beyond, line.z), beside: breadth(x, line.z), is_end: true })
+            let End::Zero { last, at, shared } = end else { return None };
+            let kind = if shared { ZeroKind::SharedEnd } else { ZeroKind::End };
+            Some(Zero { cell: closing(at, line.z), beside: breadth(last, line.z), kind })
         };
         let ends = self.waterlines.iter().flat_map(|line| line.ends.map(|e| end(line, e))).flatten();
         self.keels.iter().copied().chain(ends).collect()
@@ -177,12 +228,54 @@ impl Observations {
         for line in &mut self.waterlines {
             let z = line.z;
             for end in &mut line.ends {
-                let End::Shared(x, beyond) = *end else { continue };
-                let cell = shared(beyond, z);
-                let closes = agreeing.iter().any(|zero| zero.is_end && zero.cell == cell);
-                *end = if closes { End::Closed(beyond) } else { End::Between(x, beyond) };
+                let End::Zero { last, at, .. } = *end else { continue };
+                let cell = closing(at, z);
+                let closes = agreeing.iter().any(|zero| zero.kind != ZeroKind::Keel && zero.cell == cell);
+                *end = if closes { End::Closed(at) } else { End::Between(last, at) };
             }
         }
+    }
+
+    /// What a table says of a field over heights relative to a keel with rocker: offsets above the keel, whose end is the
+    /// keel line itself. The hull ends at the ends of this line, plumb.
+    #[must_use]
+    pub fn over_keel(table: &OffsetTable, rocker: Rocker) -> Self {
+        let level = Self::new(table);
+        let relative = |cell: &Cell| Some(Cell { z: rocker.relative(cell.x, cell.z)?, ..*cell });
+        let [bottom, top] = rocker.height;
+        let mut readings: Vec<Cell> = level.readings.iter().filter(|cell| cell.y > 0.0).filter_map(relative).collect();
+        let bounds = level.bounds.iter().filter_map(relative).collect();
+        let mut inside: Vec<[f64; 2]> =
+            level.inside.iter().map(|&[x, z]| [x, rocker.relative(x, z).unwrap_or(bottom)]).collect();
+        for station in &table.stations {
+            let x = station.station.x;
+            let offsets = readings.iter().filter(|cell| (cell.x - x).abs() < 1e-9);
+            let lowest = offsets.map(|cell| cell.z).fold(f64::INFINITY, f64::min);
+            let part = |place: usize| (place as f64 / (PLACES + 1) as f64).powi(2);
+            let above = (1..=PLACES).map(|place| [x, bottom + (lowest - bottom) * part(place)]);
+            inside.extend(above.filter(|_| lowest.is_finite()));
+        }
+        let mut keel_closed = true;
+        for station in &table.stations {
+            if station.keel_height.is_some() {
+                let (x, y) = (station.station.x, station.flat_of_bottom.unwrap_or(0.0));
+                keel_closed &= y <= 0.0;
+                readings.push(Cell { x, z: bottom, y, scale: if y > 0.0 { 1.0 } else { EXACT } });
+            }
+        }
+        let ends = [0, 1].map(|side| {
+            let x = rocker.length[side];
+            if rocker.closed[side] { End::Closed(x) } else { End::Cut(x) }
+        });
+        let lines = table.waterlines.len().max(2);
+        for side in (0..2).filter(|&side| rocker.closed[side]) {
+            let x = rocker.length[side];
+            let places = (0..lines).map(|k| bottom + (top - bottom) * k as f64 / (lines - 1) as f64);
+            readings.extend(places.map(|z| Cell { x, z, y: 0.0, scale: EXACT }));
+        }
+        let waterlines = rocker.height.map(|z| Waterline { z, ends, inner: rocker.length }).to_vec();
+        let extent = [rocker.length, rocker.height];
+        Self { readings, inside, keels: Vec::new(), bounds, waterlines, extent, keel_closed, rocker: Some(rocker) }
     }
 
     fn waterline(&mut self, line: &Line<'_>, lowest: f64) {
@@ -254,7 +347,10 @@ impl Observations {
         }
         let Some(next) = next else { return End::Cut(x) };
         let beyond = line.station(next).station.x;
-        if is_shared(line, side) { End::Shared(x, beyond) } else { End::Between(x, beyond) }
+        if line.value(next).is_some_and(|y| y <= 0.0) {
+            return End::Zero { last: x, at: beyond, shared: is_shared(line, side) };
+        }
+        End::Between(x, beyond)
     }
 
     fn above_deck(&mut self, line: &Line<'_>, k: usize) {
@@ -264,8 +360,13 @@ impl Observations {
     }
 }
 
+/// Whether a keel is on the base; one that is not given is.
+fn level_keel(keel: Option<f64>, bottom: f64, height: f64) -> bool {
+    keel.is_none_or(|z| z - bottom <= LEVEL * height)
+}
+
 /// The zero at which a waterline may end.
-fn shared(x: f64, z: f64) -> Cell {
+fn closing(x: f64, z: f64) -> Cell {
     Cell { x, z, y: 0.0, scale: EXACT }
 }
 

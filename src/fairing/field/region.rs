@@ -67,15 +67,12 @@ impl Field {
         self.surface.eval(u, v)[0]
     }
 
-    /// sqrt(1 + y_x^2 + y_z^2) at (x, z): the error of a half-breadth over the error normal to the hull, at most
-    /// ten.
+    /// y_x and y_z at (x, z). The latter is infinite on a flat bottom with b = 0.
     #[must_use]
-    pub fn steepness(&self, x: f64, z: f64) -> f64 {
+    pub fn slopes(&self, x: f64, z: f64) -> [f64; 2] {
         let (u, v) = (self.chart.u(x), self.chart.v(z));
         let [[_, up], [along, _]] = self.surface.derivatives::<2>(u, v).map(|row| row.map(|value| value[0]));
-        // Infinite on a flat bottom with b = 0; `min` takes what is no number for that.
-        let (along, up) = (along / self.chart.x_slope(u), up / self.chart.z_slope(v));
-        (1.0 + along * along + up * up).sqrt().min(STEEPEST)
+        [along / self.chart.x_slope(u), up / self.chart.z_slope(v)]
     }
 
     /// Where the field is least at height v between u = `from` and u = `to`, at one of the places at which zeros are looked
@@ -103,6 +100,13 @@ impl Field {
         // Without a bracket the field is not positive at the start, and the hull ends there.
         Some(bracketed_root(value, inside, outside, ROUNDING).unwrap_or(inside))
     }
+}
+
+/// sqrt(1 + y_x^2 + y_z^2): the error of a half-breadth over the error normal to the hull, at most ten.
+#[must_use]
+pub fn steepness([along, up]: [f64; 2]) -> f64 {
+    // `min` takes what is no number for ten.
+    (1.0 + along * along + up * up).sqrt().min(STEEPEST)
 }
 
 /// How the ends of the hull bend the chart of its field.

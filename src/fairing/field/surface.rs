@@ -5,11 +5,12 @@ use super::breaks::FoundBreak;
 use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies};
 use super::likeliest::{Likeliest, likeliest};
-use super::likelihood::{Cell, Observed, Smoothed, smoothed};
+use super::likelihood::{Cell, Observed, Readings, Smoothed, smoothed};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
-use super::observed::{EXACT, End, Observations, Zero};
-use super::region::{Bend, Field};
-use crate::spline::{KnotVector, SplineError};
+use super::observed::{EXACT, End, Observations, Zero, ZeroKind};
+use super::region::{Bend, Field, steepness};
+use super::rocker::Rocker;
+use crate::spline::{Collocation, KnotVector, SplineError};
 use std::f64::consts::PI;
 
 /// Heights a span at which the kind of an end is looked at.
@@ -20,6 +21,12 @@ const FIRST_METRIC: Metric = Metric { anisotropy: 1.0, mixed: 1.0 };
 
 /// Ratio of likelihoods below which a zero beside the hull is none of it: strong evidence (Kass and Raftery 1995).
 const NO_ZERO: f64 = 0.05;
+
+/// Standard deviations from which a field has breadth at a zero.
+const BREADTH: f64 = 2.0;
+
+/// Heights that differ by no more are one waterline \[m\].
+const HEIGHT: f64 = 1e-6;
 
 /// Distance in v at which the sides of a corner are looked at.
 const BESIDE: f64 = 1e-6;
@@ -50,6 +57,12 @@ pub struct LevelField {
     pub power: f64,
     /// Residuals of what is not exact, over the scale of its errors \[m\].
     pub residuals: Vec<f64>,
+    /// Correlation of the residuals of neighbouring stations on a waterline, over its standard deviation for errors that are
+    /// independent: errors have none, or a negative one, and the form of a hull that the field does not follow has a
+    /// positive one (Durbin and Watson 1950).
+    pub correlation: f64,
+    /// The keel line to which its heights are relative.
+    pub rocker: Option<Rocker>,
 }
 
 /// Why there is no field.
@@ -80,27 +93,28 @@ impl LevelField {
         let mut seen = seen.clone();
         settle(&mut seen, &mut energies, rectangle, least);
         let seen = &seen;
-        let (_, first) =
-            smooth_first(&mut energies, &seen.readings, rectangle, least).ok_or(FieldError::Undetermined)?;
+        let readings = seen.of_field();
+        let (_, first) = smooth_first(&mut energies, &readings, rectangle, least).ok_or(FieldError::Undetermined)?;
         let field = Field::new(rectangle, &net, &first.values)?;
-        let steepness: Vec<f64> = seen.readings.iter().map(|cell| field.steepness(cell.x, cell.z)).collect();
-        let found = likeliest(&mut energies, &seen.readings, &steepness, (rectangle, least))?;
-        let Likeliest { power, mut cells, mut chosen, net, lines } = found;
+        let steep = |cell: &Cell| steepness(slopes(&field, seen.rocker.as_ref(), [cell.x, cell.z]));
+        let steepness: Vec<f64> = seen.readings.iter().map(steep).collect();
+        let found = likeliest(&mut energies, &readings, &steepness, (rectangle, least))?;
+        let Likeliest { power, mut readings, mut chosen, net, lines } = found;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         for _ in 0..ROUNDS {
-            let count = cells.len();
+            let count = readings.cells.len();
             for bound in &seen.bounds {
                 let broken = field.at([field.chart.u(bound.x), field.chart.v(bound.z)]) < 0.5 * bound.y;
                 let same = |cell: &Cell| (cell.x - bound.x).abs() < 1e-9 && (cell.z - bound.z).abs() < 1e-9;
-                if broken && !cells.iter().any(same) {
-                    cells.push(*bound);
+                if broken && !readings.cells.iter().any(same) {
+                    readings.cells.push(*bound);
                 }
             }
-            if cells.len() == count {
+            if readings.cells.len() == count {
                 break;
             }
             let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
-            let observed = Observed::new(&net, &chosen.chart, &cells);
+            let observed = Observed::new(&net, &chosen.chart, &readings);
             chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
                 .map_err(|_| FieldError::Undetermined)?;
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
@@ -108,14 +122,72 @@ impl LevelField {
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
         let bent = bent(&net, &field, seen, most)?;
         let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
-        let residuals = cells.iter().filter(|cell| cell.scale > EXACT).map(residual).collect();
-        Ok(Self { field, bent, net, chosen, power, residuals, lines })
+        let inexact = || readings.cells.iter().filter(|cell| cell.scale > EXACT);
+        let residuals: Vec<f64> = inexact().map(residual).collect();
+        let height = |cell: &Cell| seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z));
+        let correlation = correlation(inexact().map(|cell| [cell.x, height(cell)]).zip(residuals.iter().copied()));
+        Ok(Self { field, bent, net, chosen, power, residuals, correlation, lines, rocker: seen.rocker.clone() })
+    }
+
+    /// sqrt(1 + y_x^2 + y_z^2) at a place (x, z) of the hull ([`steepness`]).
+    #[must_use]
+    pub fn steepness(&self, [x, z]: [f64; 2]) -> f64 {
+        let height = self.rocker.as_ref().map_or(z, |rocker| rocker.relative(x, z).unwrap_or(rocker.height[0]));
+        steepness(slopes(&self.field, self.rocker.as_ref(), [x, height]))
+    }
+
+    /// x and z of the control points of its hull \[m\].
+    ///
+    /// # Errors
+    /// [`SplineError`] when the knots do not determine them.
+    pub fn places(&self) -> Result<Vec<[f64; 2]>, SplineError> {
+        let mut places = self.bent.places()?;
+        let columns = self.bent.shape()[1];
+        // z = k + (z1 - k) (zeta - z0) / H is a product of splines in u and in v.
+        if let Some(rocker) = &self.rocker {
+            let [bottom, top] = rocker.height;
+            let knots = &self.bent.knots[0];
+            let sites = knots.greville();
+            let mut keel: Vec<f64> = sites.iter().map(|&u| rocker.keel(self.field.chart.x(u))).collect();
+            Collocation::new(knots, &sites)?.solve(&mut keel);
+            for (k, place) in places.iter_mut().enumerate() {
+                let keel = keel[k / columns];
+                place[1] = keel + (top - keel) * (place[1] - bottom) / (top - bottom);
+            }
+        }
+        Ok(places)
     }
 }
 
+/// The correlation of what places (x, z) have which follow each other along x, times the root of their number.
+fn correlation(found: impl Iterator<Item = ([f64; 2], f64)>) -> f64 {
+    let mut sorted: Vec<([f64; 2], f64)> = found.collect();
+    sorted.sort_by(|([x, z], _), ([other, height], _)| {
+        (z / HEIGHT).round().total_cmp(&(height / HEIGHT).round()).then(x.total_cmp(other))
+    });
+    let pairs = sorted.windows(2).filter(|pair| (pair[0].0[1] - pair[1].0[1]).abs() <= HEIGHT);
+    let (mut count, mut products, mut squares) = (0.0f64, 0.0, 0.0);
+    for pair in pairs {
+        count += 1.0;
+        products += pair[0].1 * pair[1].1;
+        squares += 0.5 * (pair[0].1.powi(2) + pair[1].1.powi(2));
+    }
+    if squares > 0.0 { products / squares * count.sqrt() } else { 0.0 }
+}
+
+/// y_x and y_z of a field at (x, zeta) of a keel line.
+fn slopes(field: &Field, rocker: Option<&Rocker>, [x, zeta]: [f64; 2]) -> [f64; 2] {
+    let [along, up] = field.slopes(x, zeta);
+    let Some(rocker) = rocker else { return [along, up] };
+    let [by_x, by_z] = rocker.slopes(x, rocker.absolute(x, zeta));
+    [along + up * by_x, up * by_z]
+}
+
+impl LevelField {}
+
 /// A first smooth field, for the slopes of the hull, and the weight of its energy.
-fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least: f64) -> Option<(f64, Smoothed)> {
-    let observed = Observed::new(energies.net, &chart, cells);
+fn smooth_first(energies: &mut Energies<'_>, readings: &Readings, chart: Chart, least: f64) -> Option<(f64, Smoothed)> {
+    let observed = Observed::new(energies.net, &chart, readings);
     let rough = energies.of(FIRST_METRIC).ok()?;
     let weights = (-6..=0).map(|e| 10f64.powi(e));
     let tried = weights.filter_map(|weight| Some((weight, smoothed(&observed, rough, weight, least).ok()?)));
@@ -131,14 +203,16 @@ fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least
 /// ```
 ///
 /// It is the likelihood of a value of zero over that of any value down to -max(y, s). Below [`NO_ZERO`] the zero is left out.
-/// Where the field still has breadth at an end it stays.
+/// Where the field still has breadth at a shared end it stays. Any other end closes before its zero, and the zero is left out,
+/// unless the field has breadth there by [`BREADTH`] standard deviations.
 fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, least: f64) {
     let zeros = seen.zeros();
     let net = energies.net;
     let rows: Vec<_> = zeros.iter().map(|zero| net.row([chart.u(zero.cell.x), chart.v(zero.cell.z)])).collect();
     let mut first = || {
-        let (weight, first) = smooth_first(energies, &seen.readings, chart, least)?;
-        let observed = Observed::new(net, &chart, &seen.readings);
+        let readings = seen.of_field();
+        let (weight, first) = smooth_first(energies, &readings, chart, least)?;
+        let observed = Observed::new(net, &chart, &readings);
         let errors = observed.errors(energies.of(FIRST_METRIC).ok()?, weight, &first, &rows).ok()?;
         Some((first, errors))
     };
@@ -146,7 +220,11 @@ fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, le
     let value = |row: &[(usize, f64)]| row.iter().map(|(j, b)| b * first.values[*j]).sum::<f64>();
     let agrees = |zero: &Zero, value: f64, error: f64| {
         let error = error.hypot(first.sigma);
-        let apart = if zero.is_end { value.min(0.0) } else { value } / error;
+        let apart = match zero.kind {
+            ZeroKind::Keel => value,
+            ZeroKind::SharedEnd => value.min(0.0),
+            ZeroKind::End => return value > BREADTH * error,
+        } / error;
         let ratio = (zero.beside / error).max(1.0) * (-0.5 * apart * apart).exp() / (2.0 * PI).sqrt();
         ratio >= NO_ZERO
     };

@@ -3,7 +3,7 @@
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
 use super::density::Density;
-use super::likelihood::{Cell, Observed, Roughness, smoothed};
+use super::likelihood::{Cell, Observed, Readings, Roughness, smoothed};
 use super::net::{Break, KERNEL, Metric, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
@@ -90,7 +90,8 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
         })
         .collect();
     let rough = Roughness::new(net, METRIC, None).unwrap();
-    let observed = Observed::new(net, &chart, &cells);
+    let readings = Readings { cells: cells.clone(), inside: Vec::new() };
+    let observed = Observed::new(net, &chart, &readings);
     let n = cells.len();
     let rows = DMatrix::from_fn(n, net.size(), |i, j| {
         let row = net.row([chart.u(cells[i].x), chart.v(cells[i].z)]);
@@ -245,7 +246,7 @@ fn wigley() -> OffsetTable {
 #[test]
 fn ends_at_perpendiculars_are_exact() {
     let mut seen = Observations::new(&wigley());
-    let are_shared = |ends: [End; 2]| matches!(ends, [End::Shared(..), End::Shared(..)]);
+    let are_shared = |ends: [End; 2]| matches!(ends, [End::Zero { shared: true, .. }, End::Zero { shared: true, .. }]);
     assert!(seen.waterlines.iter().all(|line| are_shared(line.ends)));
     seen.settle(&seen.zeros());
     assert!(seen.keel_closed);
