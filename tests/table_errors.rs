@@ -218,6 +218,37 @@ fn w311_stations_on_both_sides_of_the_origin() {
     }
 }
 
+/// Dimensions may stand beside a table as in a job.
+#[test]
+fn dimensions_beside_a_table() {
+    let table = |toml: &str| read_table_with("t.csv", GOOD.as_bytes(), Some(("t.toml", toml))).unwrap().table.stated;
+    for toml in ["[dimensions]\nLpp = 9\nT = \"75 cm\"\n", "[Dimensions]\nlpp = 9\nt = 0.75\n[table]\nunits = \"m\"\n"]
+    {
+        let stated = table(toml);
+        assert_eq!((stated.length_between_perpendiculars, stated.draught), (Some(9.0), Some(0.75)), "{toml}");
+    }
+    let refused = [
+        ("[dimensions]\nT = 0\n", "E311 t.toml row 2, column 5: 'T': T is 0"),
+        (
+            "[dimensions]\nLbp = 9\n",
+            "E311 t.toml row 2, column 1: 'Lbp': not a key of the conventions. Did you mean Lpp?",
+        ),
+        ("[dimension]\nT = 1\n", "Did you mean [dimensions]?"),
+        (
+            "[table]\nt = 1\n[dimensions]\nT = 1\n",
+            "E311 t.toml row 4, column 1: 'T': stands in [table] and in [dimensions]. Give it once",
+        ),
+    ];
+    for (toml, message) in refused {
+        among(&beside(GOOD, toml), &[message]);
+    }
+    // A design or a job of the same name has them too, and tables of its own.
+    for toml in ["[dimensions]\nT = 1\n[form]\nCb = 0.6\n", "[dimensions]\nT = 1\n[hold]\nCb = 0.6\n"] {
+        among(&notes(GOOD, toml), &["N321", "nor [dimensions] alone, and is not read"]);
+        assert_eq!(table(toml).draught, None);
+    }
+}
+
 #[test]
 fn warnings_and_notes() {
     among(&notes(GOOD, ""), &["W306", "no profiles of stem and stern"]);
