@@ -273,29 +273,31 @@ fn more_than_asked(outputs: &FairOutputs) -> String {
     }
 }
 
+/// Displacement and LCB before and after, or volume and its centre where no draught is stated, with `arrow` between.
+pub(super) fn change_of_form(outputs: &FairOutputs, arrow: &str) -> String {
+    let length = outputs.outcome.after.particulars().length_between_perpendiculars;
+    let moved = |a: f64, b: f64| fixed_sign(100.0 * (b - a) / length, 3, " % L");
+    match &outputs.rows {
+        Some([before, after]) => {
+            let [a, b] = [before, after].map(|row| super::page::value(row, "DISPM"));
+            let change = share(before.displacement_volume, after.displacement_volume);
+            let lcb = before.lcb.zip(after.lcb).map_or(String::new(), |(a, b)| format!(", LCB {}", moved(a, b)));
+            format!("Displacement {a} {arrow} {b} t{change}{lcb}")
+        }
+        None => {
+            let (below, [volumes, centres]) = volumes(&outputs.outcome);
+            let (change, [a, b]) = (share(volumes[0], volumes[1]), volumes.map(volume_of));
+            let centre = moved(centres[0], centres[1]);
+            format!("Volume below z = {below:.3} m {a} {arrow} {b} m3{change}, its centre {centre}")
+        }
+    }
+}
+
 /// Displacement, LCB, KB and C_M of both hulls.
 fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
     let length = outputs.outcome.after.particulars().length_between_perpendiculars;
     let from_midship = outputs.outcome.before.counts_from_aft_perpendicular().then_some(length);
-    let moved = |a: f64, b: f64| fixed_sign(100.0 * (b - a) / length, 3, " % L");
-    let mut line = match &outputs.rows {
-        Some([before, after]) => {
-            let mass = |row: &crate::hydrostatics::Hydrostatics| super::page::value(row, "DISPM");
-            let change = share(before.displacement_volume, after.displacement_volume);
-            let lcb = before.lcb.zip(after.lcb).map_or(String::new(), |(a, b)| format!(" LCB {}.", moved(a, b)));
-            format!("Displacement {} -> {} t{change}.{lcb}", mass(before), mass(after))
-        }
-        None => {
-            let (below, [volumes, centres]) = volumes(&outputs.outcome);
-            let change = share(volumes[0], volumes[1]);
-            format!(
-                "Volume below z = {below:.3} m {} -> {} m3{change}. Its centre {}.",
-                volume_of(volumes[0]),
-                volume_of(volumes[1]),
-                moved(centres[0], centres[1])
-            )
-        }
-    };
+    let mut line = change_of_form(outputs, "->") + ".";
     let turns = ["waterline", "station", "buttock", "diagonal"].map(|kind| outputs.outcome.inflections(kind));
     let sum = |side: usize| turns.iter().map(|counts| counts[side]).sum::<usize>();
     line.push_str(&format!(" Inflections {} -> {}:", sum(0), sum(1)));
