@@ -1,7 +1,8 @@
 //! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
 
 use super::fair::{FairJob, FairOutputs};
-use super::fair_page::{MOST_AREAS, change_of_form, dimensions, limit, millimetres, not_stated, place, tolerances};
+use super::fair_held::{MOST_AREAS, change_of_form};
+use super::fair_page::{dimensions, limit, millimetres, not_stated, place, tolerances};
 use super::page::WIDTH;
 use crate::exchange::status_word;
 use crate::fairing::constraint::Constraint;

@@ -9,6 +9,7 @@ mod fair;
 mod fair_curve;
 mod fair_figures;
 mod fair_grades;
+mod fair_held;
 mod fair_page;
 mod fair_refused;
 mod fair_short;
