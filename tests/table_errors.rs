@@ -173,7 +173,7 @@ fn e311_conventions() {
     among(&problems(&format!("# unitts = mm\n{GOOD}")), &["E311 t.csv row 1", "'unitts'", "Did you mean units?"]);
     among(&problems(&format!("# units = mn\n{GOOD}")), &["units is \"mn\"", "Known are m, mm"]);
     // A design beside the table, and prose, are no conventions.
-    among(&notes(GOOD, "[dimensions]\nLpp = 3\n"), &["t.toml beside the table has no [table]"]);
+    among(&notes(GOOD, "[dimensions]\nLpp = 3\n[form]\nCb = 0.6\n"), &["t.toml beside the table has no [table]"]);
     assert!(read_table("t", format!("# station 0 = AP; y = half\n{GOOD}").as_bytes()).is_ok());
 }
 

@@ -58,7 +58,9 @@ impl Failure {
 
     /// Messages about the input; those about options of the command alone are of the command.
     pub(super) fn of_messages(messages: Vec<Diagnostic>) -> Self {
-        let of_command = |message: &Diagnostic| message.file.starts_with("--") || message.file == COMMAND_LINE;
+        let of_command = |message: &Diagnostic| {
+            message.severity != Severity::Error || message.file.starts_with("--") || message.file == COMMAND_LINE
+        };
         let failure = Self::Input(messages);
         match &failure {
             Self::Input(messages) if messages.iter().all(of_command) => Self::Usage(failure.to_string()),
