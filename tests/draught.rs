@@ -112,6 +112,17 @@ fn what_goes_to_a_waterline_is_not_exported_without_one() {
     assert!(code == Some(2) && said.contains("--datum waterline needs a draught"), "{said}");
     let (code, _, said) = answer(&["export", &hull, "-f", "stl,csv,ghs", "-o", &out]);
     assert_eq!(code, Some(0), "{said}");
+    // The option overrides what the hull states, for the datum too.
+    fit(&folder, "stated", &["--no-figures", "--draught", "5"]);
+    let stated = folder.join("stated").display().to_string();
+    let datum = |name: &str, options: &[&str]| {
+        let out = folder.join(name).display().to_string();
+        let (code, _, said) = answer(&[&["export", &stated, "-f", "dxf", "-o", &out], options].concat());
+        assert_eq!(code, Some(0), "{said}");
+        folder.read(&format!("{name}/stated.dxf"))
+    };
+    assert!(datum("a", &["--datum", "waterline", "--draught", "2"]) == datum("b", &["--datum", "2 m"]));
+    assert!(datum("c", &["--datum", "waterline"]) == datum("d", &["--datum", "5 m"]));
     let (table, panels) = (carried(WIGLEY).display().to_string(), folder.join("a.gdf").display().to_string());
     let (code, _, said) = answer(&["convert", &table, &panels]);
     assert!(code == Some(2) && said.contains("give --draught"), "{said}");
@@ -131,6 +142,77 @@ fn what_goes_to_a_waterline_is_not_exported_without_one() {
     }
 }
 
+/// A draught of the command at which the hull does not float is an error of the command, whichever it is.
+#[test]
+fn a_draught_that_is_none_of_the_hull_is_refused() {
+    let folder = folder("none-of-the-hull");
+    fit(&folder, "hull", &["--no-figures"]);
+    let (hull, table) = (folder.join("hull").display().to_string(), carried(WIGLEY).display().to_string());
+    let out = folder.join("out").display().to_string();
+    let commands = [
+        &["convert", &table, "-f", "pdstrip"][..],
+        &["convert", &table, "-f", "delftship"],
+        &["export", &hull, "-f", "pdstrip", "-o", &out],
+        &["export", &hull, "-f", "delftship", "-o", &out],
+        &["export", &hull, "-f", "stl", "--datum", "waterline", "-o", &out],
+        &["hydro", &hull],
+        &["hydro", &table],
+        &["fit", &table, "-o", &out],
+        &["fair", &table, "-o", &out],
+    ];
+    for (draught, expected) in [
+        ("0", ""),
+        ("-1", ""),
+        ("NaN", ""),
+        ("deep", ""),
+        ("1e6", ""),
+        ("1e-9", "the design draught of 1e-9 m is not above the lowest point of the hull, 0.000 m, and nothing floats"),
+        ("70", "the design draught of 70.000 m lies above the depth of 6.250 m"),
+    ] {
+        for command in commands {
+            let (code, page, said) = answer(&[command, &["--draught", draught]].concat());
+            assert!(code == Some(2) && page.is_empty(), "{command:?} {draught}: {code:?} {said}");
+            assert!(said.contains("--draught") || said.contains("command line"), "{command:?} {draught}: {said}");
+            assert!(said.contains(expected), "{command:?} {draught}: {said}");
+        }
+    }
+    assert!(!Path::new(&out).exists());
+    // A table that states one is wrong itself.
+    let deep = folder.write("deep.csv", format!("# T = 30 m\n{}", read_text(carried(WIGLEY))));
+    for command in [&["convert", &deep, "-f", "pdstrip"][..], &["hydro", &deep], &["fit", &deep, "-o", &out]] {
+        let (code, _, said) = answer(command);
+        assert!(code == Some(3) && said.contains("deep.csv") && said.contains("of 30.000 m lies above"), "{said}");
+    }
+    // A section that ends below the waterline is open.
+    let open = folder.write("open.csv", "x [m],0,1,2,3\n0,0,1,1.5,1.6\n5,0,2,,\n10,0,1,1.5,1.6\n");
+    let (code, _, said) = answer(&["convert", &open, "-f", "pdstrip", "--draught", "2.5"]);
+    let expected = "the section at x = 5.000 m ends at z = 1.000 m, below the draught of 2.500 m";
+    assert!(code == Some(2) && said.contains(expected), "{said}");
+}
+
+/// z = 0 of panels is their waterline: what is below counts.
+#[test]
+fn hydrostatics_of_panels_are_within_them() {
+    let folder = folder("panels");
+    fit(&folder, "hull", &["--no-figures"]);
+    let (hull, panels) = (folder.join("hull").display().to_string(), folder.join("hull.gdf").display().to_string());
+    let out = folder.display().to_string();
+    let (code, _, said) = answer(&["export", &hull, "-f", "gdf", "--draught", "4", "--panel", "5", "-o", &out]);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, csv, said) = answer(&["hydro", &panels, "--csv"]);
+    assert!(code == Some(0) && !csv.contains("above the top"), "{said} {csv}");
+    let column = |k: usize| -> Vec<f64> {
+        csv.lines().skip(2).map(|line| line.split(',').nth(k).unwrap().parse().unwrap()).collect()
+    };
+    let at = csv.lines().next().unwrap().split(',').position(|key| key == "DISPVOL").unwrap();
+    let (draughts, volumes) = (column(0), column(at));
+    assert!((-3.21..-2.8).contains(&draughts[0]) && draughts[draughts.len() - 1].abs() < 1e-9, "{draughts:?}");
+    assert!(volumes[0] > 0.0 && volumes.windows(2).all(|pair| pair[1] > pair[0]), "{volumes:?}");
+    let (code, _, said) = answer(&["hydro", &panels, "--draught", "4"]);
+    let expected = "the design draught of 4.000 m lies above the highest point of the body, 0.000 m";
+    assert!(code == Some(2) && said.contains(expected), "{said}");
+}
+
 /// What is at a draught is refused: options of the command with 2, keys of the job with 3, all at once.
 #[test]
 fn targets_at_a_draught_are_refused_without_one() {
@@ -138,6 +220,9 @@ fn targets_at_a_draught_are_refused_without_one() {
     let (table, out) = (carried(YACHT).display().to_string(), folder.join("out").display().to_string());
     for option in [
         ["--displacement", "13 m3"],
+        ["--displacement", "table"],
+        ["--lcb", "table"],
+        ["--cm", "table"],
         ["--cb", "0.4"],
         ["--lcb", "1 m AP"],
         ["--cm", "0.7"],
@@ -193,6 +278,7 @@ fn without_a_draught_volume_and_centre_of_volume_are_held() {
     }
     let summary = json(folder.read("out/summary.json"));
     assert!(summary["design"].is_null() && summary["before"].is_null());
+    assert_eq!(summary["held_below"], certificate["held_below"]);
     assert!(summary["targets"].as_array().unwrap().iter().all(|target| target["origin"] == "table"));
     assert!(fs::metadata(folder.join("out/offsets.toml")).is_err());
     // With a draught the certificate says nothing of another height.
@@ -209,6 +295,7 @@ fn a_report_does_without_a_draught() {
     let (code, page, said) = answer(&["fair", &table, "-o", &out, "--verbose"]);
     assert_eq!(code, Some(0), "{said}");
     let words = in_one_line(&page);
+    assert!(page.contains("D 0.965 m"), "{page}");
     assert!(words.contains("Volume below z = 0.965 m 24.82 -> 24.82 m3") && words.matches(NONE).count() == 1, "{page}");
     assert!(words.contains("centre of the volume below z = 0.965 m: 0.8783 -> 0.8783 m"), "{page}");
     let (code, _, said) = answer(&["report", &out, "--dpi", "24"]);
@@ -222,7 +309,8 @@ fn a_report_does_without_a_draught() {
         assert!(!svg.contains("DWL") && !svg.contains("NaN"), "{name}");
     }
     let page = folder.read("out/report/report.html");
-    assert!(page.contains("No draught is stated: give --draught") && !page.contains("id=\"condition\""));
+    let above = "No design draught is stated: give --draught to the command that wrote this result. The hydrostatic table holds at";
+    assert!(page.contains(above) && !page.contains("id=\"condition\"") && !page.contains("dash-dot"));
     assert!(page.contains("Held: volume and centre of volume below z = 0.965 m (no draught is stated)."));
     assert!(!page.contains("draught is assumed"));
 }

@@ -5,10 +5,12 @@
 //! one. None does.
 
 mod analytic_bodies;
+mod analytic_round_bodies;
 mod architecture;
 mod bodies;
 mod charts;
 mod cli;
+mod cli_refusals;
 mod codes;
 mod configs;
 mod draught;
@@ -16,8 +18,11 @@ mod errors;
 mod export;
 mod fair;
 mod fair_curve;
+mod fair_files;
 mod fair_grades;
+mod fair_hulls;
 mod fair_locks;
+mod fair_refusals;
 mod fair_rules;
 mod fair_sections;
 mod fair_strength;
@@ -35,6 +40,8 @@ mod qp;
 mod qp_problems;
 mod random;
 mod report;
+mod report_browser;
+mod report_figures;
 mod sections;
 mod support;
 mod suspects;

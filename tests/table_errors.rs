@@ -173,7 +173,7 @@ fn e311_conventions() {
     among(&problems(&format!("# unitts = mm\n{GOOD}")), &["E311 t.csv row 1", "'unitts'", "Did you mean units?"]);
     among(&problems(&format!("# units = mn\n{GOOD}")), &["units is \"mn\"", "Known are m, mm"]);
     // A design beside the table, and prose, are no conventions.
-    among(&notes(GOOD, "[dimensions]\nLpp = 3\n"), &["t.toml beside the table has no [table]"]);
+    among(&notes(GOOD, "[dimensions]\nLpp = 3\n[form]\nCb = 0.6\n"), &["t.toml beside the table has no [table]"]);
     assert!(read_table("t", format!("# station 0 = AP; y = half\n{GOOD}").as_bytes()).is_ok());
 }
 
@@ -215,6 +215,37 @@ fn w311_stations_on_both_sides_of_the_origin() {
     among(&notes(text, ""), &["W311", "from x = -10.000 to 10.000 m", "x_from_midship"]);
     for quiet in [GOOD, "x_from_midship [m],0.5,1\n-10,0,0\n-4,1,2\n4,1,2\n10,0,0\n"] {
         assert!(!notes(quiet, "").iter().any(|note| note.contains("W311")), "{:?}", notes(quiet, ""));
+    }
+}
+
+/// Dimensions may stand beside a table as in a job.
+#[test]
+fn dimensions_beside_a_table() {
+    let table = |toml: &str| read_table_with("t.csv", GOOD.as_bytes(), Some(("t.toml", toml))).unwrap().table.stated;
+    for toml in ["[dimensions]\nLpp = 9\nT = \"75 cm\"\n", "[Dimensions]\nlpp = 9\nt = 0.75\n[table]\nunits = \"m\"\n"]
+    {
+        let stated = table(toml);
+        assert_eq!((stated.length_between_perpendiculars, stated.draught), (Some(9.0), Some(0.75)), "{toml}");
+    }
+    let refused = [
+        ("[dimensions]\nT = 0\n", "E311 t.toml row 2, column 5: 'T': T is 0"),
+        (
+            "[dimensions]\nLbp = 9\n",
+            "E311 t.toml row 2, column 1: 'Lbp': not a key of the conventions. Did you mean Lpp?",
+        ),
+        ("[dimension]\nT = 1\n", "Did you mean [dimensions]?"),
+        (
+            "[table]\nt = 1\n[dimensions]\nT = 1\n",
+            "E311 t.toml row 4, column 1: 'T': stands in [table] and in [dimensions]. Give it once",
+        ),
+    ];
+    for (toml, message) in refused {
+        among(&beside(GOOD, toml), &[message]);
+    }
+    // A design or a job of the same name has them too, and tables of its own.
+    for toml in ["[dimensions]\nT = 1\n[form]\nCb = 0.6\n", "[dimensions]\nT = 1\n[hold]\nCb = 0.6\n"] {
+        among(&notes(GOOD, toml), &["N321", "nor [dimensions] alone, and is not read"]);
+        assert_eq!(table(toml).draught, None);
     }
 }
 

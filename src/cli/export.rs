@@ -6,7 +6,9 @@ use clap::Args;
 
 use super::{length, positive, stream};
 use crate::exchange::{CadUnit, DxfVersion};
-use crate::report::{Destination, ExportFormat, ExportSettings, Failure, export, read_source_with, source_files};
+use crate::report::{
+    Destination, ExportFormat, ExportSettings, Failure, draught_of, export, read_source_with, source_files,
+};
 
 #[derive(Debug, Args)]
 #[command(after_help = AFTER)]
@@ -124,10 +126,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&stem));
     let datum = match arguments.datum {
         Datum::Height(height) => height,
-        Datum::Waterline => {
-            let none = || Failure::without_draught("--datum waterline", 1);
-            source.hull.particulars().draught.or(arguments.draught).ok_or_else(none)?
-        }
+        Datum::Waterline => draught_of(&source.hull, arguments.draught, "--datum waterline")?,
     };
     let settings = ExportSettings {
         unit: arguments.unit,

@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "AREA", allow_hyphen_values = true)]
     wetted_surface: Option<String>,
     /// Design draught: what is held holds there [default: of the table, where it states one]
-    #[arg(long, alias = "draft", value_name = "T")]
+    #[arg(long, alias = "draft", value_name = "T", allow_hyphen_values = true)]
     draught: Option<String>,
     /// How strongly the table is faired, from 0, the surface through it, to 10; or raw (0), light (3), fair (5), smooth (8)
     /// [default: 5]

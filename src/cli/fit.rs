@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::run_files::{Figures, RunFiles};
-use super::{length, stream};
+use super::{positive, stream};
 use crate::plot::Figure;
 use crate::report::{Destination, Failure, fit_outputs, fit_page, read_fit};
 
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     method: Option<String>,
     /// Design draught above the base line [m] [default: of the table, where it states one; without it no displacement and
     /// no coefficients]
-    #[arg(long, alias = "draft", value_parser = length, value_name = "T")]
+    #[arg(long, alias = "draft", value_parser = positive, value_name = "T", allow_hyphen_values = true)]
     draught: Option<f64>,
     #[command(flatten)]
     files: RunFiles,

@@ -25,7 +25,7 @@ pub use hold::{Quantity, Target};
 pub use keys::JOB_KEYS;
 pub(super) use keys::{REMOVED, RENAMED};
 pub use location::Location;
-use ranges::{density, fairness, positive, price, weight};
+use ranges::{density, dimension, fairness, positive, price, weight};
 pub use shape::RuleEntry;
 pub use table_ref::{TableItem, TableRef};
 
@@ -156,10 +156,10 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
     let mut job = JobFile {
         table: document.text("table.file"),
         stated: StatedParticulars {
-            length_between_perpendiculars: positive(document, "dimensions.Lpp", "length"),
-            breadth: positive(document, "dimensions.B", "length"),
-            draught: positive(document, "dimensions.T", "length"),
-            depth: positive(document, "dimensions.D", "length"),
+            length_between_perpendiculars: dimension(document, "dimensions.Lpp"),
+            breadth: dimension(document, "dimensions.B"),
+            draught: dimension(document, "dimensions.T"),
+            depth: dimension(document, "dimensions.D"),
         },
         density: density(document),
         fairness: fairness(document),
@@ -298,10 +298,8 @@ impl JobFile {
         if problems.is_empty() { Ok(job) } else { Err(problems) }
     }
 
-    /// What is asked for at a draught that neither job nor table states: a problem for each, at its place. The table's own
-    /// displacement and LCB are volume and centre below another height then.
-    #[must_use]
-    pub fn at_no_draught(&self, table: &OffsetTable) -> Vec<Diagnostic> {
+    /// What is asked for at a draught that neither job nor table states: a problem for each, at its place.
+    fn at_no_draught(&self, table: &OffsetTable) -> Vec<Diagnostic> {
         if table.stated.states_draught() || self.stated.states_draught() {
             return Vec::new();
         }
@@ -310,10 +308,11 @@ impl JobFile {
             place.problem(
                 "E184",
                 &text,
-                "Give --draught (T under [table] beside a table, under [dimensions] of a job), or leave it out.",
+                "Give --draught (T under [table] beside a table, under [dimensions] of a job), or leave it out. \
+                 Then volume and centre of volume below the highest waterline that every station between the ends has are held.",
             )
         };
-        let quantities = self.hold.iter().filter(|(quantity, target)| quantity.needs_draught(*target));
+        let quantities = self.hold.iter().filter(|(_, target)| *target != Target::Free);
         let mut problems: Vec<Diagnostic> = quantities
             .filter_map(|(quantity, _)| {
                 Some(problem(self.place(&format!("hold.{}", quantity.key()))?, &quantity.words()))

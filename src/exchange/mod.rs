@@ -49,6 +49,6 @@ pub use summary::{Particulars, SummaryFile, TargetLine, ValueLine};
 pub use table::{
     LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS, MOST_UNPACKED, ReadBody, ReadTable,
     Rounding, Severity, TableProblem, TableWriting, WrittenTable, only_sections, read_body, read_fractions,
-    read_particulars, read_table, read_table_with, workbook, write_britfair, write_delftship, write_freeship,
-    write_ghs, write_michlet, write_pdstrip, write_pias, write_table,
+    read_particulars, read_table, read_table_with, section_of, workbook, write_britfair, write_delftship,
+    write_freeship, write_ghs, write_michlet, write_pdstrip, write_pias, write_table,
 };

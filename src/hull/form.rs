@@ -23,6 +23,9 @@ use crate::spline::{BsplineCurve, BsplineSurface, SplineError};
 /// less does not fall, and stations on which x differs by less are upright.
 const ROUNDING: f64 = 1e-12;
 
+/// What is closer to the waterline than this part of the height of the hull lies on it.
+pub(crate) const AFLOAT: f64 = 1e-7;
+
 /// Lengths that differ by less than this part are one.
 const SAME_LENGTH: f64 = 1e-6;
 
@@ -53,6 +56,17 @@ pub enum HullError {
         draught: f64,
         /// D \[m\].
         depth: f64,
+    },
+    /// Nothing of the hull is below the design draught.
+    #[error(
+        "the design draught of {draught:?} m is not above the lowest point of the hull, {bottom:.3} m, and nothing floats: state one \
+         above it (--draught, T under [dimensions])"
+    )]
+    Aground {
+        /// T \[m\].
+        draught: f64,
+        /// The lowest point \[m\].
+        bottom: f64,
     },
     /// The heights of the net do not rise from bottom to top.
     #[error("heights of the net, row {row}, column {column}: {problem}")]
@@ -127,6 +141,14 @@ pub enum HullError {
     },
 }
 
+impl HullError {
+    /// Whether the design draught is none of the hull.
+    #[must_use]
+    pub fn is_of_draught(&self) -> bool {
+        matches!(self, Self::Draught { .. } | Self::Aground { .. })
+    }
+}
+
 /// Most distance of a point of the net from the origin along x and z, in units of the largest of L_PP, B and D.
 const REACH: f64 = 100.0;
 
@@ -152,9 +174,9 @@ impl Hull {
     /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, T lies above D, a point a hundred times the largest dimension
-    /// from the origin along x or z, a control half-breadth outside -B to 10 B, z does not rise with v or x with u, the
-    /// chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
+    /// [`HullError`] when a dimension is not positive, nothing floats at T or it lies above D, a point a hundred times the
+    /// largest dimension from the origin along x or z, a control half-breadth outside -B to 10 B, z does not rise with v
+    /// or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
     pub fn new(
         name: &str,
         particulars: PrincipalParticulars,
@@ -172,9 +194,6 @@ impl Hull {
             if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
                 return Err(HullError::Dimension { name: label, value });
             }
-        }
-        if let Some(draught) = p.draught.filter(|_| p.draught_exceeds_depth()) {
-            return Err(HullError::Draught { draught, depth: p.depth });
         }
         let [rows, columns] = surface.shape();
         let (mut level, mut upright) = (true, true);
@@ -237,6 +256,7 @@ impl Hull {
             cut_by_deck: true,
         };
         hull.cut_by_deck = level || chart::is_cut_by_deck(&hull);
+        p.draught.map_or(Ok(()), |draught| hull.takes_draught(draught))?;
         Ok(hull)
     }
 
@@ -255,10 +275,26 @@ impl Hull {
     /// The same hull with a design draught \[m\] above the base line.
     ///
     /// # Errors
-    /// [`HullError`] when it is not positive or lies above D.
+    /// [`HullError`] when it is not positive, or none of the hull ([`Hull::takes_draught`]).
     pub fn with_draught(self, draught: f64) -> Result<Self, HullError> {
         let particulars = PrincipalParticulars { draught: Some(draught), ..self.particulars };
         Self::new(&self.name, particulars, self.surface, self.deck)
+    }
+
+    /// Whether the hull floats at a draught \[m\] above the base line, which may be that of a table which ends at the design
+    /// waterline.
+    ///
+    /// # Errors
+    /// [`HullError::Draught`] above D by more than a hundredth; [`HullError::Aground`] where rounding alone is immersed.
+    pub fn takes_draught(&self, draught: f64) -> Result<(), HullError> {
+        let p = PrincipalParticulars { draught: Some(draught), ..self.particulars };
+        if p.draught_exceeds_depth() {
+            return Err(HullError::Draught { draught, depth: p.depth });
+        }
+        if draught <= self.bottom + AFLOAT * (self.top - self.bottom) {
+            return Err(HullError::Aground { draught, bottom: self.bottom });
+        }
+        Ok(())
     }
 
     /// The main dimensions.
@@ -509,6 +545,9 @@ mod tests {
         assert_eq!((stated.particulars().draught, stated.reference_height().to_bits()), (Some(1.7), 1.7f64.to_bits()));
         assert!(matches!(decked(None, &sheer).with_draught(2.5), Err(HullError::Draught { .. })));
         assert!(matches!(decked(None, &sheer).with_draught(0.0), Err(HullError::Dimension { name: "T", .. })));
+        // A film of water is rounding.
+        assert!(matches!(decked(None, &sheer).with_draught(1e-9), Err(HullError::Aground { .. })));
+        assert!(decked(None, &sheer).with_draught(1e-6).is_ok());
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations,
     PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate,
 };
+pub(crate) use form::AFLOAT;
 pub use form::{Hull, HullError};
 pub use functional::Functional;
 pub(crate) use immersion::{Immersion, Piece, UpperEnd};
@@ -45,6 +46,7 @@ pub use offsets::{
 };
 pub use outlines::section_stations;
 pub use panels::{MOST_PANELS, PanelError, PanelMesh, PanelReport, PanelSettings, floats_at};
+pub(crate) use particulars::AT_EDGE;
 pub use particulars::{NO_DRAUGHT, PrincipalParticulars};
 pub use section::{Branch, Cut, Face, Section};
 pub use solid::{Edge, Solid, SolidFace};

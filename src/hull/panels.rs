@@ -17,16 +17,13 @@
 //! to which neither the waterplane nor the centreplane contributes. With panels of size h it and the area are off by
 //! O(h^2).
 
-use super::form::Hull;
+use super::form::{AFLOAT, Hull};
 use super::immersion::{Immersion, UpperEnd};
 use super::vertices::Known;
 use crate::spline::{KnotVector, cross, dot, length, minus};
 
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CENTREPLANE: f64 = 1e-9;
-
-/// What is closer to the waterline than this part of the height of the hull lies on it.
-const AFLOAT: f64 = 1e-7;
 
 /// Corners within this part of the longer diagonal of their mean plane are in it but for rounding.
 const PLANAR: f64 = 1e-12;

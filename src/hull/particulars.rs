@@ -3,6 +3,9 @@
 /// What a page says where nobody stated a draught.
 pub const NO_DRAUGHT: &str = "no draught is stated: give --draught (T under [table] beside a table, under [dimensions] of a job) for displacement and coefficients";
 
+/// Part of D by which the upper edge of a table may be from the design waterline at which it ends.
+pub(crate) const AT_EDGE: f64 = 0.01;
+
 /// Moulded main dimensions \[m\]. The aft perpendicular is at x = 0, the forward one at x =
 /// `length_between_perpendiculars`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +25,6 @@ impl PrincipalParticulars {
     /// the design waterline may be as far from it.
     #[must_use]
     pub fn draught_exceeds_depth(&self) -> bool {
-        self.draught.is_some_and(|draught| draught > 1.01 * self.depth)
+        self.draught.is_some_and(|draught| draught > (1.0 + AT_EDGE) * self.depth)
     }
 }

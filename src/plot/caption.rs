@@ -70,12 +70,12 @@ pub(super) fn stations(inputs: &FigureInputs) -> String {
 
 /// The design draught, `T 7.70 m`, or that none is stated.
 pub(super) fn draught(inputs: &FigureInputs) -> String {
-    inputs.design.map_or("no draught is stated".to_owned(), |design| format!("T {:.2} m", design.draught))
+    inputs.design.map_or("no design draught".to_owned(), |design| format!("T {:.2} m", design.draught))
 }
 
-/// The design waterline, `DWL 7.70 m`, or that no draught is stated.
+/// The design waterline, `DWL 7.70 m`, or that none is stated.
 pub(super) fn design_waterline(inputs: &FigureInputs) -> String {
-    inputs.design.map_or("no draught is stated".to_owned(), |design| format!("DWL {:.2} m", design.draught))
+    inputs.design.map_or("no design draught".to_owned(), |design| format!("DWL {:.2} m", design.draught))
 }
 
 /// Where curves end because the deck edge goes under.

@@ -8,8 +8,8 @@ use super::fairing_long::Kind;
 use super::sheet::{ROOM, Sheet};
 use super::surface_map::{self, SurfaceMapKind, SurfaceMaps};
 use super::{
-    FigureInputs, PlotError, bonjean, deviation, fairing, fairing_arrows, fairing_arrows_long, fairing_body,
-    fairing_curves, fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
+    FigureInputs, PlotError, bonjean, deviation, fairing_arrows, fairing_arrows_long, fairing_body, fairing_curves,
+    fairing_half_breadths, fairing_long, fairing_moves, fairing_suspects, fairing_table, pareto,
 };
 use crate::fairing::job::Job;
 use crate::fairing::record::FairRecord;
@@ -131,7 +131,7 @@ fn long_ships_have_a_sheet_for_each_half() {
     let words = |canvas: &Canvas, part: &str| canvas.texts().iter().any(|text| text.content.contains(part));
     for sheet in Sheet::ALL {
         for (name, sheets) in [
-            ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet).unwrap()),
+            ("half-breadth plan", fairing_half_breadths::half_breadth_plan(&record, &combs, sheet).unwrap()),
             ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals).unwrap()),
         ] {
             // Diagonals are two to a sheet.
@@ -191,7 +191,7 @@ fn figures_of_faired_tables_keep_their_text_apart() {
             ("arrows", one(fairing_arrows::compose(&record, sheet))),
             ("long arrows", one(fairing_arrows_long::compose(&record, sheet))),
             ("body plan", one(fairing_body::body_plan(&record, &combs, sheet))),
-            ("half-breadth plan", fairing::half_breadth_plan(&record, &combs, sheet)),
+            ("half-breadth plan", fairing_half_breadths::half_breadth_plan(&record, &combs, sheet)),
             ("buttocks", fairing_long::compose(&record, &combs, sheet, Kind::Buttocks)),
             ("diagonals", fairing_long::compose(&record, &combs, sheet, Kind::Diagonals)),
             ("suspects", one(fairing_suspects::compose(&record, sheet).map(Option::unwrap))),

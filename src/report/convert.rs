@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use super::export::{ExportFormat, ExportSettings, export};
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use super::files::OutputFile;
 use super::source::{Overrides, read_bytes, read_source_with, read_table_file_with, sidecar};
 use crate::exchange::{
-    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, write_britfair, write_delftship,
-    write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl, write_stl_ascii,
-    write_table,
+    Severity, TableWriting, WrittenTable, only_sections, read_body, read_subdivision, section_of, write_britfair,
+    write_delftship, write_freeship, write_ftm, write_ghs, write_glb, write_obj, write_pdstrip, write_pias, write_stl,
+    write_stl_ascii, write_table,
 };
-use crate::hull::{HullMesh, OffsetTable, Region, TableForm, TableLayout};
+use crate::hull::{AFLOAT, AT_EDGE, HullError, HullMesh, OffsetTable, OutlinePoint, Region, TableForm, TableLayout};
 use crate::units::counted;
 
 /// A converted table, and what should be known about it.
@@ -117,13 +117,38 @@ fn of_triangles(path: &Path, overrides: &Overrides, format: ExportFormat) -> Res
     Ok(Some((contents, body.notes.iter().map(ToString::to_string).collect())))
 }
 
+/// Why a table has no sections up to a draught \[m\]; none where it has.
+fn draught_fault(table: &OffsetTable, draught: f64) -> Option<String> {
+    let sections: Vec<(f64, Vec<OutlinePoint>)> =
+        table.stations.iter().map(|s| (s.station.x, section_of(s, &table.waterlines).concat())).collect();
+    let heights = || sections.iter().flat_map(|(_, points)| points).map(|point| point.z);
+    let (bottom, top) = (heights().reduce(f64::min)?, heights().reduce(f64::max)?);
+    let depth = table.stated.depth.unwrap_or(top);
+    if draught > (1.0 + AT_EDGE) * depth {
+        return Some(HullError::Draught { draught, depth }.to_string());
+    }
+    if draught <= bottom + AFLOAT * (top - bottom) {
+        return Some(HullError::Aground { draught, bottom }.to_string());
+    }
+    // Sections of a bulb close below the waterline.
+    let open = |points: &[OutlinePoint]| {
+        let highest = points.iter().max_by(|a, b| a.z.total_cmp(&b.z))?;
+        (highest.y > 0.0 && highest.z < draught - AT_EDGE * depth).then_some(highest.z)
+    };
+    let (x, z) = sections.iter().find_map(|(x, points)| Some((x, open(points)?)))?;
+    Some(format!(
+        "the section at x = {x:.3} m ends at z = {z:.3} m, below the draught of {draught:.3} m: complete it, or state a draught within it"
+    ))
+}
+
 /// Reads a table, a body, a hull or a design and writes it as `format` in one file; messages for the user beside it.
 ///
 /// Sections of a table or a body become sections of another program as they are, triangles stay triangles, a control
 /// net stays a control net; everything else goes over a hull, which is laid through tables and bodies.
 ///
 /// # Errors
-/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of what is read; those of [`export`].
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of what is read; [`Failure::Usage`] when the draught is none
+/// of a table; those of [`export`].
 pub fn convert_file(
     path: &Path,
     overrides: &Overrides,
@@ -142,6 +167,13 @@ pub fn convert_file(
             table.stated.draught = settings.draught.or(table.stated.draught);
             if format.needs_draught() && !table.stated.states_draught() {
                 return Err(Failure::without_draught(&format!("--format {}", format.name()), 1));
+            }
+            let draught = table.stated.draught.filter(|_| settings.draught.is_some() || format.needs_draught());
+            if let Some(fault) = draught.and_then(|draught| draught_fault(&table, draught)) {
+                return Err(match settings.draught {
+                    Some(_) => Failure::of_draught(&fault),
+                    None => Failure::Input(vec![problem("E314", path, fault, "")]),
+                });
             }
             return Ok((file(write(&table).into_bytes()), notes.iter().map(ToString::to_string).collect()));
         }

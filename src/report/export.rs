@@ -302,7 +302,7 @@ fn mesh_line(mesh: &HullMesh, report: &MeshReport, volume: f64) -> String {
 /// The panels and their line on the page.
 fn panels(hull: &Hull, settings: &ExportSettings) -> Result<(PanelMesh, String), Failure> {
     let particulars = hull.particulars();
-    let draught = draught_of(hull, settings)?;
+    let draught = draught_of(hull, settings.draught, "the format")?;
     let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
     let of_size = |size: f64| {
         let asked = PanelSettings { draught, size, flatness: settings.flatness };
@@ -351,7 +351,7 @@ fn subdivision(hull: &Hull, title: &str, deviation: f64) -> (String, String) {
 
 /// Half-breadths of the immersed hull for Michlet, and their line on the page.
 fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(String, String), Failure> {
-    let draught = draught_of(hull, settings)?;
+    let draught = draught_of(hull, settings.draught, "the format")?;
     let table = OffsetTable::of_immersed(hull, draught, MICHLET)
         .ok_or_else(|| Failure::Usage(format!("nothing of the hull is below the draught of {draught} m")))?;
     let row = CurvesOfForm::new(hull, &[draught], &Conventions::default()).rows.remove(0);
@@ -364,9 +364,15 @@ fn michlet(hull: &Hull, title: &str, settings: &ExportSettings) -> Result<(Strin
     Ok((write_michlet(&table, title, row.displacement_volume), line))
 }
 
-/// The draught of what goes up to a waterline \[m\].
-fn draught_of(hull: &Hull, settings: &ExportSettings) -> Result<f64, Failure> {
-    settings.draught.or(hull.particulars().draught).ok_or_else(|| Failure::without_draught("the format", 1))
+/// The draught \[m\] of what goes up to a waterline, or counts from it: `given` by the command, else that of the hull.
+///
+/// # Errors
+/// [`Failure::Usage`] where there is none, which names `what` needs it, and where the given one is none of the hull.
+pub fn draught_of(hull: &Hull, given: Option<f64>, what: &str) -> Result<f64, Failure> {
+    if let Some(draught) = given {
+        hull.takes_draught(draught).map_err(|error| Failure::of_draught(&error))?;
+    }
+    given.or(hull.particulars().draught).ok_or_else(|| Failure::without_draught(what, 1))
 }
 
 /// Whether formats and settings are such as can be meant.
@@ -374,7 +380,9 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
     if let Some((_, twice)) = formats.iter().enumerate().find(|(k, format)| formats[..*k].contains(format)) {
         return Err(Failure::Usage(format!("--format names {} twice, expected each format once", twice.name())));
     }
-    if settings.draught.or(hull.particulars().draught).is_none() {
+    if let Some(draught) = settings.draught {
+        draught_of(hull, Some(draught), "the format")?;
+    } else if hull.particulars().draught.is_none() {
         let needy: Vec<&str> = formats.iter().filter(|f| f.needs_draught()).map(|f| f.name()).collect();
         if !needy.is_empty() {
             return Err(Failure::without_draught(&format!("--format {}", needy.join(",")), needy.len()));
@@ -409,7 +417,7 @@ fn sensible(hull: &Hull, formats: &[ExportFormat], settings: &ExportSettings) ->
 ///
 /// # Errors
 /// [`Failure::Internal`] when the solid is not closed. [`Failure::Usage`] in these cases:
-/// * nothing or the deck is immersed at the draught, or a format lacks its draught.
+/// * nothing or the deck is immersed at the draught, the given draught lies above D, or a format lacks its draught.
 /// * a format is named twice.
 /// * the deviation is less than a millionth of the breadth or more than a tenth of the lesser of breadth and depth.
 /// * the deviation asks for too many triangles.
@@ -475,7 +483,8 @@ pub fn export(
         OffsetTable::default()
     };
     if formats.iter().any(|format| matches!(format, ExportFormat::Pdstrip | ExportFormat::Michlet)) {
-        floats_at(hull, draught_of(hull, settings)?).map_err(|error| Failure::Usage(error.to_string()))?;
+        floats_at(hull, draught_of(hull, settings.draught, "the format")?)
+            .map_err(|error| Failure::Usage(error.to_string()))?;
     }
     for &format in formats {
         let file = format!("{name}{}", format.ending());
@@ -485,7 +494,7 @@ pub fn export(
             (ExportFormat::Pias, ..) => write_pias(&sections).into_bytes(),
             (ExportFormat::Pdstrip, ..) => {
                 let mut below = sections.clone();
-                below.stated.draught = Some(draught_of(hull, settings)?);
+                below.stated.draught = Some(draught_of(hull, settings.draught, "the format")?);
                 write_pdstrip(&below).into_bytes()
             }
             (ExportFormat::Freeship, ..) => write_freeship(&sections).into_bytes(),

@@ -31,6 +31,9 @@ pub enum Failure {
     Internal(String),
 }
 
+/// What messages about options of the command name in place of a file.
+pub(super) const COMMAND_LINE: &str = "command line";
+
 /// What is wrong with a file as a whole.
 pub(super) fn problem(code: &'static str, file: &Path, message: String, help: impl Into<String>) -> Diagnostic {
     Diagnostic {
@@ -51,6 +54,23 @@ impl Failure {
     pub fn without_draught(what: &str, count: usize) -> Self {
         let needs = if count == 1 { "needs" } else { "need" };
         Self::Usage(format!("{what} {needs} a draught, and none is stated: give --draught"))
+    }
+
+    /// Messages about the input; those about options of the command alone are of the command.
+    pub(super) fn of_messages(messages: Vec<Diagnostic>) -> Self {
+        let of_command = |message: &Diagnostic| {
+            message.severity != Severity::Error || message.file.starts_with("--") || message.file == COMMAND_LINE
+        };
+        let failure = Self::Input(messages);
+        match &failure {
+            Self::Input(messages) if messages.iter().all(of_command) => Self::Usage(failure.to_string()),
+            _ => failure,
+        }
+    }
+
+    /// A design draught of the command that is none of the hull.
+    pub(super) fn of_draught(error: &impl fmt::Display) -> Self {
+        Self::Usage(format!("--draught: {error}"))
     }
 
     /// Exit code: 1 internal, 2 usage, 3 bad input, 4 infeasible, 5 a check failed, 6 file system.

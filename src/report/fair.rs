@@ -88,7 +88,8 @@ fn table_of(path: &Path, job: &JobFile) -> Result<PathBuf, Failure> {
 /// job file: name of the option, path of the key, text of the value.
 ///
 /// # Errors
-/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options.
+/// [`Failure::FileSystem`]; [`Failure::Input`] with every problem of the files and of the options; [`Failure::Usage`] with
+/// those of the options where the files have none.
 pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJob, Failure> {
     let (mut inputs, mut files) = (Vec::new(), Vec::new());
     let mut read = |path: &Path| -> Result<Vec<u8>, Failure> {
@@ -114,7 +115,7 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
     }
     request = request.with(asked);
     if !problems.is_empty() {
-        return Err(Failure::Input(problems));
+        return Err(Failure::of_messages(problems));
     }
     let table_file = table_of(path, &request)?;
     read(&table_file)?;
@@ -146,20 +147,11 @@ pub fn read_fair(path: &Path, options: &[(&str, &str, String)]) -> Result<FairJo
         let rows = curve.points.iter().filter_map(|p| Some([p.x, p.y?, p.tolerance.unwrap_or(band)]));
         request.section_areas.extend(rows.map(|row| (row, place.clone())));
     }
-    let job = request.for_table(&table, length).map_err(|problems| refused_targets(&request, &table, problems))?;
+    let job = request.for_table(&table, length).map_err(Failure::of_messages)?;
     let density = request.density.unwrap_or(Conventions::default().density);
     let assumed = Assumed::of(&table.stated);
     let conventions = Conventions { density, assumed, ..Conventions::default() };
     Ok(FairJob { table, job, reading, conventions, grades: false, table_file, sidecar, request, inputs, files })
-}
-
-/// The problems of a job; those of options alone that need a draught which nobody states are of the command.
-fn refused_targets(request: &JobFile, table: &OffsetTable, problems: Vec<Diagnostic>) -> Failure {
-    let of_options = problems == request.at_no_draught(table) && problems.iter().all(|p| p.file.starts_with("--"));
-    if !of_options {
-        return Failure::Input(problems);
-    }
-    Failure::Usage(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
 }
 
 /// The surface through a table.
@@ -270,8 +262,15 @@ fn conventions_beside(job: &FairJob) -> Option<String> {
     let Some(sidecar) = sidecar else { return Some(stated) };
     let (mut all, over) = (sidecar.parse::<toml::Table>().ok()?, stated.parse::<toml::Table>().ok()?);
     for (name, keys) in over {
+        let toml::Value::Table(keys) = keys else { continue };
+        // The dimensions may stand in two tables, in capital or small letters.
+        for (_, table) in &mut all {
+            if let toml::Value::Table(table) = table {
+                table.retain(|old, _| !keys.keys().any(|key| key.eq_ignore_ascii_case(old)));
+            }
+        }
         let table = all.entry(name).or_insert_with(|| toml::Value::Table(toml::Table::new()));
-        if let (toml::Value::Table(table), toml::Value::Table(keys)) = (table, keys) {
+        if let toml::Value::Table(table) = table {
             table.extend(keys);
         }
     }
@@ -306,6 +305,7 @@ fn dimensions_at_fault(error: &JobError) -> &'static [&'static str] {
         JobError::Fit(FitError::Hull(hull)) | JobError::Hull(hull) | JobError::Fair(FairError::Hull(hull)) => {
             match hull {
                 HullError::Draught { .. } => &["dimensions.T", "dimensions.D"],
+                HullError::Aground { .. } => &["dimensions.T"],
                 HullError::Breadths { .. } => &["dimensions.B"],
                 _ => &[],
             }
@@ -323,7 +323,7 @@ fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: 
         JobError::Fair(FairError::Rules(list)) => {
             let help = "Look at the hull with `loftsman fit` and `loftsman inspect`";
             let at = |(rule, why): &(usize, String)| Some(request.rules.get(*rule)?.place.problem("E176", why, help));
-            return Failure::Input(list.iter().filter_map(at).collect());
+            return Failure::of_messages(list.iter().filter_map(at).collect());
         }
         JobError::NoCourse { course, kind, at } => {
             let same =
@@ -346,7 +346,7 @@ fn refusal(request: &JobFile, lines: &[ProposedLine], table_file: &Path, error: 
             ("E175", place, if place.is_some() { "" } else { help })
         }
     };
-    Failure::Input(vec![match place {
+    Failure::of_messages(vec![match place {
         Some(place) => place.problem(code, &error.to_string(), help),
         None => problem(code, table_file, error.to_string(), help),
     }])
@@ -410,7 +410,7 @@ pub fn fair_outputs_with_progress(
     let hull = hull_file(job, "hull.json", &outcome)?;
     let name_of_hull = marked_name(outcome.after.name(), compromise);
     outcome.after = outcome.after.with_name(name_of_hull);
-    let summary = summary(job, &outcome, rows.as_ref(), &rounding);
+    let summary = summary(job, &outcome, rows.as_ref(), (&rounding, &certificate["held_below"]));
     let mut files = vec![
         hull,
         hull_text(job, "fitted-hull.json", &outcome.before)?,
@@ -446,7 +446,12 @@ pub fn fair_outputs_with_progress(
 }
 
 /// Contents of `summary.json`.
-fn summary(job: &FairJob, outcome: &Outcome, rows: Option<&[Hydrostatics; 2]>, rounding: &RoundingEffect) -> Value {
+fn summary(
+    job: &FairJob,
+    outcome: &Outcome,
+    rows: Option<&[Hydrostatics; 2]>,
+    (rounding, held_below): (&RoundingEffect, &Value),
+) -> Value {
     let of_the_table = |held: &Held| match &job.job.holding {
         _ if !held.constraint.needs_draught() => true,
         Holding::Table => true,
@@ -475,6 +480,7 @@ fn summary(job: &FairJob, outcome: &Outcome, rows: Option<&[Hydrostatics; 2]>, r
         "design": rows.map(|[_, after]| row_json(after)),
         "before": rows.map(|[before, _]| row_json(before)),
         "targets": targets,
+        "held_below": held_below,
         "moves": { "rms": rms, "max": max, "excluded": outcome.changes.iter().filter(|c| c.suspect).count() },
         "inflections": inflections,
         "monotone_pieces": outcome.monotone_pieces(),

@@ -1,10 +1,9 @@
 //! The short page of `fair`: whether the hull is fairer, by how much and at which cost, and eight lines more.
 
 use super::fair::{FairJob, FairOutputs};
-use super::fair_page::{
-    MOST_AREAS, dimensions, limit, millimetres, not_stated, place, share, tolerances, volume_of, volumes,
-};
-use super::page::{WIDTH, fixed_sign, value};
+use super::fair_held::{MOST_AREAS, change_of_form};
+use super::fair_page::{dimensions, limit, millimetres, not_stated, place, tolerances};
+use super::page::WIDTH;
 use crate::exchange::status_word;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::outcome::{Change, Outcome};
@@ -136,22 +135,7 @@ fn suspects(job: &FairJob, outcome: &Outcome) -> String {
 /// Displacement and LCB before and after, and what is not held.
 fn held(outputs: &FairOutputs) -> String {
     let outcome = &outputs.outcome;
-    let length = outcome.after.particulars().length_between_perpendiculars;
-    let moved = |a: f64, b: f64| fixed_sign(100.0 * (b - a) / length, 3, " % L");
-    let mut line = match &outputs.rows {
-        Some([before, after]) => {
-            let share = share(before.displacement_volume, after.displacement_volume);
-            let lcb = before.lcb.zip(after.lcb).map_or(String::new(), |(a, b)| format!(", LCB {}", moved(a, b)));
-            format!("Displacement {} > {} t{share}{lcb}", value(before, "DISPM"), value(after, "DISPM"))
-        }
-        None => {
-            let (below, [volumes, centres]) = volumes(outcome);
-            let share = share(volumes[0], volumes[1]);
-            let [a, b] = volumes.map(volume_of);
-            let centre = moved(centres[0], centres[1]);
-            format!("Volume below z = {below:.3} m {a} > {b} m3{share}, its centre {centre}")
-        }
-    };
+    let mut line = change_of_form(outputs, ">");
     let targets = outcome.held.iter().filter(|held| !held.is_had()).map(|held| held.constraint.words());
     let rules = outcome.rules.iter().filter(|held| held.given_up).map(|held| held.rule.words());
     let missed: Vec<String> = targets.chain(rules).collect();

@@ -21,7 +21,7 @@ use crate::exchange::{
 };
 use crate::fairing::{Suspects, suspects};
 use crate::hull::{
-    Chart, FitError, FitMethod, Fitted, Hull, HullError, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
+    Chart, FitError, FitMethod, Fitted, Hull, OffsetTable, PointResidual, StatedParticulars, VolumeEstimate,
 };
 use crate::hydrostatics::{Assumed, Conventions, CurvesOfForm, Hydrostatics, default_draughts};
 use crate::plot::{Figure, FigureInputs};
@@ -38,6 +38,8 @@ pub struct FitJob {
     pub reading: Vec<TableProblem>,
     /// Cells that their neighbours contradict; the fit takes them as they are.
     pub suspects: Suspects,
+    /// Whether the command states the design draught.
+    draught_of_command: bool,
     /// File of the table.
     table_file: PathBuf,
     /// The files that were read; the first is the one that the command named.
@@ -131,7 +133,8 @@ pub fn read_fit(path: &Path, method_name: Option<&str>, draught: Option<f64>) ->
     let mut files = source_files(&table_file);
     files.push(path.to_owned());
     files.extend(method_name.map(PathBuf::from));
-    Ok(FitJob { table, method, reading: notes, suspects, table_file, inputs, files })
+    let draught_of_command = draught.is_some();
+    Ok(FitJob { table, method, reading: notes, suspects, draught_of_command, table_file, inputs, files })
 }
 
 /// Points of sections beside the surface: number, root mean square and the one that is missed most.
@@ -166,10 +169,11 @@ fn refusal(job: &FitJob, error: FitError) -> Failure {
     let file = &job.table_file;
     let mut messages = match error {
         FitError::Settings(problems) => job.method.diagnose(&problems.0, &file.display().to_string()),
+        FitError::Hull(error) if job.draught_of_command && error.is_of_draught() => return Failure::of_draught(&error),
         FitError::Hull(error) => {
             let message = format!("the {} surface over this table is no hull: {error}", job.method.method.as_str());
             let help = match error {
-                HullError::Draught { .. } => "",
+                error if error.is_of_draught() => "",
                 _ => "Another method, or other settings of it, may do",
             };
             vec![problem("E163", file, message, help)]
@@ -240,8 +244,8 @@ fn summary(
 /// Fits the table and makes every file about the hull; `figures` are drawn.
 ///
 /// # Errors
-/// [`Failure::Input`] when the table and the method make no hull, with every reason; [`Failure::Internal`] when a table
-/// or a figure cannot be made.
+/// [`Failure::Input`] when the table and the method make no hull, with every reason; [`Failure::Usage`] when the draught of
+/// the command is none of the hull; [`Failure::Internal`] when a table or a figure cannot be made.
 pub fn fit_outputs(job: &FitJob, figures: &[Figure]) -> Result<FitOutputs, Failure> {
     let fitted = Hull::fit(&job.table, &job.method.method).map_err(|error| refusal(job, error))?;
     let assumed = Assumed::of(&job.table.stated);

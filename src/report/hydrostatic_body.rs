@@ -3,11 +3,14 @@
 use std::path::Path;
 
 use super::convert::is_hull;
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use super::source::{Overrides, read_bytes, read_source_with, sidecar, source_of};
 use crate::exchange::{ReadBody, read_body};
-use crate::hull::{Hull, PrincipalParticulars, TriangleMesh};
+use crate::hull::{AFLOAT, AT_EDGE, Hull, HullError, PrincipalParticulars, TriangleMesh};
 use crate::hydrostatics::{Conventions, CurvesOfForm, default_draughts};
+
+/// Part of the height of a body by which its lowest point may be from the base line.
+const AT_BASE: f64 = 0.2;
 
 /// A body with the conventions of its tables.
 #[derive(Debug, Clone)]
@@ -38,12 +41,39 @@ impl HydrostaticBody {
         }
     }
 
-    /// Draughts of its table where none are asked for \[m\], of [`default_draughts`].
+    /// Heights of the lowest and the highest point \[m\]; none of a hull.
+    fn heights(&self) -> Option<[f64; 2]> {
+        match &self.body {
+            BodyShape::Hull(_) => None,
+            BodyShape::Triangles(meshes) => meshes.first()?.bounds().map(|[low, high]| [low[2], high[2]]),
+        }
+    }
+
+    /// Why a body of triangles does not float at its design draught; none where it does, or none is stated.
+    fn draught_fault(&self) -> Option<String> {
+        let (draught, [bottom, top]) = (self.particulars.draught?, self.heights()?);
+        if draught > top + AT_EDGE * (top - bottom) {
+            return Some(format!(
+                "the design draught of {draught:.3} m lies above the highest point of the body, {top:.3} m: state one within it; z_origin \
+                 in the TOML beside it moves the body"
+            ));
+        }
+        (draught <= bottom + AFLOAT * (top - bottom)).then(|| HullError::Aground { draught, bottom }.to_string())
+    }
+
+    /// Draughts of its table where none are asked for \[m\], of [`default_draughts`]; up from the lowest point of a body of
+    /// triangles that is far from the base line.
     ///
     /// # Errors
     /// [`Failure::Usage`] for a body without a height.
     pub fn default_draughts(&self) -> Result<Vec<f64>, Failure> {
-        let list = default_draughts(self.particulars.draught, self.particulars.depth);
+        let list = match self.heights() {
+            // Of panels z = 0 is the waterline.
+            Some([low, high]) if self.particulars.draught.is_none() && low.abs() > AT_BASE * (high - low) => {
+                default_draughts(None, high - low).into_iter().map(|draught| low + draught).collect()
+            }
+            _ => default_draughts(self.particulars.draught, self.particulars.depth),
+        };
         if list.is_empty() {
             let message = "the body has no height from which draughts follow: give --draught or --draughts";
             return Err(Failure::Usage(message.to_owned()));
@@ -83,7 +113,8 @@ pub fn read_hydrostatic_body(path: &Path) -> Result<HydrostaticBody, Failure> {
 /// The same, with conventions of a body or a table over those of its file.
 ///
 /// # Errors
-/// Those of [`read_hydrostatic_body`]; [`Failure::Usage`] when conventions are given for a hull.
+/// Those of [`read_hydrostatic_body`]; [`Failure::Usage`] when conventions are given for a hull, or a draught at which the
+/// body does not float.
 pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<HydrostaticBody, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let design = matches!(extension.as_str(), "toml" | "hgf" | "huf");
@@ -93,7 +124,12 @@ pub fn read_hydrostatic_body_with(path: &Path, overrides: &Overrides) -> Result<
         let (bytes, list) = (read_bytes(path)?, sidecar(path, overrides)?);
         let list = list.iter().map(|(name, text)| (name.as_str(), text.as_str()));
         if let Some(body) = read_body(&path.display().to_string(), &bytes, list) {
-            return body.map(of_body).map_err(|problems| overrides.refused(problems));
+            let body = body.map(of_body).map_err(|problems| overrides.refused(problems))?;
+            return match body.draught_fault() {
+                None => Ok(body),
+                Some(fault) if overrides.states_draught() => Err(Failure::of_draught(&fault)),
+                Some(fault) => Err(Failure::Input(vec![problem("E314", path, fault, "")])),
+            };
         }
         source_of(path, bytes, overrides)?
     };
@@ -114,7 +150,7 @@ pub fn read_hydrostatic_body_at(path: &Path, overrides: &Overrides, draught: f64
     }
     let mut body = read_hydrostatic_body_with(path, overrides)?;
     if let BodyShape::Hull(hull) = body.body {
-        let hull = hull.with_draught(draught).map_err(|error| Failure::Usage(error.to_string()))?;
+        let hull = hull.with_draught(draught).map_err(|error| Failure::of_draught(&error))?;
         body.particulars = *hull.particulars();
         body.body = BodyShape::Hull(Box::new(hull));
     }
@@ -129,7 +165,7 @@ fn of_body(read: ReadBody) -> HydrostaticBody {
         length_between_perpendiculars: stated.length_between_perpendiculars.unwrap_or(extent(0)),
         breadth: stated.breadth.unwrap_or(extent(1)),
         draught: stated.draught.filter(|_| stated.states_draught()),
-        depth: stated.depth.unwrap_or(extent(2)),
+        depth: stated.depth.unwrap_or(if greatest[2] > 0.0 { greatest[2] } else { extent(2) }),
     };
     let conventions = Conventions::default();
     // The breadth of a ship is that of its waterline, which flare does not widen.

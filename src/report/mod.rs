@@ -9,6 +9,7 @@ mod fair;
 mod fair_curve;
 mod fair_figures;
 mod fair_grades;
+mod fair_held;
 mod fair_page;
 mod fair_refused;
 mod fair_short;
@@ -33,7 +34,7 @@ mod verdict;
 
 pub use check::{Accepted, Check, CheckProblem, accept, check_files, check_json, check_page, check_table};
 pub use convert::{Converted, convert_file, convert_table};
-pub use export::{ExportFormat, ExportSettings, Exported, export};
+pub use export::{ExportFormat, ExportSettings, Exported, draught_of, export};
 pub use failure::Failure;
 pub use fair::{FairJob, FairOutputs, fair_outputs, fair_outputs_with_progress, read_fair};
 pub use fair_curve::{CurveJob, FairedCurve, Kept, fair_curve_files, fair_curve_json, fair_curve_page, faired_curve};

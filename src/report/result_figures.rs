@@ -69,7 +69,8 @@ struct Job<'a> {
     scaled: bool,
 }
 
-fn words(figure: Figure) -> [&'static str; 3] {
+/// `designed`: whether a design draught is stated, whose waterline is drawn.
+fn words(figure: Figure, designed: bool) -> [&'static str; 3] {
     let key = figure.key();
     match figure {
         Figure::Lines => [
@@ -90,11 +91,17 @@ fn words(figure: Figure) -> [&'static str; 3] {
             "Its area is the displacement and its centroid the LCB. Shoulders should be no sharper than the hull needs; \
              hollows stand at the ends alone.",
         ],
-        Figure::Hydrostatics => [
+        Figure::Hydrostatics if designed => [
             key,
             "Hydrostatic curves",
             "All curves over one axis of draught; the dash-dot line is the design draught. Curves end where the deck edge first goes \
                  under: beyond it the hull without its superstructure says nothing. A bend of TPC or KM tells of a shoulder or a flare.",
+        ],
+        Figure::Hydrostatics => [
+            key,
+            "Hydrostatic curves",
+            "All curves over one axis of draught. Curves end where the deck edge first goes under: beyond it the hull without its \
+                 superstructure says nothing. A bend of TPC or KM tells of a shoulder or a flare.",
         ],
         Figure::DiagramSheet => [
             key,
@@ -407,7 +414,7 @@ fn jobs<'a>(
         Job { words: came, draw: one(move |_| Ok(verdict_figure(result, [before, inputs.design]))), scaled: false },
     );
     let standard = |figure: Figure| Job {
-        words: words(figure),
+        words: words(figure, inputs.design.is_some()),
         draw: one(move |sheet| figure.draw_on(inputs, sheet).map(Some)),
         scaled: matches!(figure, Figure::Lines | Figure::Sections),
     };

@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
-use super::page::{fixed, no_draught, unit};
+use super::page::{fixed, unit};
 use super::result::JobResult;
 use super::result_figures::ReportFigure;
 use super::verdict::{is_warning, verdict};
@@ -20,6 +20,10 @@ use crate::plot::FONT;
 const STYLE: &str = include_str!("html/page.css");
 const VIEWER: &str = include_str!("html/viewer.js");
 const TABLES: &str = include_str!("html/tables.js");
+
+/// What the page says above tables at other draughts than a design draught.
+const NO_DESIGN_DRAUGHT: &str = "No design draught is stated: give --draught to the command that wrote this result. The hydrostatic table holds at \
+     the draught of each row.";
 
 /// Width of a figure that fills the column \[mm\].
 const FULL: f64 = 400.0;
@@ -520,7 +524,7 @@ pub(super) fn report_page(
         result.conventions.density
     );
     if p.draught.is_none() {
-        html.push_str(&format!("<p>{}</p>\n", lowered(&no_draught())));
+        html.push_str(&format!("<p>{NO_DESIGN_DRAUGHT}</p>\n"));
     }
     for (bad, line) in verdict(result, [before, design]) {
         html.push_str(&format!("<p{}>{}</p>\n", if bad { " class=\"bad\"" } else { "" }, lowered(&line)));

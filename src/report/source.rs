@@ -5,11 +5,11 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::check::suspects_line;
-use super::failure::{Failure, problem};
+use super::failure::{COMMAND_LINE, Failure, problem};
 use crate::config::{self, Design, Diagnostic, Severity};
 use crate::exchange::{self, HullFile, HullFileError, ReadTable, TableProblem};
 use crate::fairing::suspects;
-use crate::hull::{Cut, FitMethod, Hull, OffsetStation, OffsetTable, Section, StatedParticulars};
+use crate::hull::{Cut, FitError, FitMethod, Hull, OffsetStation, OffsetTable, Section, StatedParticulars};
 use crate::hydrostatics::{Assumed, Conventions};
 use crate::parametric::{Family, Generated};
 use crate::units::counted;
@@ -221,12 +221,17 @@ impl Overrides {
 
     /// What says them, for messages.
     fn origin(&self) -> String {
-        self.file.as_ref().map_or_else(|| "command line".to_owned(), |file| file.display().to_string())
+        self.file.as_ref().map_or_else(|| COMMAND_LINE.to_owned(), |file| file.display().to_string())
+    }
+
+    /// Whether the command states the design draught.
+    pub(super) fn states_draught(&self) -> bool {
+        self.file.is_none() && self.keys.iter().any(|(key, _)| *key == "T")
     }
 
     /// The failure of problems of a table or a body.
     pub(super) fn refused(&self, problems: Vec<TableProblem>) -> Failure {
-        Failure::Input(problems.into_iter().map(|problem| of_table(self.placed(problem))).collect())
+        Failure::of_messages(problems.into_iter().map(|problem| of_table(self.placed(problem))).collect())
     }
 
     /// A problem of [`Overrides::text`] has no place in a file.
@@ -334,8 +339,10 @@ fn of_table(problem: TableProblem) -> Diagnostic {
 /// The hull of a table of offsets.
 fn fitted(path: &Path, bytes: &[u8], overrides: &Overrides) -> Result<Source, Failure> {
     let (table, notes) = table_of(path, bytes, overrides)?;
-    let fitted = Hull::fit(&table, &FitMethod::default())
-        .map_err(|error| Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]))?;
+    let fitted = Hull::fit(&table, &FitMethod::default()).map_err(|error| match error {
+        FitError::Hull(error) if error.is_of_draught() && overrides.states_draught() => Failure::of_draught(&error),
+        error => Failure::Input(vec![diagnostic("E314", path, None, None, error.to_string())]),
+    })?;
     // What was detected, as units and orders, decides the hull as much as what was assumed.
     let notes = notes.iter().map(ToString::to_string);
     let notes = notes.chain(suspects_line(&table, &suspects(&table))).chain(fitted.notes).collect();

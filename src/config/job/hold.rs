@@ -127,13 +127,6 @@ impl Quantity {
         }
     }
 
-    /// Whether a target needs a draught: all do but those of the table's own displacement and LCB, which are its volume and
-    /// the centre of that where no draught is stated.
-    pub(super) fn needs_draught(self, target: Target) -> bool {
-        let own = matches!(self, Self::Displacement | Self::CentreOfBuoyancy) && target == Target::Table;
-        target != Target::Free && !own
-    }
-
     /// Whether a constraint holds it.
     pub(super) fn is_of(self, constraint: &Constraint) -> bool {
         std::mem::discriminant(&self.constraint(0.0, 0.0)) == std::mem::discriminant(constraint)

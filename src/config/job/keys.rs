@@ -78,7 +78,7 @@ pub const JOB_KEYS: &[Key] = &[
     hold(
         "displacement",
         &Kind::Displacement,
-        "Displacement at the design draught. Default: \"table\", which is the volume below the highest waterline of all stations where no draught is stated.",
+        "Displacement at the design draught. Default: \"table\". Without a draught the default is the volume below the highest waterline that every station between the ends has.",
     ),
     hold("Cb", &Kind::Number, "Block coefficient, instead of the displacement."),
     hold("LCB", &Kind::CentreOfBuoyancy, "Longitudinal centre of buoyancy. Default: \"table\"."),

@@ -29,6 +29,16 @@ pub(super) fn positive(document: &mut Document<'_>, path: &str, noun: &str) -> O
     allowed(document, path, value, value > 0.0, &format!("a positive {noun}"))
 }
 
+/// Greatest main dimension \[m\], as of a table.
+const MOST_LENGTH: f64 = 1e5;
+
+/// A main dimension.
+pub(super) fn dimension(document: &mut Document<'_>, path: &str) -> Option<f64> {
+    let value = document.number(path)?;
+    let expected = format!("a positive length below {MOST_LENGTH} m");
+    allowed(document, path, value, value > 0.0 && value < MOST_LENGTH, &expected)
+}
+
 /// The density of a water.
 pub(super) fn density(document: &mut Document<'_>) -> Option<f64> {
     let value = document.number("water.density")?;

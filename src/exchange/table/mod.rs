@@ -50,6 +50,7 @@ pub use freeship::write as write_freeship;
 pub use ghs::write as write_ghs;
 pub use grid::{LARGEST_TABLE, LONGEST_FIELD, MOST_CELLS, MOST_COLUMNS, MOST_LINES, MOST_ROWS};
 pub use michlet::write as write_michlet;
+pub use outline::section_of;
 pub use pdstrip::write as write_pdstrip;
 pub use pias::write as write_pias;
 pub use problem::{Severity, TableProblem};

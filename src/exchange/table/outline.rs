@@ -162,7 +162,8 @@ fn distance(p: &OutlinePoint, segment: &[OutlinePoint]) -> f64 {
 
 /// The section of a station as branches of points: its outlines, or, of a grid, keel, half-breadths and deck, a branch
 /// for each run of waterlines with hull.
-pub(super) fn section_of(station: &StationOffsets, waterlines: &[f64]) -> Vec<Vec<OutlinePoint>> {
+#[must_use]
+pub fn section_of(station: &StationOffsets, waterlines: &[f64]) -> Vec<Vec<OutlinePoint>> {
     if !station.outlines.is_empty() {
         return station.outlines.clone();
     }

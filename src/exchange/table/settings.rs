@@ -25,6 +25,9 @@
 //! z_origin = 6.15
 //! sections = 40               # of a body: spaces between the sections of its table
 //!
+//! [dimensions]                # Lpp, B, T and D may stand here instead, as in a job
+//! T = 3.5
+//!
 //! [endings]                   # profiles as pairs [z, x] at the waterlines
 //! stern = [[0.0, 1.2], [1.5, 0.4]]
 //! stem = [[0.0, 60.1], [1.5, 61.0]]

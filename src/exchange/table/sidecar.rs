@@ -15,7 +15,9 @@ use crate::units::counted;
 /// Longer files are no conventions \[bytes\].
 const LARGEST: usize = 1 << 20;
 /// The tables of the file.
-const TABLES: [&str; 4] = ["table", "endings", "transom", "line"];
+const TABLES: [&str; 5] = ["table", "dimensions", "endings", "transom", "line"];
+/// The keys of `[dimensions]`, which `[table]` has as well.
+const DIMENSIONS: [&str; 4] = ["Lpp", "B", "T", "D"];
 /// Where the main dimensions of a table of fractions may stand, besides the top of the file.
 const PARTICULARS: [&str; 3] = ["table", "particulars", "dimensions"];
 
@@ -25,8 +27,8 @@ struct Sidecar<'a> {
     problems: &'a mut Problems,
 }
 
-/// Reads the conventions of the file `name` with the contents `text`. A file that has none of our tables, as a design
-/// file of the same name, is left alone with a note.
+/// Reads the conventions of the file `name` with the contents `text`. A file that has none of our tables, or beside
+/// `[dimensions]` others, as a design or a job of the same name, is left alone with a note.
 pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &mut Problems) {
     let mut sidecar = Sidecar { file: name, text, problems };
     let Some(document) = sidecar.document() else { return };
@@ -40,16 +42,25 @@ pub(super) fn read(name: &str, text: &str, settings: &mut Settings, problems: &m
     // A file of nothing but keys lacks their heading; a design has tables of its own.
     let bare = names.iter().any(|name| is_key(name))
         && document.get_ref().values().all(|value| !matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)));
-    if !bare && !names.iter().any(|name| TABLES.iter().any(|t| t.eq_ignore_ascii_case(name)) || near(name).is_some()) {
-        let message =
-            format!("{name} beside the table has no [table], [endings], [transom] or [[line]] and is not read");
+    let ours = |name: &&str| TABLES.iter().any(|t| t.eq_ignore_ascii_case(name)) || near(name).is_some();
+    let dimensions = |name: &&str| name.eq_ignore_ascii_case("dimensions");
+    // A design and a job have [dimensions] too, and tables of their own.
+    let only_dimensions = names.iter().any(dimensions) && names.iter().all(ours);
+    if !bare && !only_dimensions && !names.iter().filter(|name| !dimensions(name)).any(ours) {
+        let message = format!(
+            "{name} beside the table has no [table], [endings], [transom] or [[line]], nor [dimensions] alone, and is not read"
+        );
         return sidecar.problems.note(message);
     }
     for (key, value) in document.get_ref() {
         let (own, span) = (key.get_ref().as_ref(), key.span());
         let key = TABLES.iter().find(|known| known.eq_ignore_ascii_case(own)).copied().unwrap_or(own);
         match (key, value.get_ref()) {
-            ("table", DeValue::Table(table)) => sidecar.table(table, settings),
+            ("table", DeValue::Table(table)) => sidecar.table(table, &KEYS, settings),
+            ("dimensions", DeValue::Table(table)) => {
+                sidecar.once(table, document.get_ref());
+                sidecar.table(table, &DIMENSIONS, settings);
+            }
             ("endings", DeValue::Table(table)) => sidecar.endings(table, settings),
             ("transom", DeValue::Table(table)) => sidecar.transom(table, settings),
             ("line", DeValue::Array(lines)) => {
@@ -171,11 +182,32 @@ impl<'a> Sidecar<'a> {
         self.problem(key, span, "not a key of the conventions".to_owned(), &remedy);
     }
 
-    fn table(&mut self, table: &DeTable<'_>, settings: &mut Settings) {
+    /// Refuses a dimension that `[table]` of the document has as well.
+    fn once(&mut self, dimensions: &DeTable<'_>, document: &DeTable<'_>) {
+        let is_table = |name: &str| name.eq_ignore_ascii_case("table");
+        let tables = document.iter().filter(|(key, _)| is_table(key.get_ref().as_ref()));
+        let keys: Vec<&str> = tables
+            .filter_map(|(_, value)| match value.get_ref() {
+                DeValue::Table(table) => Some(table.keys().map(|key| key.get_ref().as_ref())),
+                _ => None,
+            })
+            .flatten()
+            .collect();
+        for key in dimensions.keys() {
+            let name = key.get_ref().as_ref();
+            if keys.iter().any(|other| other.eq_ignore_ascii_case(name)) {
+                let message = "stands in [table] and in [dimensions]".to_owned();
+                self.problem(name, &key.span(), message, "Give it once");
+            }
+        }
+    }
+
+    /// A table of the `keys` that it may have.
+    fn table(&mut self, table: &DeTable<'_>, keys: &[&str], settings: &mut Settings) {
         for (key, value) in table {
             let name = key.get_ref().as_ref();
-            let Some(known) = KEYS.iter().find(|k| k.eq_ignore_ascii_case(name)) else {
-                self.unknown(name, &key.span(), &KEYS);
+            let Some(known) = keys.iter().find(|k| k.eq_ignore_ascii_case(name)) else {
+                self.unknown(name, &key.span(), keys);
                 continue;
             };
             if let Err((message, remedy)) = settings.set(known, &content(value.get_ref())) {

@@ -95,7 +95,7 @@ fn has_rocker(table: &OffsetTable) -> bool {
 /// [`FitError::TooFew`] below two stations with a section, [`FitError::Hull`] when the surface is no hull.
 pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let mut net = Net::new(table)?;
-    let particulars = particulars(table, &net.surface, &net.profiles, &mut net.notes);
+    let particulars = particulars(table, &net.profiles, &mut net.notes);
     let hull = Hull::new(&table.name, particulars, net.surface.clone(), deck(&net.surface, &net.profiles)?)?;
     Ok(Fitted { hull, chart: Chart::Upright, cells: net.cells(table), notes: net.notes })
 }
@@ -211,20 +211,13 @@ impl Net {
 }
 
 /// Stated dimensions, and where nothing is stated: L_PP by the stations, else between the ends of the hull, B twice the
-/// greatest half-breadth, D the highest point, T seven tenths of the height up to the lowest upper edge. What was not
-/// stated is noted.
-pub(super) fn particulars(
-    table: &OffsetTable,
-    surface: &BsplineSurface<3>,
-    profiles: &[Profile],
-    notes: &mut Vec<String>,
-) -> PrincipalParticulars {
+/// greatest half-breadth, D the highest point. What was not stated is noted.
+pub(super) fn particulars(table: &OffsetTable, profiles: &[Profile], notes: &mut Vec<String>) -> PrincipalParticulars {
     let size = size(profiles);
     let (first, last) = (&profiles[0], &profiles[profiles.len() - 1]);
     let length = last.x - first.x;
     let (length, how) = length_by_stations(table, length).map_or((length, BY_ENDS), |l| (l, BY_STATIONS));
-    let (length, lowest) = (length, surface.points().iter().map(|p| p[2]).fold(f64::INFINITY, f64::min));
-    let top = lowest + size.depth;
+    let top = profiles.iter().map(Profile::top).fold(f64::NEG_INFINITY, f64::max);
     let mut or = |value: Option<f64>, what: &str, guess: f64, how: &str| {
         value.unwrap_or_else(|| {
             notes.push(format!("no {what} is stated: {guess:.3} m, {how}"));

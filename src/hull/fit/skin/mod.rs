@@ -63,7 +63,7 @@ pub(super) fn fit(table: &OffsetTable) -> Result<Fitted, FitError> {
     let deck = upright::deck(&surface, &profiles)?;
     let stated = table.stated.length_between_perpendiculars.is_some();
     let mut assumed = Vec::new();
-    let mut particulars = upright::particulars(table, &surface, &profiles, &mut assumed);
+    let mut particulars = upright::particulars(table, &profiles, &mut assumed);
     let mut hull = Hull::new(&table.name, particulars, surface, deck)?;
     let afloat = particulars.draught.and_then(|draught| hull.endings(draught));
     if let (false, Some([aft, fore])) = (stated, afloat) {
