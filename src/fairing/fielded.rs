@@ -15,7 +15,7 @@ use super::program::{Program, Wishes};
 use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, readings};
-use crate::hull::{Hull, HullError, OffsetTable};
+use crate::hull::{Hull, HullError, OffsetTable, StationOffsets};
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 
@@ -73,15 +73,16 @@ impl FairSurface {
         fitted: &Hull,
         (noise, rules): (f64, &[Rule]),
     ) -> Option<(Self, Likely)> {
-        let marked = with_fixed_lines(table, rules);
-        if table.stations.iter().any(|station| !station.outlines.is_empty()) {
+        let breaks = |station: &StationOffsets| station.half_breadths.iter().any(|cell| cell.marks.knuckle);
+        if table.stations.iter().any(|station| !station.outlines.is_empty() || breaks(station)) {
             return None;
         }
-        let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
-        let rocker = if fitted.is_level() { None } else { Rocker::new(table, least) };
-        let seen = match rocker {
-            Some(rocker) => Observations::over_keel(&marked, rocker),
-            None => Observations::new(&marked),
+        let marked = with_fixed_lines(table, rules);
+        let seen = if fitted.is_level() {
+            Observations::new(&marked)
+        } else {
+            let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
+            Observations::over_keel(&marked, Rocker::new(table, least)?)
         };
         let shape = [table.stations.len(), table.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 2 || seen.readings.len() < 16 {
