@@ -23,9 +23,9 @@ const MIXED: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
 /// Values of c.
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// Where the descent starts, in the grids: a flat bottom, and a V keel. From one alone an S-shaped hull whose sections leave
-/// the keel straight came out 30 mm fuller below its first waterline.
-const STARTS: [[usize; 5]; 2] = [[1, 3, 0, 0, 0], [5, 3, 0, 0, 0]];
+/// Where the descent starts, in the grids: a flat bottom. It starts again where that ends, with the V keel of the last b. From
+/// one alone an S-shaped hull whose sections leave the keel straight came out 30 mm fuller below its first waterline.
+const START: [usize; 5] = [1, 3, 0, 0, 0];
 
 /// Widths of the mean that makes a density, in intervals of the table.
 pub(super) const WIDTHS: [f64; 3] = [3.0, 2.0, 1.5];
@@ -303,37 +303,35 @@ fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival
     if bound > rival {
         return (Weighed::AtLeast(bound), 2);
     }
-    if first < f64::INFINITY {
-        // Places beside the middle at which it is higher.
-        let mut ends = [middle, middle];
-        for (side, direction) in [(1, 1), (0, -1)] {
-            if ends[side] != middle {
-                continue;
-            }
-            let mut step = direction;
-            while cost(middle + step, &mut best) < cost(middle, &mut best) {
-                ends[1 - side] = middle;
-                middle += step;
-                step *= 2;
-            }
-            ends[side] = middle + step;
+    // Places beside the middle at which it is higher.
+    let mut ends = [middle, middle];
+    for (side, direction) in [(1, 1), (0, -1)] {
+        if ends[side] != middle {
+            continue;
         }
-        let [mut low, mut high] = ends;
-        while high - low > 2 {
-            let [left, right] =
-                [low, high].map(|end| (cost(end, &mut best) - cost(middle, &mut best)) / f64::from(end - middle));
-            // Of the parabola through the three, from the middle.
-            let least = -0.5 * (left * f64::from(high - middle) - right * f64::from(low - middle)) / (right - left);
-            let beside = if low + 1 == middle || (least > 0.0 && middle + 1 < high) { middle + 1 } else { middle - 1 };
-            let vertex = middle + least.round() as i32;
-            let next = if vertex != middle && low < vertex && vertex < high { vertex } else { beside };
-            let is_less = cost(next, &mut best) < cost(middle, &mut best);
-            match (next < middle, is_less) {
-                (true, true) => (middle, high) = (next, middle),
-                (true, false) => low = next,
-                (false, true) => (low, middle) = (middle, next),
-                (false, false) => high = next,
-            }
+        let mut step = direction;
+        while cost(middle + step, &mut best) < cost(middle, &mut best) {
+            ends[1 - side] = middle;
+            middle += step;
+            step *= 2;
+        }
+        ends[side] = middle + step;
+    }
+    let [mut low, mut high] = ends;
+    while high - low > 2 {
+        let [left, right] =
+            [low, high].map(|end| (cost(end, &mut best) - cost(middle, &mut best)) / f64::from(end - middle));
+        // Of the parabola through the three, from the middle.
+        let least = -0.5 * (left * f64::from(high - middle) - right * f64::from(low - middle)) / (right - left);
+        let beside = if low + 1 == middle || (least > 0.0 && middle + 1 < high) { middle + 1 } else { middle - 1 };
+        let vertex = middle + least.round() as i32;
+        let next = if vertex != middle && low < vertex && vertex < high { vertex } else { beside };
+        let is_less = cost(next, &mut best) < cost(middle, &mut best);
+        match (next < middle, is_less) {
+            (true, true) => (middle, high) = (next, middle),
+            (true, false) => low = next,
+            (false, true) => (low, middle) = (middle, next),
+            (false, false) => high = next,
         }
     }
     let found = best.map_or(Weighed::AtLeast(f64::INFINITY), |(exponent, field)| Weighed::Best(exponent, field));
@@ -353,10 +351,14 @@ pub fn choose(
     let (known, bounds) = (BTreeMap::new(), BTreeMap::new());
     let mut search = Search { energies, cells, rectangle, least, known, bounds, trials: 0 };
     let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
-    let starts = earlier.map_or(STARTS.to_vec(), |earlier| vec![place(earlier)]);
     let beside = if earlier.is_some() { 1 } else { usize::MAX };
-    let ends: Vec<_> = starts.into_iter().filter_map(|start| search.descent(start, beside, exponent)).collect();
-    let at = ends.into_iter().min_by(|a, b| search.known[a].1.cost.total_cmp(&search.known[b].1.cost))?;
+    let first = search.descent(earlier.map_or(START, place), beside, exponent)?;
+    let second = earlier.is_none().then(|| {
+        let v_keel = [KEELS.len() - 1, first[1], first[2], first[3], first[4]];
+        search.descent(v_keel, beside, search.known[&first].0)
+    });
+    let ends = std::iter::once(first).chain(second.flatten());
+    let at = ends.min_by(|a, b| search.known[a].1.cost.total_cmp(&search.known[b].1.cost))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
     Some(Chosen { chart, metric: Search::metric(at), density: None, exponent, field, trials: search.trials })
