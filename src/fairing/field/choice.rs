@@ -39,6 +39,9 @@ const PRICE: f64 = 20.0;
 const DENSITIES: usize = 3;
 const WORTH: f64 = 10.0;
 
+/// What later rounds add to the gain of the first at most.
+const AGAIN: f64 = 0.5;
+
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
@@ -120,8 +123,8 @@ impl Chosen {
     }
 
     /// With the density of its field where that is likelier by more than its price: of each of the `widths` the one of a few
-    /// rounds, each of the field with the one before. Later rounds are not tried where the density would still be worth less
-    /// with half the gain of the first again.
+    /// rounds, each of the field with the one before. Later rounds are not tried where a density would not be worth its price
+    /// with [`AGAIN`] times the gain of the first.
     pub(super) fn with_density(&self, net: &Net, cells: &[Cell], least: f64, widths: &[f64]) -> Self {
         let observed = Observed::new(net, &self.chart, cells);
         let mut best = self.clone();
@@ -129,15 +132,16 @@ impl Chosen {
             let mut last = self.clone();
             for round in 0..DENSITIES {
                 let density = Some(Density::of(net, self.metric, &last.field.values, *width));
-                let (start, rival) = (last.exponent, last.field.cost);
                 let next = Self { density, ..self.clone() };
-                let Some(found) = next.weighed(net, &observed, start, least, rival) else { break };
+                let needed = self.field.cost + next.price(net) - best.field.cost - best.price(net);
+                let worth = if round == 0 { (needed / (1.0 + AGAIN)).max(0.0) } else { 0.0 };
+                let rival = last.field.cost - worth;
+                let Some(found) = next.weighed(net, &observed, last.exponent, least, rival) else { break };
                 let gain = last.field.cost - found.field.cost;
-                if gain > 0.0 {
+                if gain > worth {
                     last = found;
                 }
-                let hoped = last.field.cost - 0.5 * gain + last.price(net);
-                if gain < WORTH || (round == 0 && hoped > best.field.cost + best.price(net)) {
+                if gain < WORTH.max(worth) {
                     break;
                 }
             }

@@ -134,6 +134,9 @@ fn smooth_first(energies: &mut Energies<'_>, cells: &[Cell], chart: Chart, least
 /// Where the field still has breadth at an end it stays.
 fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, least: f64) {
     let zeros = seen.zeros();
+    if zeros.is_empty() {
+        return seen.settle(&zeros);
+    }
     let net = energies.net;
     let rows: Vec<_> = zeros.iter().map(|zero| net.row([chart.u(zero.cell.x), chart.v(zero.cell.z)])).collect();
     let mut first = || {
