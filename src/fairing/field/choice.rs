@@ -225,7 +225,7 @@ impl Search<'_, '_> {
             energies.iter().enumerate().map(|(k, energy)| metric.factor(k) * energy).sum::<f64>()
         });
         let shift = (old / new).log10();
-        Some(if shift.is_finite() { exponent + shift } else { *exponent })
+        Some(if shift.is_finite() { (exponent + shift).clamp(WEIGHTS[0], WEIGHTS[1]) } else { *exponent })
     }
 
     /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid. On a grid the
