@@ -46,10 +46,13 @@ const AGAIN: f64 = 0.5;
 const ROUNDS: usize = 3;
 
 /// What -2 log l rises by, and by for each offset, where no better chart is expected further along a grid.
-const RISE: [f64; 2] = [50.0, 0.3];
+const RISE: [f64; 2] = [200.0, 0.3];
 
-/// What -2 log l falls by at most for each offset from the first weight that is tried to the best.
-const FALL: f64 = 0.3;
+/// What -2 log l falls by at most, and by for each offset, from the first weight that is tried to the best.
+const FALL: [f64; 2] = [200.0, 0.3];
+
+/// The same from the better of two weights, besides what its curvature says.
+const SLACK: f64 = 100.0;
 
 /// Least curvature of -2 log l over steps of the weight, for each offset.
 const CURVATURE: f64 = 0.015;
@@ -277,8 +280,8 @@ enum Weighed {
 /// The weight of greatest likelihood with its field, and how many were tried: the least of three neighbours on the grid of
 /// steps of a quarter decade. It is bracketed from `start` on with steps that double, then found by parabolas (Brent 1973,
 /// chapter 5). The search ends early where the best weight costs more than `rival`. For that -2 log l of n offsets is taken
-/// to fall by [`FALL`] n at most, and by s^2 / (4 k n) where it changes by s between two weights, with the curvature k of
-/// [`CURVATURE`].
+/// to fall by [`FALL`] at most, and by [`SLACK`] + s^2 / (4 k n) where it changes by s between two weights, with the
+/// curvature k of [`CURVATURE`].
 fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival: f64) -> (Weighed, usize) {
     let mut costs: BTreeMap<i32, f64> = BTreeMap::new();
     let mut best: Option<(f64, Smoothed)> = None;
@@ -299,11 +302,12 @@ fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival
     let mut middle = (start * PLACES).round() as i32;
     let first = cost(middle, &mut best);
     let count = observed.count() as f64;
-    if first.is_infinite() || first - FALL * count > rival {
-        return (Weighed::AtLeast(first - FALL * count), 1);
+    let bound = first - FALL[0] - FALL[1] * count;
+    if first.is_infinite() || bound > rival {
+        return (Weighed::AtLeast(bound), 1);
     }
     let second = cost(middle + 1, &mut best);
-    let bound = first.min(second) - (second - first).powi(2) / (4.0 * CURVATURE * count);
+    let bound = first.min(second) - SLACK - (second - first).powi(2) / (4.0 * CURVATURE * count);
     if bound > rival {
         return (Weighed::AtLeast(bound), 2);
     }
