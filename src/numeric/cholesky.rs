@@ -488,10 +488,13 @@ mod tests {
             let matrix = example(n, w);
             let factor = matrix.factor().unwrap();
             let inverse = factor.inverse_band();
+            let mut units: Vec<f64> = (0..n * n).map(|k| if k % (n + 1) == 0 { 1.0 } else { 0.0 }).collect();
+            factor.solve_blocks(&mut units);
             for j in 0..n {
                 let mut unit = vec![0.0; n];
                 unit[j] = 1.0;
                 factor.solve(&mut unit);
+                assert!(unit.iter().zip(&units[j * n..]).all(|(a, b)| (a - b).abs() < 1e-14), "{j} of {n}, {w}");
                 for (i, entry) in unit.iter().enumerate().take((j + w).min(n - 1) + 1).skip(j.saturating_sub(w)) {
                     assert!((inverse.get(i, j) - entry).abs() < 1e-14, "({i}, {j}) of {n}, {w}");
                 }

@@ -133,19 +133,28 @@ fn factor_columns(
             panel[j * stride + i] = triangle[i][j];
         }
     }
-    for row in (columns..rows).step_by(LANES) {
-        let count = LANES.min(rows - row);
+    let inverse: [f64; NARROW] = std::array::from_fn(|j| 1.0 / triangle[j][j]);
+    let whole = (rows - columns) / LANES * LANES;
+    for row in (columns..columns + whole).step_by(LANES) {
         let mut lanes = [[0.0; LANES]; NARROW];
         for j in 0..columns {
-            let target = &mut panel[j * stride + row..j * stride + row + count];
-            let mut values = [0.0; LANES];
-            values[..count].copy_from_slice(target);
+            let Some(target) = panel[j * stride + row..].first_chunk_mut::<LANES>() else { break };
+            let mut values = *target;
             for (known, factor) in lanes[..j].iter().zip(&triangle[j]) {
                 (0..LANES).for_each(|t| values[t] -= known[t] * factor);
             }
-            values.iter_mut().for_each(|value| *value /= triangle[j][j]);
-            target.copy_from_slice(&values[..count]);
+            values.iter_mut().for_each(|value| *value *= inverse[j]);
+            *target = values;
             lanes[j] = values;
+        }
+    }
+    for row in columns + whole..rows {
+        let mut known = [0.0; NARROW];
+        for j in 0..columns {
+            let value = &mut panel[j * stride + row];
+            (0..j).for_each(|k| *value -= known[k] * triangle[j][k]);
+            *value *= inverse[j];
+            known[j] = *value;
         }
     }
     Ok(())
@@ -178,17 +187,18 @@ pub(crate) fn divide_by_triangle(y: &mut [f64], rows: usize, stride: usize, tria
     }
 }
 
-/// Scalar product in four strands, which the compiler turns into vector instructions.
+/// Scalar product in eight strands, which the compiler turns into vector instructions.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut strands = [0.0; 4];
-    let (pairs, rest) = (a.chunks_exact(4).zip(b.chunks_exact(4)), a.len().min(b.len()) / 4 * 4);
-    for (x, y) in pairs {
-        for (strand, (x, y)) in strands.iter_mut().zip(x.iter().zip(y)) {
-            *strand += x * y;
-        }
+    let mut strands = [0.0; 8];
+    let count = a.len().min(b.len());
+    let (a, b) = (&a[..count], &b[..count]);
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    for (x, y) in a.iter().zip(b) {
+        (0..8).for_each(|k| strands[k] += x[k] * y[k]);
     }
-    let tail: f64 = a[rest..].iter().zip(&b[rest..]).map(|(x, y)| x * y).sum();
-    (strands[0] + strands[1]) + (strands[2] + strands[3]) + tail
+    let tail: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    let [s, t] = [0, 4].map(|k| (strands[k] + strands[k + 1]) + (strands[k + 2] + strands[k + 3]));
+    (s + t) + tail
 }
 
 #[cfg(test)]

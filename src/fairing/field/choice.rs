@@ -23,9 +23,9 @@ const MIXED: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
 /// Values of c.
 const ENDS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// Where the descent starts, in the grids: a flat bottom, and a V keel. From one alone an S-shaped hull whose sections leave
-/// the keel straight came out 30 mm fuller below its first waterline.
-const STARTS: [[usize; 5]; 2] = [[1, 3, 0, 0, 0], [5, 3, 0, 0, 0]];
+/// Where the descent starts, in the grids: a flat bottom. It starts again where that ends, with the V keel of the last b. From
+/// one alone an S-shaped hull whose sections leave the keel straight came out 30 mm fuller below its first waterline.
+const START: [usize; 5] = [1, 3, 0, 0, 0];
 
 /// Widths of the mean that makes a density, in intervals of the table.
 pub(super) const WIDTHS: [f64; 3] = [3.0, 2.0, 1.5];
@@ -39,14 +39,20 @@ const PRICE: f64 = 20.0;
 const DENSITIES: usize = 3;
 const WORTH: f64 = 10.0;
 
+/// What later rounds add to the gain of the first at most.
+const AGAIN: f64 = 0.5;
+
 /// Rounds of the descent.
 const ROUNDS: usize = 3;
 
 /// What -2 log l rises by, and by for each offset, where no better chart is expected further along a grid.
-const RISE: [f64; 2] = [50.0, 0.3];
+const RISE: [f64; 2] = [200.0, 0.3];
 
-/// What -2 log l falls by at most for each offset from the first weight that is tried to the best.
-const FALL: f64 = 0.3;
+/// What -2 log l falls by at most, and by for each offset, from the first weight that is tried to the best.
+const FALL: [f64; 2] = [200.0, 0.3];
+
+/// The same from the better of two weights, besides what its curvature says.
+const SLACK: f64 = 100.0;
 
 /// Least curvature of -2 log l over steps of the weight, for each offset.
 const CURVATURE: f64 = 0.015;
@@ -120,8 +126,8 @@ impl Chosen {
     }
 
     /// With the density of its field where that is likelier by more than its price: of each of the `widths` the one of a few
-    /// rounds, each of the field with the one before. Later rounds are not tried where the density would still be worth less
-    /// with half the gain of the first again.
+    /// rounds, each of the field with the one before. Later rounds are not tried where a density would not be worth its price
+    /// with [`AGAIN`] times the gain of the first.
     pub(super) fn with_density(&self, net: &Net, readings: &Readings, least: f64, widths: &[f64]) -> Self {
         let observed = Observed::new(net, &self.chart, readings);
         let mut best = self.clone();
@@ -129,15 +135,16 @@ impl Chosen {
             let mut last = self.clone();
             for round in 0..DENSITIES {
                 let density = Some(Density::of(net, self.metric, &last.field.values, *width));
-                let (start, rival) = (last.exponent, last.field.cost);
                 let next = Self { density, ..self.clone() };
-                let Some(found) = next.weighed(net, &observed, start, least, rival) else { break };
+                let needed = self.field.cost + next.price(net) - best.field.cost - best.price(net);
+                let worth = if round == 0 { (needed / (1.0 + AGAIN)).max(0.0) } else { 0.0 };
+                let rival = last.field.cost - worth;
+                let Some(found) = next.weighed(net, &observed, last.exponent, least, rival) else { break };
                 let gain = last.field.cost - found.field.cost;
-                if gain > 0.0 {
+                if gain > worth {
                     last = found;
                 }
-                let hoped = last.field.cost - 0.5 * gain + last.price(net);
-                if gain < WORTH || (round == 0 && hoped > best.field.cost + best.price(net)) {
+                if gain < WORTH.max(worth) {
                     break;
                 }
             }
@@ -221,7 +228,7 @@ impl Search<'_, '_> {
             energies.iter().enumerate().map(|(k, energy)| metric.factor(k) * energy).sum::<f64>()
         });
         let shift = (old / new).log10();
-        Some(if shift.is_finite() { exponent + shift } else { *exponent })
+        Some(if shift.is_finite() { (exponent + shift).clamp(WEIGHTS[0], WEIGHTS[1]) } else { *exponent })
     }
 
     /// The chart at which no single number is better, from a start on; each within `beside` steps of its grid. On a grid the
@@ -273,67 +280,70 @@ enum Weighed {
 /// The weight of greatest likelihood with its field, and how many were tried: the least of three neighbours on the grid of
 /// steps of a quarter decade. It is bracketed from `start` on with steps that double, then found by parabolas (Brent 1973,
 /// chapter 5). The search ends early where the best weight costs more than `rival`. For that -2 log l of n offsets is taken
-/// to fall by [`FALL`] n at most, and by s^2 / (4 k n) where it changes by s between two weights, with the curvature k of
-/// [`CURVATURE`].
+/// to fall by [`FALL`] at most, and by [`SLACK`] + s^2 / (4 k n) where it changes by s between two weights, with the
+/// curvature k of [`CURVATURE`].
 fn weighed(observed: &Observed, rough: &Roughness, start: f64, least: f64, rival: f64) -> (Weighed, usize) {
-    let mut costs: BTreeMap<i32, f64> = BTreeMap::new();
+    // Costs, and what the offsets alone cost.
+    let mut costs: BTreeMap<i32, [f64; 2]> = BTreeMap::new();
     let mut best: Option<(f64, Smoothed)> = None;
-    let mut cost = |place: i32, best: &mut Option<(f64, Smoothed)>| {
+    let mut both = |place: i32, best: &mut Option<(f64, Smoothed)>| {
         *costs.entry(place).or_insert_with(|| {
             let exponent = f64::from(place) / PLACES;
             if !(WEIGHTS[0]..=WEIGHTS[1]).contains(&exponent) {
-                return f64::INFINITY;
+                return [f64::INFINITY; 2];
             }
-            let Ok(found) = smoothed(observed, rough, 10f64.powf(exponent), least) else { return f64::INFINITY };
-            let cost = found.cost;
-            if best.as_ref().is_none_or(|(_, b)| cost < b.cost) {
+            let Ok(found) = smoothed(observed, rough, 10f64.powf(exponent), least) else {
+                return [f64::INFINITY; 2];
+            };
+            let costs = [found.cost, found.cost - found.below];
+            if best.as_ref().is_none_or(|(_, b)| found.cost < b.cost) {
                 *best = Some((exponent, found));
             }
-            cost
+            costs
         })
     };
     let mut middle = (start * PLACES).round() as i32;
-    let first = cost(middle, &mut best);
+    let [_, first] = both(middle, &mut best);
     let count = observed.count() as f64;
-    if first.is_infinite() || first - FALL * count > rival {
-        return (Weighed::AtLeast(first - FALL * count), 1);
+    let bound = first - FALL[0] - FALL[1] * count;
+    if first.is_infinite() || bound > rival {
+        return (Weighed::AtLeast(bound), 1);
     }
-    let second = cost(middle + 1, &mut best);
-    let bound = first.min(second) - (second - first).powi(2) / (4.0 * CURVATURE * count);
+    let [_, second] = both(middle + 1, &mut best);
+    let bound = first.min(second) - SLACK - (second - first).powi(2) / (4.0 * CURVATURE * count);
     if bound > rival {
         return (Weighed::AtLeast(bound), 2);
     }
-    if first < f64::INFINITY {
-        // Places beside the middle at which it is higher.
-        let mut ends = [middle, middle];
-        for (side, direction) in [(1, 1), (0, -1)] {
-            if ends[side] != middle {
-                continue;
-            }
-            let mut step = direction;
-            while cost(middle + step, &mut best) < cost(middle, &mut best) {
-                ends[1 - side] = middle;
-                middle += step;
-                step *= 2;
-            }
-            ends[side] = middle + step;
+    let mut cost = |place: i32, best: &mut Option<(f64, Smoothed)>| both(place, best)[0];
+    // Places beside the middle at which it is higher.
+    let mut ends = [middle, middle];
+    for (side, direction) in [(1, 1), (0, -1)] {
+        if ends[side] != middle {
+            continue;
         }
-        let [mut low, mut high] = ends;
-        while high - low > 2 {
-            let [left, right] =
-                [low, high].map(|end| (cost(end, &mut best) - cost(middle, &mut best)) / f64::from(end - middle));
-            // Of the parabola through the three, from the middle.
-            let least = -0.5 * (left * f64::from(high - middle) - right * f64::from(low - middle)) / (right - left);
-            let beside = if low + 1 == middle || (least > 0.0 && middle + 1 < high) { middle + 1 } else { middle - 1 };
-            let vertex = middle + least.round() as i32;
-            let next = if vertex != middle && low < vertex && vertex < high { vertex } else { beside };
-            let is_less = cost(next, &mut best) < cost(middle, &mut best);
-            match (next < middle, is_less) {
-                (true, true) => (middle, high) = (next, middle),
-                (true, false) => low = next,
-                (false, true) => (low, middle) = (middle, next),
-                (false, false) => high = next,
-            }
+        let mut step = direction;
+        while cost(middle + step, &mut best) < cost(middle, &mut best) {
+            ends[1 - side] = middle;
+            middle += step;
+            step *= 2;
+        }
+        ends[side] = middle + step;
+    }
+    let [mut low, mut high] = ends;
+    while high - low > 2 {
+        let [left, right] =
+            [low, high].map(|end| (cost(end, &mut best) - cost(middle, &mut best)) / f64::from(end - middle));
+        // Of the parabola through the three, from the middle.
+        let least = -0.5 * (left * f64::from(high - middle) - right * f64::from(low - middle)) / (right - left);
+        let beside = if low + 1 == middle || (least > 0.0 && middle + 1 < high) { middle + 1 } else { middle - 1 };
+        let vertex = middle + least.round() as i32;
+        let next = if vertex != middle && low < vertex && vertex < high { vertex } else { beside };
+        let is_less = cost(next, &mut best) < cost(middle, &mut best);
+        match (next < middle, is_less) {
+            (true, true) => (middle, high) = (next, middle),
+            (true, false) => low = next,
+            (false, true) => (low, middle) = (middle, next),
+            (false, false) => high = next,
         }
     }
     let found = best.map_or(Weighed::AtLeast(f64::INFINITY), |(exponent, field)| Weighed::Best(exponent, field));
@@ -353,10 +363,14 @@ pub fn choose(
     let (known, bounds) = (BTreeMap::new(), BTreeMap::new());
     let mut search = Search { energies, readings, rectangle, least, known, bounds, trials: 0 };
     let exponent = earlier.map_or(FIRST, |earlier| earlier.exponent);
-    let starts = earlier.map_or(STARTS.to_vec(), |earlier| vec![place(earlier)]);
     let beside = if earlier.is_some() { 1 } else { usize::MAX };
-    let ends: Vec<_> = starts.into_iter().filter_map(|start| search.descent(start, beside, exponent)).collect();
-    let at = ends.into_iter().min_by(|a, b| search.known[a].1.cost.total_cmp(&search.known[b].1.cost))?;
+    let first = search.descent(earlier.map_or(START, place), beside, exponent)?;
+    let second = earlier.is_none().then(|| {
+        let v_keel = [KEELS.len() - 1, first[1], first[2], first[3], first[4]];
+        search.descent(v_keel, beside, search.known[&first].0)
+    });
+    let ends = std::iter::once(first).chain(second.flatten());
+    let at = ends.min_by(|a, b| search.known[a].1.cost.total_cmp(&search.known[b].1.cost))?;
     let chart = search.chart(at);
     let (exponent, field) = search.known.remove(&at)?;
     Some(Chosen { chart, metric: Search::metric(at), density: None, exponent, field, trials: search.trials })

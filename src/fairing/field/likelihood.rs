@@ -250,6 +250,8 @@ pub struct Smoothed {
     pub sigma: f64,
     /// -2 log l, but for a constant.
     pub cost: f64,
+    /// The part of it that passing the centreplane costs.
+    pub below: f64,
 }
 
 /// The energy of one metric.
@@ -292,7 +294,7 @@ pub fn smoothed(
     let rank = (values.len() - KERNEL) as f64;
     let determinant = rank * weight.ln() + roughness.log_determinant - factor.log_determinant() + observed.kernel;
     let deepest = |gap: &[Row]| gap.iter().map(|row| row.of(&values)).fold(0.0, f64::min).powi(2);
-    let below = observed.inside.chunks(PLACES).map(deepest).sum::<f64>();
-    let cost = freedom * variance.ln() + (left + below) / variance - determinant;
-    Ok(Smoothed { values, sigma: variance.sqrt(), cost })
+    let below = observed.inside.chunks(PLACES).map(deepest).sum::<f64>() / variance;
+    let cost = freedom * variance.ln() + left / variance - determinant + below;
+    Ok(Smoothed { values, sigma: variance.sqrt(), cost, below })
 }

@@ -207,6 +207,9 @@ fn smooth_first(energies: &mut Energies<'_>, readings: &Readings, chart: Chart, 
 /// unless the field has breadth there by [`BREADTH`] standard deviations.
 fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, least: f64) {
     let zeros = seen.zeros();
+    if zeros.is_empty() {
+        return seen.settle(&zeros);
+    }
     let net = energies.net;
     let rows: Vec<_> = zeros.iter().map(|zero| net.row([chart.u(zero.cell.x), chart.v(zero.cell.z)])).collect();
     let mut first = || {
