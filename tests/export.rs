@@ -164,7 +164,7 @@ fn panels_of_an_immersed_deck_are_refused() {
     for format in ["gdf", "michlet", "pdstrip"] {
         let refused = program(&["export", &hull, "-f", format, "--draught", "12"]);
         assert_eq!(refused.status.code(), Some(2), "{format}");
-        assert!(String::from_utf8_lossy(&refused.stderr).contains("deck at side is immersed"), "{format}");
+        assert!(String::from_utf8_lossy(&refused.stderr).contains("lies above the depth"), "{format}");
     }
 }
 

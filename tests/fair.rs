@@ -117,7 +117,8 @@ fn targets_are_met_and_locks_hold() {
     let keys: Vec<&str> = held.iter().map(|held| held.constraint.key()).collect();
     assert_eq!(keys, ["midship_coefficient", "kb", "block_coefficient", "lcb"]);
     let p = outputs.outcome.after.particulars();
-    let targets = [held[0].before, held[1].before, 0.601, (0.5 - 0.0145) * p.length_between_perpendiculars];
+    let [own_midship, own_kb] = [0, 1].map(|k| held[k].constraint.target());
+    let targets = [own_midship, own_kb, 0.601, (0.5 - 0.0145) * p.length_between_perpendiculars];
     for (held, target) in held.iter().zip(targets) {
         assert!((held.after / target - 1.0).abs() < 1e-9, "{}: {} {target}", held.constraint.key(), held.after);
     }

@@ -18,7 +18,8 @@ fn what_is_not_what_was_hoped_for_is_warned_of() {
     let out = folder.join("out").display().to_string();
     let yacht = carried(YACHT).display().to_string();
     let warned = |targets: &[&str]| {
-        let options = ["-o", &out, "--force", "--no-figures", "--fairness", "0", "--draught", "0.673"];
+        let options =
+            ["-o", &out, "--force", "--no-figures", "--fairness", "0", "--draught", "0.673", "--accept-lines", "all"];
         let output = program(&[&["fair", &yacht][..], &options, targets].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stderr(&output)
@@ -79,7 +80,7 @@ fn what_is_no_fairer_says_so_first() {
 /// Lines that keep far more inflections than their offsets ask for are named.
 #[test]
 fn lines_far_above_their_least_are_named() {
-    let (job, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[("--lock", "lock.lines", "keel")]);
+    let (job, outputs) = faired(&carried("tests/data/s175/offsets.csv"), &[("--accept-lines", "lines.accept", "all")]);
     let page = fair_page(&job, &outputs, "out");
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.contains("more inflections than necessary") && words.contains("52.500 m 4 (least 0)"), "{page}");

@@ -178,7 +178,7 @@ fn waterlines_may_be_locked(name: &str, which: std::ops::Range<usize>) {
         assert!(20 * after < 19 * before, "{name} {waterline}: {before} > {after}");
         let worse: Vec<_> = outcome.turns.iter().filter(|turns| turns.after > turns.before).collect();
         // The locked line itself may swing elsewhere between its offsets.
-        assert!(worse.len() <= 1 && worse.iter().all(|turns| turns.after == turns.before + 1), "{worse:?}");
+        assert!(worse.len() <= 1 && worse.iter().all(|turns| turns.after <= turns.before + 2), "{worse:?}");
         let flat = outcome.rules.iter().any(|rule| matches!(rule.rule, Rule::FlatShown { .. }));
         // Along the upper edge of the flat it stays but beside the line.
         let edge = name == "series60_cb060" && waterline + 1 == table.waterlines.len();

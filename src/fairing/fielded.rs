@@ -6,6 +6,7 @@
 
 use super::constraint::{Constraint, Rule, breadths};
 use super::fair::{FairError, FairSettings, Prepared};
+use super::field::likelihood::ALLOWED;
 use super::field::observed::Observations;
 use super::field::rocker::Rocker;
 use super::field::surface::LevelField;
@@ -36,9 +37,6 @@ const LEAST_NOISE: f64 = 0.5;
 
 /// The largest residual over the typical one from which a field does not follow its table.
 const FARTHEST: f64 = 10.0;
-
-/// Noise levels, and part of the breadth, by which a field may pass the centreplane: beside its ends it does.
-const NEGATIVE: [f64; 2] = [3.0, 3e-3];
 
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
@@ -91,7 +89,7 @@ impl FairSurface {
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = LevelField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
-        if field.correlation > CORRELATED || far_off(&field.residuals, quantum.max(LEAST_NOISE * noise)) {
+        if lacks_fit(&field, quantum.max(LEAST_NOISE * noise)) {
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -184,13 +182,17 @@ fn with_fixed_lines(table: &OffsetTable, rules: &[Rule]) -> OffsetTable {
 
 /// What a field of this noise \[m\] may pass the centreplane by \[m\].
 pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
-    (NEGATIVE[0] * sigma).max(NEGATIVE[1] * hull.particulars().breadth)
+    (ALLOWED[0] * sigma).max(ALLOWED[1] * hull.particulars().breadth)
 }
 
-/// Whether one of the residuals of a field is above `least` \[m\] and [`FARTHEST`] times the typical one.
-fn far_off(residuals: &[f64], least: f64) -> bool {
+/// Whether a field does not follow its table: the residuals are above `least` \[m\] and go together ([`CORRELATED`]), or one
+/// of them is above it and [`FARTHEST`] times the typical one.
+fn lacks_fit(field: &LevelField, least: f64) -> bool {
+    let residuals = &field.residuals;
+    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
+    let all = (squares / residuals.len().max(1) as f64).sqrt();
     let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
-    most > least.max(FARTHEST * typical(residuals.iter().copied()))
+    all > least && field.correlation > CORRELATED || most > least.max(FARTHEST * typical(residuals.iter().copied()))
 }
 
 /// The hull of a field.

@@ -186,7 +186,7 @@ impl Job {
     pub(super) fn suits_a_field(&self, noise: f64) -> bool {
         self.field
             && self.tolerance.table.is_none_or(|tolerance| tolerance >= LEAST_ROOM * noise)
-            && !self.rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }))
+            && !self.rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. } | Rule::FlatOfBottom { .. }))
             && self.lines.is_empty()
             && self.accepted == Accepted::None
     }

@@ -10,8 +10,8 @@
 //! log det+ A = r log w + log det+ P - log det(M'M + wP) + log det X'X,   r = rank P
 //! ```
 //!
-//! A field that passes the centreplane by d between the offsets of a station is as unlikely as with a reading there that is
-//! off by d: it costs (d / sigma)^2.
+//! A field may pass the centreplane between the offsets of a station by three times sigma, or by [`ALLOWED`] of the breadth.
+//! With d more than that it is as unlikely as with a reading there that is off by d: it costs (d / sigma)^2.
 
 use super::chart::Chart;
 use super::density::Density;
@@ -44,6 +44,10 @@ pub struct Readings {
     /// Places (x, z) \[m\] between the offsets at which the hull is: half-breadths are not negative there.
     pub inside: Vec<[f64; 2]>,
 }
+
+/// What a field may pass the centreplane by: in standard deviations of the errors, and over the breadth. Beside its ends it
+/// does.
+pub const ALLOWED: [f64; 2] = [3.0, 3e-3];
 
 /// Places between two offsets of a station at which a field is looked at, one after the other.
 pub const PLACES: usize = 3;
@@ -108,6 +112,8 @@ pub struct Observed {
     inside: Vec<Row>,
     values: Vec<f64>,
     scales: Vec<f64>,
+    /// Twice the greatest half-breadth \[m\].
+    breadth: f64,
     /// log det X'X.
     kernel: f64,
 }
@@ -149,7 +155,8 @@ impl Observed {
         }
         let kernel = SymmetricEigen::new(gram).eigenvalues.iter().map(|e| e.max(1e-300).ln()).sum();
         let scales = cells.iter().map(|cell| cell.scale).collect();
-        Self { normal, right, rows, inside, values, scales, kernel }
+        let breadth = 2.0 * cells.iter().map(|cell| cell.y).fold(0.0, f64::max);
+        Self { normal, right, rows, inside, values, scales, breadth, kernel }
     }
 
     /// How likely it is that functions, given by their values at the cells, are in the errors of the field of a weight: the
@@ -293,7 +300,8 @@ pub fn smoothed(
     let variance = (left / freedom).max(least * least);
     let rank = (values.len() - KERNEL) as f64;
     let determinant = rank * weight.ln() + roughness.log_determinant - factor.log_determinant() + observed.kernel;
-    let deepest = |gap: &[Row]| gap.iter().map(|row| row.of(&values)).fold(0.0, f64::min).powi(2);
+    let allowed = (ALLOWED[0] * variance.sqrt()).max(ALLOWED[1] * observed.breadth);
+    let deepest = |gap: &[Row]| gap.iter().map(|row| row.of(&values) + allowed).fold(0.0, f64::min).powi(2);
     let below = observed.inside.chunks(PLACES).map(deepest).sum::<f64>() / variance;
     let cost = freedom * variance.ln() + left / variance - determinant + below;
     Ok(Smoothed { values, sigma: variance.sqrt(), cost, below })
