@@ -315,8 +315,7 @@ fn the_least_tolerances_for_a_section_area_are_found() {
     };
     let (code, said, widening) = run(0.01);
     assert!(
-        code == Some(4)
-            && said.contains(" times as wide mm where it is widest now 10.0 mm) would do, but distorts the hull"),
+        code == Some(4) && said.contains(" mm where it is widest now 10.0 mm) would do, but distorts the hull"),
         "{said}"
     );
     assert!(widening.is_some_and(|widening| (21.0..24.5).contains(&widening)), "{widening:?}");

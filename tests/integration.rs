@@ -23,6 +23,7 @@ mod fair_grades;
 mod fair_hulls;
 mod fair_locks;
 mod fair_refusals;
+mod fair_rocker;
 mod fair_rules;
 mod fair_sections;
 mod fair_strength;

@@ -47,6 +47,9 @@ const PRIOR: f64 = 4.0;
 /// Least 1 - h of a reading.
 const LEAST_FREEDOM: f64 = 0.05;
 
+/// A locked offset that is further off does not stay \[m\].
+const KEPT: f64 = 1e-9;
+
 /// Least error of a height of the keel, over the depth.
 const LEAST_KEEL: f64 = 1e-6;
 
@@ -114,6 +117,17 @@ impl FairSurface {
         let (mut readings, places): (Vec<Reading>, Vec<Place>) =
             readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, &field, &known);
+        // A locked offset that is not on the hull would not be kept.
+        let is_read = |s: usize, w: usize| {
+            places.iter().any(|place| place.origin == Origin::HalfBreadth { station: s, waterline: w })
+        };
+        let lost = |(s, station): (usize, &StationOffsets)| {
+            let mut cells = station.half_breadths.iter().enumerate();
+            cells.any(|(w, cell)| cell.marks.locked && cell.value().is_some_and(|y| y > KEPT) && !is_read(s, w))
+        };
+        if marked.stations.iter().enumerate().any(lost) {
+            return None;
+        }
         let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.steepness([x, z]).powf(field.power);
@@ -138,13 +152,20 @@ impl FairSurface {
         let margin = below_centreplane(likely.sigma, &self.hull);
         let mut limits = breadths(&self.hull, &self.start, f64::INFINITY, margin);
         limits.iter_mut().for_each(|limit| limit.lower = -margin);
-        let stays = |(reading, place): &(&Reading, &Place)| {
+        let stays = |place: &Place| {
             let deck = matches!(place.origin, Origin::Deck { .. });
-            reading.weight > 0.0 && (place.locked || rules.iter().any(|rule| rule.fixes([place.x, place.z], deck)))
+            place.locked || rules.iter().any(|rule| rule.fixes([place.x, place.z], deck))
         };
-        let readings = self.model.readings.iter().zip(&self.places);
-        let exact: Vec<(usize, Limit)> = readings
-            .filter(stays)
+        let readings = || self.model.readings.iter().zip(&self.places).filter(|(_, place)| stays(place));
+        // What is on an end of the hull does not get there.
+        let fails = |(reading, _): (&Reading, &Place)| {
+            reading.weight <= 0.0 && (value(&reading.row, &self.start) - reading.value).abs() > KEPT
+        };
+        if readings().any(fails) {
+            return None;
+        }
+        let exact: Vec<(usize, Limit)> = readings()
+            .filter(|(reading, _)| reading.weight > 0.0)
             .map(|(reading, _)| (0, Limit { row: reading.row.clone(), lower: reading.value, upper: reading.value }))
             .collect();
         if exact.is_empty() && limits.iter().all(|limit| value(&limit.row, &self.start) >= limit.lower) {
