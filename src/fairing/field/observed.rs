@@ -159,8 +159,8 @@ impl Observations {
                 found.keels.push(Zero { cell, beside: breadth, kind: ZeroKind::Keel });
             }
         }
-        for k in 0..stations.len() {
-            found.inside_of(table, k, bottom, level_keel(stations[k].keel_height, bottom, height));
+        for (k, station) in stations.iter().enumerate() {
+            found.inside_of(table, k, bottom, level_keel(station.keel_height, bottom, height));
         }
         for station in stations {
             let deck = station.deck_height.zip(station.deck_half_breadth);

@@ -118,7 +118,7 @@ impl Rocker {
         let [bottom, top] = self.height;
         let depth = top - self.keel(x);
         let part = (z - self.keel(x)) / depth;
-        (depth > 0.0 && part > ON_KEEL).then(|| bottom + part * (top - bottom))
+        (depth > 0.0 && part > ON_KEEL).then_some(bottom + part * (top - bottom))
     }
 
     /// z of a place by zeta \[m\].
