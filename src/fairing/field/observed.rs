@@ -199,8 +199,7 @@ impl Observations {
                 below if on_base && surrounded && below.is_none_or(|j| table.waterlines[j] <= bottom) => (bottom, 2),
                 _ => continue,
             };
-            let part = |place: usize| (place as f64 / (PLACES + 1) as f64).powi(power);
-            self.inside.extend((1..=PLACES).map(|place| [x, from + (z - from) * part(place)]));
+            self.inside.extend(between(x, [from, z], power));
         }
     }
 
@@ -251,9 +250,7 @@ impl Observations {
             let x = station.station.x;
             let offsets = readings.iter().filter(|cell| (cell.x - x).abs() < 1e-9);
             let lowest = offsets.map(|cell| cell.z).fold(f64::INFINITY, f64::min);
-            let part = |place: usize| (place as f64 / (PLACES + 1) as f64).powi(2);
-            let above = (1..=PLACES).map(|place| [x, bottom + (lowest - bottom) * part(place)]);
-            inside.extend(above.filter(|_| lowest.is_finite()));
+            inside.extend(between(x, [bottom, lowest], 2).filter(|_| lowest.is_finite()));
         }
         let mut keel_closed = true;
         for station in &table.stations {
@@ -358,6 +355,12 @@ impl Observations {
         let Some(y) = station.edge_half_breadth(line.j) else { return };
         self.bounds.push(Cell { x: station.station.x, z: line.table.waterlines[line.j], y, scale: 1.0 });
     }
+}
+
+/// Places (x, z) between two heights of a station \[m\], whose parts of the distance are even ones to a power.
+fn between(x: f64, [from, to]: [f64; 2], power: i32) -> impl Iterator<Item = [f64; 2]> {
+    let part = move |place: usize| (place as f64 / (PLACES + 1) as f64).powi(power);
+    (1..=PLACES).map(move |place| [x, from + (to - from) * part(place)])
 }
 
 /// Whether a keel is on the base; one that is not given is.
