@@ -174,9 +174,10 @@ impl Hull {
     /// That the chart does not fold is checked at 25 points of every cell of the knots; a level chart cannot fold.
     ///
     /// # Errors
-    /// [`HullError`] when a dimension is not positive, nothing floats at T or it lies above D, a point a hundred times the
-    /// largest dimension from the origin along x or z, a control half-breadth outside -B to 10 B, z does not rise with v
-    /// or x with u, the chart folds, or the deck does not rise in x or leaves the range of heights of the surface.
+    /// [`HullError`] when a dimension is not positive, or nothing floats at T, or T lies above D. Of the surface: when a point
+    /// is a hundred times the largest dimension from the origin along x or z, or a control half-breadth is outside -B to 10 B.
+    /// Of the chart: when z does not rise with v or x with u, or it folds. Of the deck: when it does not rise in x, or leaves
+    /// the range of heights of the surface.
     pub fn new(
         name: &str,
         particulars: PrincipalParticulars,
