@@ -22,6 +22,7 @@ mod fair_files;
 mod fair_grades;
 mod fair_hulls;
 mod fair_locks;
+mod fair_points;
 mod fair_refusals;
 mod fair_rocker;
 mod fair_rules;

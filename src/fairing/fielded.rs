@@ -7,7 +7,8 @@
 use super::constraint::{Constraint, Rule, breadths};
 use super::fair::{FairError, FairSettings, Prepared};
 use super::field::likelihood::ALLOWED;
-use super::field::observed::Observations;
+use super::field::observed::{DOUBTFUL, Observations};
+use super::field::points::Points;
 use super::field::rocker::Rocker;
 use super::field::surface::LevelField;
 use super::model::{Limit, Model, Reading, Stationary, value};
@@ -15,10 +16,11 @@ use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
 use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
-use super::surface::{FairSurface, Origin, Place, readings};
-use crate::hull::{Hull, HullError, OffsetTable, StationOffsets};
+use super::surface::{FairSurface, Origin, Place, basis_row, readings};
+use crate::hull::{Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines, side_points};
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
+use std::collections::BTreeSet;
 
 /// A half-breadth of the bottom above this part of B is none of a keel.
 const KEEL: f64 = 1e-2;
@@ -74,18 +76,31 @@ impl FairSurface {
         fitted: &Hull,
         (noise, rules): (f64, &[Rule]),
     ) -> Option<(Self, Likely)> {
-        let breaks = |station: &StationOffsets| station.half_breadths.iter().any(|cell| cell.marks.knuckle);
-        if table.stations.iter().any(|station| !station.outlines.is_empty() || breaks(station)) {
+        let breaks = |station: &StationOffsets| {
+            let points = station.outlines.iter().flatten().map(|point| point.marks);
+            station.half_breadths.iter().map(|cell| cell.marks).chain(points).any(|marks| marks.knuckle)
+        };
+        if table.stations.iter().any(breaks) {
             return None;
         }
-        let marked = with_fixed_lines(table, rules);
-        let seen = if fitted.is_level() {
-            Observations::new(&marked)
-        } else {
-            let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
-            Observations::over_keel(&marked, Rocker::new(table, least)?)
+        let has_points = table.stations.iter().any(|station| !station.outlines.is_empty());
+        let points = match has_points {
+            true if !only_outlines(table) => return None,
+            true => Some(Points::new(table)?),
+            false => None,
         };
-        let shape = [table.stations.len(), table.waterlines.len()];
+        let marked = with_fixed_lines(table, rules);
+        let levels = points.as_ref().map_or(&marked, |points| &points.levels);
+        let is_level = if has_points { !has_rocker(levels) } else { fitted.is_level() };
+        let mut seen = Observations::new(levels);
+        if let Some(points) = &points {
+            seen.read_points(&points.cells);
+        }
+        if !is_level {
+            let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
+            seen = seen.over_keel(levels, Rocker::new(levels, least)?);
+        }
+        let shape = [levels.stations.len(), levels.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 2 || seen.readings.len() < 16 {
             return None;
         }
@@ -102,7 +117,7 @@ impl FairSurface {
             return None;
         }
         let known: Vec<Option<f64>> = (0..start.len()).map(|k| field.bent.is_closed(k).then_some(0.0)).collect();
-        let (readings, places) = readings(table, &hull);
+        let (readings, places) = if has_points { side_readings(table, &hull) } else { readings(table, &hull) };
         // Zeros on the lowest waterline of a flat bottom are its keel, not its edge.
         let base = hull.bottom() + 1e-9 * (hull.top() - hull.bottom());
         let between = |place: &Place| {
@@ -118,14 +133,8 @@ impl FairSurface {
             readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, &field, &known);
         // A locked offset that is not on the hull would not be kept.
-        let is_read = |s: usize, w: usize| {
-            places.iter().any(|place| place.origin == Origin::HalfBreadth { station: s, waterline: w })
-        };
-        let lost = |(s, station): (usize, &StationOffsets)| {
-            let mut cells = station.half_breadths.iter().enumerate();
-            cells.any(|(w, cell)| cell.marks.locked && cell.value().is_some_and(|y| y > KEPT) && !is_read(s, w))
-        };
-        if marked.stations.iter().enumerate().any(lost) {
+        let is_lost = |origin: &Origin| !places.iter().any(|place| place.origin == *origin);
+        if locked(&marked).iter().any(is_lost) {
             return None;
         }
         let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
@@ -142,8 +151,12 @@ impl FairSurface {
         found.breaks = field.lines;
         found.keel = field.rocker.map(|rocker| rocker.off);
         let field = found.within_limits(likely, rules)?;
-        let [own, through] = [&field.hull, fitted].map(|hull| Constraint::Displacement(0.0).value(hull));
-        ((own - through).abs() <= VOLUME * through.abs()).then_some((field, likely))
+        let own = Constraint::Displacement(0.0).value(&field.hull);
+        let given = match &points {
+            Some(points) => points.volume(field.hull.reference_height()),
+            None => Constraint::Displacement(0.0).value(fitted),
+        };
+        ((own - given).abs() <= VOLUME * given.abs()).then_some((field, likely))
     }
 
     /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
@@ -201,6 +214,23 @@ fn with_fixed_lines(table: &OffsetTable, rules: &[Rule]) -> OffsetTable {
     marked
 }
 
+/// Offsets and points with breadth that are locked.
+fn locked(table: &OffsetTable) -> Vec<Origin> {
+    let mut found = Vec::new();
+    for (station, column) in table.stations.iter().enumerate() {
+        for (waterline, cell) in column.half_breadths.iter().enumerate() {
+            if cell.marks.locked && cell.value().is_some_and(|y| y > KEPT) {
+                found.push(Origin::HalfBreadth { station, waterline });
+            }
+        }
+        for (outline, branch) in column.outlines.iter().enumerate() {
+            let points = branch.iter().enumerate().filter(|(_, point)| point.marks.locked && point.y > KEPT);
+            found.extend(points.map(|(point, _)| Origin::Point { station, outline, point }));
+        }
+    }
+    found
+}
+
 /// What a field of this noise \[m\] may pass the centreplane by \[m\].
 pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
     (ALLOWED[0] * sigma).max(ALLOWED[1] * hull.particulars().breadth)
@@ -244,6 +274,21 @@ fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) ->
     let breaks: Vec<f64> = points.iter().map(|p| p[0]).collect();
     let knots = KnotVector::from_breakpoints(1, &breaks, &vec![1; breaks.len() - 2])?;
     Ok(BsplineCurve::new(knots, points)?)
+}
+
+/// The points of the sides of sections as readings of a hull, at their heights.
+fn side_readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
+    let found = side_points(table).into_iter().filter_map(|[station, outline, point]| {
+        let (column, p) = (&table.stations[station], table.stations[station].outlines[outline][point]);
+        let x = column.station.x;
+        let at = hull.parameters(x, p.z)?;
+        let weight = if p.marks.doubtful { DOUBTFUL.powi(-2) } else { 1.0 };
+        let row = basis_row(hull.surface(), at, [0, 0]);
+        let origin = Origin::Point { station, outline, point };
+        let place = Place { origin, x, z: p.z, at, locked: p.marks.locked };
+        Some((Reading { row, value: p.y, weight, tolerance: None }, place))
+    });
+    found.unzip()
 }
 
 /// Weights of the readings: one over the square of the factor of their errors.
@@ -305,19 +350,29 @@ pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64
         let weight = surface.model.readings[k].weight;
         weight * smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM)
     };
-    let squares: Vec<(usize, usize, f64)> = surface
+    let stations: BTreeSet<usize> = surface.places.iter().map(|place| place.origin.station()).collect();
+    let height = surface.hull.top() - surface.hull.bottom();
+    // Of points of sections their mean distance stands for that of waterlines.
+    let apart = height * stations.len() as f64 / surface.places.len().max(1) as f64;
+    let is_near = |place: &Place, other: &Place| {
+        let beside = match (place.origin.waterline(), other.origin.waterline()) {
+            (Some(own), Some(other)) => own.abs_diff(other) <= AROUND,
+            (None, None) => (place.z - other.z).abs() <= AROUND as f64 * apart,
+            _ => true,
+        };
+        beside && place.origin.station().abs_diff(other.origin.station()) <= AROUND
+    };
+    let is_offset = |place: &Place| !matches!(place.origin, Origin::Deck { .. });
+    let squares: Vec<(&Place, f64)> = surface
         .places
         .iter()
         .enumerate()
-        .filter_map(|(k, place)| Some((place.origin.station(), place.origin.waterline()?, square(k))))
+        .filter(|(_, place)| is_offset(place))
+        .map(|(k, place)| (place, square(k)))
         .collect();
     let noise = |place: &Place| {
-        let (station, waterline) = (place.origin.station(), place.origin.waterline());
-        let near = |other: &&(usize, usize, f64)| {
-            other.0.abs_diff(station) <= AROUND && waterline.is_none_or(|w| other.1.abs_diff(w) <= AROUND)
-        };
-        let (count, sum) =
-            squares.iter().filter(near).fold((PRIOR, PRIOR * sigma * sigma), |(n, s), t| (n + 1.0, s + t.2));
+        let near = squares.iter().filter(|(other, _)| is_near(place, other));
+        let (count, sum) = near.fold((PRIOR, PRIOR * sigma * sigma), |(n, s), (_, square)| (n + 1.0, s + square));
         (sum / count).sqrt()
     };
     surface.places.iter().map(noise).collect()

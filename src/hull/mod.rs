@@ -32,7 +32,8 @@ pub(crate) use charted::advance;
 pub use diagonal::diagonal_offset;
 pub use fit::{
     CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations,
-    PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate,
+    PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate, has_rocker,
+    only_outlines, side_points,
 };
 pub(crate) use form::AFLOAT;
 pub use form::{Hull, HullError};

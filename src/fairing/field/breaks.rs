@@ -26,6 +26,9 @@ const TRIED: usize = 3;
 /// Places an interval of the table at which a break may be.
 const PLACES: usize = 4;
 
+/// Heights of offsets over the waterlines of a table from which they are those of points.
+const MANY: f64 = 1.5;
+
 /// Powers of the polynomial along a break.
 const ALONG: usize = 4;
 
@@ -63,7 +66,7 @@ pub fn broken(
     for _ in 0..MOST {
         let Ok(rough) = chosen.roughness(&net) else { break };
         let observed = Observed::new(&net, &chart, readings);
-        let places = places(&cells_at, &net.breaks);
+        let places = places(&cells_at, &net.breaks, intervals[1]);
         let functions: Vec<Vec<Vec<f64>>> = places.iter().map(|at| jumps(*at, &cells_at)).collect();
         let weight = 10f64.powf(chosen.exponent);
         let Ok(scores) = observed.scores(&rough, weight, &chosen.field, &functions) else { break };
@@ -181,10 +184,15 @@ fn peaks(scores: &[f64]) -> Vec<usize> {
 }
 
 /// Where a break may be in v: between the second waterline of the cells and the last but one, not beside one that is there.
-fn places(cells: &[[f64; 2]], known: &[Break]) -> Vec<f64> {
+/// Points of sections are at many heights: even intervals of the table stand for their waterlines.
+fn places(cells: &[[f64; 2]], known: &[Break], intervals: f64) -> Vec<f64> {
     const UNIT: f64 = 1e-9;
     let lines: BTreeSet<u64> = cells.iter().map(|[_, v]| (v.max(0.0) / UNIT).round() as u64).collect();
-    let lines: Vec<f64> = lines.into_iter().map(|line| line as f64 * UNIT).collect();
+    let mut lines: Vec<f64> = lines.into_iter().map(|line| line as f64 * UNIT).collect();
+    if lines.len() as f64 > MANY * (intervals + 1.0) {
+        let count = intervals.round().max(1.0) as usize;
+        lines = (0..=count).map(|k| k as f64 / count as f64).collect();
+    }
     let mean = 1.0 / (lines.len().max(2) - 1) as f64;
     let between = |pair: &[f64]| {
         let [low, high] = [pair[0], pair[1]];

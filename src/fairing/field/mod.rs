@@ -33,6 +33,7 @@ pub mod likeliest;
 pub mod likelihood;
 pub mod net;
 pub mod observed;
+pub mod points;
 pub mod region;
 pub mod rocker;
 pub mod surface;

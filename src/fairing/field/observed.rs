@@ -14,7 +14,7 @@ use crate::hull::{OffsetTable, StationOffsets, TransomPlane};
 pub const EXACT: f64 = 1e-3;
 
 /// Scale of the errors of a doubtful offset.
-const DOUBTFUL: f64 = 10.0;
+pub const DOUBTFUL: f64 = 10.0;
 
 /// A keel this part of the height above the lowest is off the base.
 const LEVEL: f64 = 2e-3;
@@ -102,6 +102,8 @@ pub struct Observations {
     pub extent: [[f64; 2]; 2],
     /// Whether the lowest line is on the centreplane all along.
     pub keel_closed: bool,
+    /// Whether its readings are points of sections.
+    pub has_points: bool,
     /// The keel line to which all heights are relative; none: heights are those of the table.
     pub rocker: Option<Rocker>,
 }
@@ -180,6 +182,14 @@ impl Observations {
         found
     }
 
+    /// Has points of sections in place of what they say at levels; offsets on the keel stay.
+    pub fn read_points(&mut self, points: &[Cell]) {
+        let bottom = self.extent[1][0];
+        self.readings.retain(|cell| cell.z <= bottom);
+        self.readings.extend(points);
+        self.has_points = true;
+    }
+
     /// What a field is made from.
     #[must_use]
     pub fn of_field(&self) -> Readings {
@@ -235,11 +245,11 @@ impl Observations {
         }
     }
 
-    /// What a table says of a field over heights relative to a keel with rocker: offsets above the keel, whose end is the
+    /// The same of a field over heights relative to a keel with rocker: offsets above the keel, whose end is the
     /// keel line itself. The hull ends at the ends of this line, plumb.
     #[must_use]
-    pub fn over_keel(table: &OffsetTable, rocker: Rocker) -> Self {
-        let level = Self::new(table);
+    pub fn over_keel(self, table: &OffsetTable, rocker: Rocker) -> Self {
+        let level = self;
         let relative = |cell: &Cell| Some(Cell { z: rocker.relative(cell.x, cell.z)?, ..*cell });
         let [bottom, top] = rocker.height;
         let mut readings: Vec<Cell> = level.readings.iter().filter(|cell| cell.y > 0.0).filter_map(relative).collect();
@@ -272,7 +282,17 @@ impl Observations {
         }
         let waterlines = rocker.height.map(|z| Waterline { z, ends, inner: rocker.length }).to_vec();
         let extent = [rocker.length, rocker.height];
-        Self { readings, inside, keels: Vec::new(), bounds, waterlines, extent, keel_closed, rocker: Some(rocker) }
+        Self {
+            readings,
+            inside,
+            keels: Vec::new(),
+            bounds,
+            waterlines,
+            extent,
+            keel_closed,
+            has_points: level.has_points,
+            rocker: Some(rocker),
+        }
     }
 
     fn waterline(&mut self, line: &Line<'_>, lowest: f64) {

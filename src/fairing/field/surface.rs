@@ -57,9 +57,9 @@ pub struct LevelField {
     pub power: f64,
     /// Residuals of what is not exact, over the scale of its errors \[m\].
     pub residuals: Vec<f64>,
-    /// Correlation of the residuals of neighbouring stations on a waterline, over its standard deviation for errors that are
-    /// independent: errors have none, or a negative one, and the form of a hull that the field does not follow has a
-    /// positive one (Durbin and Watson 1950).
+    /// Correlation of the residuals of neighbouring stations on a waterline, or of neighbouring points of a section, over
+    /// its standard deviation for errors that are independent: errors have none, or a negative one, and the form of a hull
+    /// that the field does not follow has a positive one (Durbin and Watson 1950).
     pub correlation: f64,
     /// The keel line to which its heights are relative.
     pub rocker: Option<Rocker>,
@@ -125,7 +125,9 @@ impl LevelField {
         let inexact = || readings.cells.iter().filter(|cell| cell.scale > EXACT);
         let residuals: Vec<f64> = inexact().map(residual).collect();
         let height = |cell: &Cell| seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z));
-        let correlation = correlation(inexact().map(|cell| [cell.x, height(cell)]).zip(residuals.iter().copied()));
+        // Points of sections follow each other up them.
+        let place = |cell: &Cell| if seen.has_points { [cell.z, cell.x] } else { [cell.x, height(cell)] };
+        let correlation = correlation(inexact().map(place).zip(residuals.iter().copied()));
         Ok(Self { field, bent, net, chosen, power, residuals, correlation, lines, rocker: seen.rocker.clone() })
     }
 

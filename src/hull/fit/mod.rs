@@ -33,7 +33,8 @@ pub use method::{
     UniformBicubic,
 };
 pub use misfit::Misfit;
-pub use outlines::PointResidual;
+pub use outlines::{PointResidual, only_outlines, side_points};
+pub use upright::has_rocker;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 //! Where a section has several points at one height, its greatest half-breadth there counts; between points it is the
 //! monotone piecewise cubic (Fritsch & Butland 1984) of y and of z over the chord length.
 
-use super::super::{Hull, OffsetTable, OutlinePoint};
+use super::super::{Hull, OffsetTable, OutlinePoint, StationOffsets};
 use super::monotone::monotone_cubic;
 
 /// Heights that count as one where flats are looked for, over the height of the table.
@@ -20,7 +20,7 @@ fn usable(point: &&OutlinePoint) -> bool {
 }
 
 /// Whether the table holds sections as points and no half-breadths.
-pub(super) fn only_outlines(table: &OffsetTable) -> bool {
+pub fn only_outlines(table: &OffsetTable) -> bool {
     let cells = table.stations.iter().flat_map(|s| &s.half_breadths).filter(|c| c.value().is_some()).count();
     cells == 0 && table.stations.iter().any(|s| s.outlines.iter().any(|o| o.len() > 1))
 }
@@ -94,29 +94,46 @@ fn is_level(branch: &[OutlinePoint], k: usize) -> bool {
     (k > 0 && flat(&branch[k - 1], &branch[k])) || branch.get(k + 1).is_some_and(|next| flat(&branch[k], next))
 }
 
-/// The outermost points of the sections above the bottom of the hull, and the number of all points. Points of the
-/// bottom, of other level pieces and of lines that close a section across are no part of the side, and points where the
-/// hull does not reach have no residual.
-pub(super) fn point_residuals(table: &OffsetTable, hull: &Hull) -> (Vec<PointResidual>, usize) {
-    let (mut list, mut all) = (Vec::new(), 0usize);
-    let floor = hull.bottom() + CLOSEST * (hull.top() - hull.bottom());
-    for (index, station) in table.stations.iter().enumerate() {
-        let points = station.outlines.iter().flat_map(|branch| branch.iter().enumerate().map(move |p| (branch, p)));
-        for (branch, (k, point)) in points.filter(|(_, (_, point))| usable(point)) {
-            all += 1;
-            if point.z <= floor || is_level(branch, k) {
-                continue;
-            }
-            let widest =
-                station.outlines.iter().filter_map(|branch| half_breadth(branch, point.z, 1e-9)).fold(0.0, f64::max);
-            if point.y >= widest - 1e-6
-                && let Some(y) = hull.half_breadth(station.station.x, point.z)
-            {
-                list.push(PointResidual { station: index, height: point.z, given: point.y, half_breadth: y });
+/// The points of the sides of sections, as indices of station, outline and point: the outermost ones at their heights.
+/// Points of level pieces and of lines that close a section across are no part of the side.
+#[must_use]
+pub fn side_points(table: &OffsetTable) -> Vec<[usize; 3]> {
+    let mut found = Vec::new();
+    for (s, station) in table.stations.iter().enumerate() {
+        for (o, branch) in station.outlines.iter().enumerate() {
+            for (p, point) in branch.iter().enumerate().filter(|(_, point)| usable(point)) {
+                if is_level(branch, p) {
+                    continue;
+                }
+                let widest = station.half_breadth_of_points(point.z).unwrap_or(0.0);
+                if point.y >= widest - 1e-6 {
+                    found.push([s, o, p]);
+                }
             }
         }
     }
-    (list, all)
+    found
+}
+
+impl StationOffsets {
+    /// The greatest half-breadth of its points at height `z` \[m\]; none where they do not reach.
+    #[must_use]
+    pub fn half_breadth_of_points(&self, z: f64) -> Option<f64> {
+        self.outlines.iter().filter_map(|branch| half_breadth(branch, z, 1e-9)).reduce(f64::max)
+    }
+}
+
+/// The points of the sides above the bottom of the hull beside it, and the number of all points. Points where the hull does
+/// not reach have no residual.
+pub(super) fn point_residuals(table: &OffsetTable, hull: &Hull) -> (Vec<PointResidual>, usize) {
+    let floor = hull.bottom() + CLOSEST * (hull.top() - hull.bottom());
+    let all = table.stations.iter().flat_map(|station| station.outlines.iter().flatten()).filter(usable).count();
+    let beside = |[station, o, p]: [usize; 3]| {
+        let point = table.stations[station].outlines[o][p];
+        let half_breadth = hull.half_breadth(table.stations[station].station.x, point.z).filter(|_| point.z > floor)?;
+        Some(PointResidual { station, height: point.z, given: point.y, half_breadth })
+    };
+    (side_points(table).into_iter().filter_map(beside).collect(), all)
 }
 
 /// What is and what is not compared with the points of the sections.

@@ -75,8 +75,9 @@ pub(super) fn has_knuckles(table: &OffsetTable) -> bool {
         })
 }
 
-/// Whether the keel line varies by more than [`ROCKER`] of the depth in the middle three fifths of the length.
-fn has_rocker(table: &OffsetTable) -> bool {
+/// Whether the keel line varies by more than a twentieth of the depth in the middle three fifths of the length.
+#[must_use]
+pub fn has_rocker(table: &OffsetTable) -> bool {
     let keels: Vec<(f64, f64)> = table.stations.iter().filter_map(|s| Some((s.station.x, s.keel_height?))).collect();
     let (Some(first), Some(last), Some(&top)) =
         (table.stations.first(), table.stations.last(), table.waterlines.last())
