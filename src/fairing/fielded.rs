@@ -37,8 +37,8 @@ const VOLUME: f64 = 0.02;
 /// Part of the noise of the table below which residuals say nothing of the fit.
 const LEAST_NOISE: f64 = 0.5;
 
-/// The largest residual over the typical one from which a field does not follow its table.
-const FARTHEST: f64 = 10.0;
+/// The largest residual over the typical one, and over the breadth, beyond both of which a field does not follow its table.
+const FARTHEST: [f64; 2] = [10.0, 3e-3];
 
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
@@ -107,7 +107,7 @@ impl FairSurface {
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = LevelField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
-        if lacks_fit(&field, quantum.max(LEAST_NOISE * noise)) {
+        if lacks_fit(&field, quantum.max(LEAST_NOISE * noise), breadth) {
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -237,13 +237,14 @@ pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
 }
 
 /// Whether a field does not follow its table: the residuals are above `least` \[m\] and go together ([`CORRELATED`]), or one
-/// of them is above it and [`FARTHEST`] times the typical one.
-fn lacks_fit(field: &LevelField, least: f64) -> bool {
+/// of them is above it and too far off ([`FARTHEST`]).
+fn lacks_fit(field: &LevelField, least: f64, breadth: f64) -> bool {
     let residuals = &field.residuals;
     let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
     let all = (squares / residuals.len().max(1) as f64).sqrt();
     let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
-    all > least && field.correlation > CORRELATED || most > least.max(FARTHEST * typical(residuals.iter().copied()))
+    let far = FARTHEST[0] * typical(residuals.iter().copied());
+    all > least && field.correlation > CORRELATED || most > least.max(far).max(FARTHEST[1] * breadth)
 }
 
 /// The hull of a field.
