@@ -22,7 +22,7 @@ use super::repeated::{Attempt, Repeated, excess};
 use super::rules::guarded_lines;
 use super::start::Started;
 use super::strength::Fairness;
-use super::surface::{FairSurface, Origin};
+use super::surface::{FairSurface, Origin, Place};
 use super::suspects::Suspects;
 use super::told::{Counted, Watched, changes, normal_moves, predicted, written};
 use crate::hull::{Hull, OffsetTable};
@@ -530,6 +530,17 @@ impl<'a> Run<'a> {
         };
         surface.straight_parts().iter().for_each(|note| when(true, note));
         surface.lines_of_field().for_each(|note| when(true, &note));
+        let points = self.table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum::<usize>();
+        let is_point = |place: &&Place| matches!(place.origin, Origin::Point { .. });
+        let others = points - surface.places.iter().filter(is_point).count().min(points);
+        when(
+            surface.is_field && others > 0,
+            &format!(
+                "{} of {} lie on the bottom, on other level pieces or inside: they stay where they are",
+                others,
+                counted(points, "point")
+            ),
+        );
         let [start, fair] = beyond.map(|beyond| 1e3 * beyond);
         when(
             beyond[1] > self.quantum.max(BREADTH * self.greatest),
