@@ -86,7 +86,11 @@ impl FairSurface {
         let has_points = table.stations.iter().any(|station| !station.outlines.is_empty());
         let points = match has_points {
             true if !only_outlines(table) => return None,
-            true => Some(Points::new(table)?),
+            true => {
+                let x = fitted.surface().points().iter().map(|p| p[0]);
+                let ends = x.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+                Some(Points::new(table, ends)?)
+            }
             false => None,
         };
         let marked = with_fixed_lines(table, rules);

@@ -30,9 +30,10 @@ pub struct Points {
 }
 
 impl Points {
-    /// Those of a table that has no offsets; none where there are too few.
+    /// Those of a table that has no offsets; none where there are too few. Where the hull goes on beyond the first or the
+    /// last section, to `ends` at most \[m\], there are empty sections.
     #[must_use]
-    pub fn new(table: &OffsetTable) -> Option<Self> {
+    pub fn new(table: &OffsetTable, ends: [f64; 2]) -> Option<Self> {
         let side = side_points(table);
         let all = table.stations.iter().flat_map(|station| station.outlines.iter().flatten());
         let [bottom, top] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.z), b.max(p.z)]);
@@ -69,9 +70,22 @@ impl Points {
             found.half_breadths = waterlines.iter().map(cell).collect();
             found
         };
+        let mut stations: Vec<StationOffsets> = table.stations.iter().map(level).collect();
+        let [first, last] = [stations.first()?.station.x, stations.last()?.station.x];
+        let slack = SAME * (last - first);
+        let beyond = |x: f64| StationOffsets {
+            half_breadths: vec![hull::Cell::default(); waterlines.len()],
+            ..StationOffsets::new("", x)
+        };
+        if ends[0] < first - slack {
+            stations.insert(0, beyond(ends[0]));
+        }
+        if ends[1] > last + slack {
+            stations.push(beyond(ends[1]));
+        }
         let levels = OffsetTable {
             name: table.name.clone(),
-            stations: table.stations.iter().map(level).collect(),
+            stations,
             transom: table.transom,
             waterlines: waterlines.clone(),
             ..OffsetTable::default()
@@ -144,7 +158,7 @@ mod tests {
             StationOffsets { outlines: vec![(0..=40).map(point).collect()], ..StationOffsets::new(format!("{k}"), x) }
         };
         let table = OffsetTable { stations: (-9..=9).map(station).collect(), ..OffsetTable::default() };
-        let points = Points::new(&table).unwrap();
+        let points = Points::new(&table, [-9.0, 9.0]).unwrap();
         assert!((8..=20).contains(&points.levels.waterlines.len()));
         for (station, k) in points.levels.stations.iter().zip(-9..=9) {
             let b = 1.0 - 0.01 * f64::from(k * k);
