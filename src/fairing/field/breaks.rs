@@ -26,7 +26,7 @@ const TRIED: usize = 3;
 /// Places an interval of the table at which a break may be.
 const PLACES: usize = 4;
 
-/// Heights of offsets over the waterlines of a table from which they are those of points.
+/// Heights of offsets over the waterlines of a table beyond which they are on no waterlines.
 const MANY: f64 = 1.5;
 
 /// Powers of the polynomial along a break.
@@ -184,7 +184,7 @@ fn peaks(scores: &[f64]) -> Vec<usize> {
 }
 
 /// Where a break may be in v: between the second waterline of the cells and the last but one, not beside one that is there.
-/// Points of sections are at many heights: even intervals of the table stand for their waterlines.
+/// Points of sections, and offsets over a keel with rocker, are at many heights: even intervals stand for waterlines.
 fn places(cells: &[[f64; 2]], known: &[Break], intervals: f64) -> Vec<f64> {
     const UNIT: f64 = 1e-9;
     let lines: BTreeSet<u64> = cells.iter().map(|[_, v]| (v.max(0.0) / UNIT).round() as u64).collect();
