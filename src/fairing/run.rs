@@ -567,7 +567,7 @@ impl<'a> Run<'a> {
             "the noise is far above the rounding of the table, and lines are proposed that it does not declare",
         );
         self.notes.extend(surface.out_of_reach(&faired.net));
-        if surface.is_field && !self.assumed.is_empty() {
+        if surface.is_field && points > 0 && !self.assumed.is_empty() {
             self.notes.push(
                 "what follows was assumed for the surface through the table; the fair hull ends where its field closes"
                     .to_owned(),
