@@ -5,7 +5,7 @@ use loftsman::hull::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::support::normal;
+use crate::support::{half_breadth_of_form, normal, random_form};
 
 /// Stations of a table.
 const STATIONS: i32 = 17;
@@ -23,19 +23,12 @@ impl Truth {
     fn new(random: &mut StdRng) -> Self {
         let length = random.random_range(10.0..150.0);
         let breadth = length * random.random_range(0.13..0.3);
-        Self {
-            length,
-            breadth,
-            depth: breadth * random.random_range(0.4..0.7),
-            powers: [(0.6, 1.2), (1.3, 3.0), (0.6, 1.0)].map(|(a, b)| random.random_range(a..b)),
-        }
+        Self { length, breadth, depth: breadth * random.random_range(0.4..0.7), powers: random_form(random) }
     }
 
     fn half_breadth(&self, x: f64, z: f64) -> f64 {
-        let [along, up, bilge] = self.powers;
-        let plan = (1.0 - (2.0 * x / self.length - 1.0).powi(2)).max(0.0).powf(along);
         let below = (1.0 - z / self.depth).max(0.0);
-        0.5 * self.breadth * plan * (1.0 - below.powf(up)).powf(bilge)
+        0.5 * self.breadth * half_breadth_of_form(self.powers, x / self.length, below)
     }
 
     fn station(&self, i: f64) -> f64 {

@@ -6,7 +6,7 @@ use loftsman::hull::{Entry, OffsetTable};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::support::{normal, sampled};
+use crate::support::{half_breadth_of_form, normal, random_form, sampled};
 
 /// A hull of random form with a parabolic keel line.
 struct Truth {
@@ -31,7 +31,7 @@ impl Truth {
             depth,
             rise: depth * random.random_range(0.3..0.9),
             lowest: random.random_range(0.45..0.55),
-            powers: [(0.6, 1.2), (1.3, 3.0), (0.6, 1.0)].map(|(a, b)| random.random_range(a..b)),
+            powers: random_form(random),
         }
     }
 
@@ -44,10 +44,8 @@ impl Truth {
         if z <= keel || keel >= self.depth {
             return 0.0;
         }
-        let [along, up, bilge] = self.powers;
-        let plan = (1.0 - (2.0 * x / self.length - 1.0).powi(2)).max(0.0).powf(along);
         let below = (self.depth - z) / (self.depth - keel);
-        0.5 * self.breadth * plan * (1.0 - below.powf(up)).powf(bilge)
+        0.5 * self.breadth * half_breadth_of_form(self.powers, x / self.length, below)
     }
 
     /// With errors of this standard deviation \[m\]. What is narrower than 20 mm is left blank.

@@ -206,6 +206,16 @@ pub(crate) fn weyl_noise() -> impl FnMut() -> f64 {
     }
 }
 
+/// Exponents of the waterlines and of the sections of a hull of random form.
+pub(crate) fn random_form(random: &mut StdRng) -> [f64; 3] {
+    [(0.6, 1.2), (1.3, 3.0), (0.6, 1.0)].map(|(a, b)| random.random_range(a..b))
+}
+
+/// Half-breadth of such a hull over the greatest one, at `along` of its length and `below` of its depth below the deck.
+pub(crate) fn half_breadth_of_form([plan, up, bilge]: [f64; 3], along: f64, below: f64) -> f64 {
+    (1.0 - (2.0 * along - 1.0).powi(2)).max(0.0).powf(plan) * (1.0 - below.powf(up)).powf(bilge)
+}
+
 /// A normal number of standard deviation 1.
 pub(crate) fn normal(random: &mut StdRng) -> f64 {
     let (u, v): (f64, f64) = (random.random_range(1e-12..1.0), random.random_range(0.0..1.0));
