@@ -10,14 +10,14 @@ use super::field::likelihood::ALLOWED;
 use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;
 use super::field::rocker::Rocker;
-use super::field::surface::LevelField;
+use super::field::surface::ChartedField;
 use super::model::{Limit, Model, Reading, Stationary, value};
 use super::move_metric::move_metric;
 use super::program::{Program, Wishes};
 use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, basis_row, readings};
-use crate::hull::{Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines, side_points};
+use crate::hull::{Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines};
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::collections::BTreeSet;
@@ -83,19 +83,14 @@ impl FairSurface {
         if table.stations.iter().any(breaks) {
             return None;
         }
-        let has_points = table.stations.iter().any(|station| !station.outlines.is_empty());
-        let points = match has_points {
-            true if !only_outlines(table) => return None,
-            true => {
-                let x = fitted.surface().points().iter().map(|p| p[0]);
-                let ends = x.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-                Some(Points::new(table, ends)?)
-            }
-            false => None,
+        let points = match table.point_count() {
+            0 => None,
+            _ if !only_outlines(table) => return None,
+            _ => Some(Points::new(table, extent(fitted.surface(), 0))?),
         };
         let marked = with_fixed_lines(table, rules);
         let levels = points.as_ref().map_or(&marked, |points| &points.levels);
-        let is_level = if has_points { !has_rocker(levels) } else { fitted.is_level() };
+        let is_level = if points.is_some() { !has_rocker(levels) } else { fitted.is_level() };
         let mut seen = Observations::new(levels);
         if let Some(points) = &points {
             seen.read_points(&points.cells);
@@ -109,7 +104,7 @@ impl FairSurface {
             return None;
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
-        let field = LevelField::new(&seen, shape, quantum).ok()?;
+        let field = ChartedField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
         if lacks_fit(&field, quantum.max(LEAST_NOISE * noise), breadth) {
             return None;
@@ -121,7 +116,10 @@ impl FairSurface {
             return None;
         }
         let known: Vec<Option<f64>> = (0..start.len()).map(|k| field.bent.is_closed(k).then_some(0.0)).collect();
-        let (readings, places) = if has_points { side_readings(table, &hull) } else { readings(table, &hull) };
+        let (readings, places) = match &points {
+            Some(points) => side_readings(table, &points.sides, &hull),
+            None => readings(table, &hull),
+        };
         // Zeros on the lowest waterline of a flat bottom are its keel, not its edge.
         let base = hull.bottom() + 1e-9 * (hull.top() - hull.bottom());
         let between = |place: &Place| {
@@ -242,7 +240,7 @@ pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
 
 /// Whether a field does not follow its table: the residuals are above `least` \[m\] and go together ([`CORRELATED`]), or one
 /// of them is above it and too far off ([`FARTHEST`]).
-fn lacks_fit(field: &LevelField, least: f64, breadth: f64) -> bool {
+fn lacks_fit(field: &ChartedField, least: f64, breadth: f64) -> bool {
     let residuals = &field.residuals;
     let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
     let all = (squares / residuals.len().max(1) as f64).sqrt();
@@ -252,18 +250,20 @@ fn lacks_fit(field: &LevelField, least: f64, breadth: f64) -> bool {
 }
 
 /// The hull of a field.
-fn hull_of(field: &LevelField, fitted: &Hull) -> Result<Hull, HullError> {
+fn hull_of(field: &ChartedField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
     let places = field.places()?;
     let values = bent.half_breadths(&field.field)?;
     let points: Vec<[f64; 3]> = places.into_iter().zip(values).map(|([x, z], y)| [x, y, z]).collect();
     let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
-    let extent = |axis: usize| {
-        let values = surface.points().iter().map(|p| p[axis]);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
-    };
-    let deck = deck(fitted.deck(), extent(0), extent(2))?;
+    let deck = deck(fitted.deck(), extent(&surface, 0), extent(&surface, 2))?;
     Hull::new(fitted.name(), *fitted.particulars(), surface, deck)
+}
+
+/// Least and greatest control value of a surface along an axis \[m\].
+fn extent(surface: &BsplineSurface<3>, axis: usize) -> [f64; 2] {
+    let values = surface.points().iter().map(|p| p[axis]);
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
 }
 
 /// The deck at side over another length, within other heights.
@@ -282,8 +282,8 @@ fn deck(deck: &BsplineCurve<2>, [aft, fore]: [f64; 2], [low, high]: [f64; 2]) ->
 }
 
 /// The points of the sides of sections as readings of a hull, at their heights.
-fn side_readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
-    let found = side_points(table).into_iter().filter_map(|[station, outline, point]| {
+fn side_readings(table: &OffsetTable, sides: &[[usize; 3]], hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
+    let found = sides.iter().filter_map(|&[station, outline, point]| {
         let (column, p) = (&table.stations[station], table.stations[station].outlines[outline][point]);
         let x = column.station.x;
         let at = hull.parameters(x, p.z)?;
@@ -297,7 +297,7 @@ fn side_readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>)
 }
 
 /// Weights of the readings: one over the square of the factor of their errors.
-fn weigh(readings: &mut [Reading], places: &[Place], field: &LevelField, known: &[Option<f64>]) {
+fn weigh(readings: &mut [Reading], places: &[Place], field: &ChartedField, known: &[Option<f64>]) {
     for (reading, place) in readings.iter_mut().zip(places) {
         let scale = field.steepness([place.x, place.z]).powf(field.power);
         reading.weight /= scale * scale;

@@ -530,7 +530,7 @@ impl<'a> Run<'a> {
         };
         surface.straight_parts().iter().for_each(|note| when(true, note));
         surface.lines_of_field().for_each(|note| when(true, &note));
-        let points = self.table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum::<usize>();
+        let points = self.table.point_count();
         let is_point = |place: &&Place| matches!(place.origin, Origin::Point { .. });
         let others = points - surface.places.iter().filter(is_point).count().min(points);
         when(

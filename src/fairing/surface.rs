@@ -19,6 +19,7 @@ use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
+use super::field::observed::DOUBTFUL;
 use super::metric::{self, Metric};
 use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
@@ -36,9 +37,6 @@ const ENDS: f64 = 1e-5;
 
 /// Control values along the ship for an offset, on the quintic net.
 const DENSITY: [f64; 2] = [0.8, 0.9];
-
-/// Weight of a doubtful offset.
-const DOUBTFUL: f64 = 0.01;
 
 /// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges
 /// they are the edges.
@@ -473,7 +471,7 @@ fn greville_values(fitted: &Hull, hull: &Hull) -> Vec<f64> {
 pub(super) fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<Place>) {
     let (mut readings, mut places) = (Vec::new(), Vec::new());
     let mut put = |origin: Origin, at: [f64; 2], [x, value, z]: [f64; 3], doubtful: bool, locked: bool| {
-        let weight = if doubtful { DOUBTFUL } else { 1.0 };
+        let weight = if doubtful { DOUBTFUL.powi(-2) } else { 1.0 };
         readings.push(Reading { row: basis_row(hull.surface(), at, [0, 0]), value, weight, tolerance: None });
         places.push(Place { origin, x, z, at, locked });
     };

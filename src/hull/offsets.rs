@@ -153,6 +153,12 @@ pub struct OffsetTable {
 const ENDS: usize = 101;
 
 impl OffsetTable {
+    /// Number of points of sections.
+    #[must_use]
+    pub fn point_count(&self) -> usize {
+        self.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum()
+    }
+
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
     pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {

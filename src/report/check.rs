@@ -76,7 +76,7 @@ pub fn check_table(path: &Path) -> Result<Check, Failure> {
                 lines: proposed_lines(&table, &found),
                 suspects: Some(found),
                 heights: height_suspects(&table),
-                points: Some(point_suspects(&table)).filter(|_| points(&table) > 0),
+                points: Some(point_suspects(&table)).filter(|_| table.point_count() > 0),
                 table: Some(table),
                 problems: located.iter().map(of_table).collect(),
                 notes: general
@@ -168,7 +168,7 @@ impl Check {
     /// The number of points of sections in the table that have too few neighbours to be judged.
     #[must_use]
     pub fn points_not_judged(&self) -> usize {
-        self.table.as_ref().map_or(0, points).saturating_sub(self.judged()[2])
+        self.table.as_ref().map_or(0, OffsetTable::point_count).saturating_sub(self.judged()[2])
     }
 
     /// The failure that ends the program when there are suspects or problems, those that were accepted apart.
@@ -182,10 +182,6 @@ impl Check {
         }
         Err(Failure::Check(format!("E502 {}, {}", counted(left, "suspect"), counted(self.problems.len(), "problem"))))
     }
-}
-
-fn points(table: &OffsetTable) -> usize {
-    table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum()
 }
 
 /// Suspects of a table in one line, the most severe with its place; none without suspects.

@@ -58,7 +58,7 @@ pub fn convert_table(path: &Path, overrides: &Overrides, writing: TableWriting) 
             counted(table.lines.len(), "line")
         ));
     }
-    let points = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
+    let points = table.point_count();
     let tidy = sections || writing.layout.unwrap_or(table.form.layout) == TableLayout::Tidy;
     // Every tidy table has this column; none of the other programs' formats has it.
     let own = sections && !written.text.contains("curve");

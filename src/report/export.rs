@@ -476,7 +476,7 @@ pub fn export(
     };
     let sections = if formats.iter().any(|format| format.is_sections()) {
         let table = OffsetTable::of_sections(hull, &section_stations(hull), deviation);
-        let points = table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum::<usize>();
+        let points = table.point_count();
         page.push(format!("sections: {} with {points} points, z from the base line", table.stations.len()));
         table
     } else {

@@ -195,7 +195,7 @@ impl FairJob {
     pub fn size(&self) -> [usize; 4] {
         let cells = self.table.stations.iter().flat_map(|station| &station.half_breadths);
         let given = cells.filter(|cell| cell.value().is_some()).count();
-        let points = self.table.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum();
+        let points = self.table.point_count();
         [self.table.stations.len(), self.table.waterlines.len(), given, points]
     }
 }

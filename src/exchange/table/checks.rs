@@ -155,7 +155,7 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
     }
     let offsets = table.stations.iter().flat_map(|s| s.half_breadths.iter().chain(&s.heights));
     let given = offsets.filter(|cell| cell.value().is_some()).count();
-    let outlines = table.stations.iter().flat_map(|s| &s.outlines).map(Vec::len).sum::<usize>();
+    let outlines = table.point_count();
     if given + outlines == 0 {
         problems.error("E313", FilePosition::FILE, "the table has no offset at all".to_owned(), "");
     }

@@ -8,13 +8,22 @@
 
 use super::likelihood::{Cell, PLACES, Readings};
 use super::rocker::Rocker;
-use crate::hull::{OffsetTable, StationOffsets, TransomPlane};
+use crate::hull::{Marks, OffsetTable, StationOffsets, TransomPlane};
 
 /// Scale of the errors of an offset that is exact, over that of others.
 pub const EXACT: f64 = 1e-3;
 
 /// Scale of the errors of a doubtful offset.
 pub const DOUBTFUL: f64 = 10.0;
+
+/// Scale of the errors of what is marked so.
+pub(super) fn scale(marks: Marks) -> f64 {
+    match (marks.locked, marks.doubtful) {
+        (true, _) => EXACT,
+        (_, true) => DOUBTFUL,
+        _ => 1.0,
+    }
+}
 
 /// A keel this part of the height above the lowest is off the base.
 const LEVEL: f64 = 2e-3;
@@ -309,15 +318,9 @@ impl Observations {
             if y <= 0.0 && !positive.is_empty() && !(is_keel && inside(k)) {
                 continue;
             }
-            let marks = line.station(k).half_breadths[j].marks;
             // A line of zeros is the keel.
-            let scale = if marks.locked || positive.is_empty() {
-                EXACT
-            } else if marks.doubtful {
-                DOUBTFUL
-            } else {
-                1.0
-            };
+            let is_keel = positive.is_empty();
+            let scale = if is_keel { EXACT } else { scale(line.station(k).half_breadths[j].marks) };
             self.readings.push(Cell { x: line.station(k).station.x, z, y, scale });
         }
         let (Some(&first), Some(&last)) = (positive.first(), positive.last()) else { return };

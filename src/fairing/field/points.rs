@@ -5,7 +5,7 @@
 //! What the sections say at the levels is for ends of waterlines alone; the field is made from the points.
 
 use super::likelihood::Cell;
-use super::observed::{DOUBTFUL, EXACT};
+use super::observed::scale;
 use crate::hull::{self, Entry, OffsetTable, StationOffsets, side_points};
 
 /// Fewest and most levels.
@@ -23,7 +23,9 @@ const CENTREPLANE: f64 = 1e-4;
 /// The sections of a table.
 #[derive(Debug, Clone)]
 pub struct Points {
-    /// Points of the sides.
+    /// Points of the sides: indices of station, outline and point.
+    pub sides: Vec<[usize; 3]>,
+    /// The same as readings of the field; those on the base are its keel.
     pub cells: Vec<Cell>,
     /// Half-breadths of the sections at levels, with keel, flat of bottom and deck.
     pub levels: OffsetTable,
@@ -34,11 +36,11 @@ impl Points {
     /// last section, to `ends` at most \[m\], there are empty sections.
     #[must_use]
     pub fn new(table: &OffsetTable, ends: [f64; 2]) -> Option<Self> {
-        let side = side_points(table);
+        let sides = side_points(table);
         let all = table.stations.iter().flat_map(|station| station.outlines.iter().flatten());
         let [bottom, top] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.z), b.max(p.z)]);
         let height = top - bottom;
-        let mut heights: Vec<f64> = side.iter().map(|&[s, o, p]| table.stations[s].outlines[o][p].z).collect();
+        let mut heights: Vec<f64> = sides.iter().map(|&[s, o, p]| table.stations[s].outlines[o][p].z).collect();
         heights.retain(|z| *z >= bottom + LOWEST * height);
         heights.sort_by(f64::total_cmp);
         let stations = table.stations.iter().filter(|station| !station.outlines.is_empty()).count();
@@ -90,17 +92,12 @@ impl Points {
             waterlines: waterlines.clone(),
             ..OffsetTable::default()
         };
-        let cell = |[s, o, p]: [usize; 3]| {
+        let cell = |&[s, o, p]: &[usize; 3]| {
             let (station, point) = (&table.stations[s], table.stations[s].outlines[o][p]);
-            let scale = match (point.marks.locked, point.marks.doubtful) {
-                (true, _) => EXACT,
-                (_, true) => DOUBTFUL,
-                _ => 1.0,
-            };
-            Cell { x: station.station.x, z: point.z, y: point.y, scale }
+            Cell { x: station.station.x, z: point.z, y: point.y, scale: scale(point.marks) }
         };
-        let cells = side.into_iter().map(cell).filter(|cell| cell.z > bottom + SAME * height).collect();
-        Some(Self { cells, levels })
+        let cells = sides.iter().map(cell).filter(|cell| cell.z > bottom + SAME * height).collect();
+        Some(Self { sides, cells, levels })
     }
 
     /// Volume of the sections below a height, both sides together \[m3\]: by trapezoids up them, and along the ship by the

@@ -42,7 +42,7 @@ const LEAST_NOISE: f64 = 1e-7;
 
 /// A field with the chart of its hull.
 #[derive(Debug, Clone)]
-pub struct LevelField {
+pub struct ChartedField {
     /// Its net.
     pub net: Net,
     /// Chart, weight and field.
@@ -76,7 +76,7 @@ pub enum FieldError {
     Spline(#[from] SplineError),
 }
 
-impl LevelField {
+impl ChartedField {
     /// The field of greatest likelihood through the readings of a table of so many stations and waterlines, whose offsets
     /// are written to `resolution` \[m\].
     ///
@@ -184,8 +184,6 @@ fn slopes(field: &Field, rocker: Option<&Rocker>, [x, zeta]: [f64; 2]) -> [f64; 
     let [by_x, by_z] = rocker.slopes(x, rocker.absolute(x, zeta));
     [along + up * by_x, up * by_z]
 }
-
-impl LevelField {}
 
 /// A first smooth field, for the slopes of the hull, and the weight of its energy.
 fn smooth_first(energies: &mut Energies<'_>, readings: &Readings, chart: Chart, least: f64) -> Option<(f64, Smoothed)> {

@@ -7,7 +7,7 @@ use super::likelihood::{Cell, Observed, Readings, Roughness, smoothed};
 use super::net::{Break, KERNEL, Metric, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
-use super::surface::LevelField;
+use super::surface::ChartedField;
 use crate::hull::{self, OffsetTable, StationOffsets};
 use crate::spline::{BsplineCurve, KnotVector, binomial};
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -176,9 +176,9 @@ fn the_upper_end_of_a_bilge_is_found() {
             *cell = hull::Cell::from(Some(breadth * (1.0 - 0.45 * arc)));
         }
     }
-    let found = LevelField::new(&Observations::new(&table), [21, 11], 0.0).unwrap();
+    let found = ChartedField::new(&Observations::new(&table), [21, 11], 0.0).unwrap();
     assert!(found.lines.iter().any(|line| (line.z - radius).abs() < 0.125), "{:?}", found.lines);
-    let none = LevelField::new(&Observations::new(&wigley()), [21, 11], 0.0).unwrap();
+    let none = ChartedField::new(&Observations::new(&wigley()), [21, 11], 0.0).unwrap();
     assert_eq!(none.lines, []);
 }
 
@@ -259,7 +259,7 @@ fn ends_at_perpendiculars_are_exact() {
 #[test]
 fn a_parabolic_hull_comes_back() {
     let seen = Observations::new(&wigley());
-    let found = LevelField::new(&seen, [21, 11], 0.0).unwrap();
+    let found = ChartedField::new(&seen, [21, 11], 0.0).unwrap();
     let (field, chart) = (&found.field, found.chosen.chart);
     for (x, z) in [(37.0, 1.7), (50.0, 6.0), (8.0, 3.3), (91.0, 2.4)] {
         let (t, s): (f64, f64) = (x / 50.0 - 1.0, 1.0 - z / 6.25);
@@ -313,7 +313,7 @@ fn a_density_is_low_where_a_field_bends() {
 fn zeros_beside_the_hull_are_left_out_where_the_offsets_say_so() {
     let mut table = wigley();
     let ends = |table: &OffsetTable| {
-        let found = LevelField::new(&Observations::new(table), [21, 11], 0.0).unwrap();
+        let found = ChartedField::new(&Observations::new(table), [21, 11], 0.0).unwrap();
         let [aft, forward] = [0, 1].map(|side| found.bent.bend.ends[side].eval(0.8)[0]);
         [found.chosen.chart.x(aft), found.chosen.chart.x(forward)]
     };
