@@ -31,9 +31,9 @@ pub use cell::{Cell, Entry, FeatureLine, LineKind, Marks, OutlinePoint, StatedPa
 pub(crate) use charted::advance;
 pub use diagonal::diagonal_offset;
 pub use fit::{
-    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, ParametricStations,
-    PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate, has_rocker,
-    only_outlines, side_points,
+    CellResidual, Chart, FitError, FitMethod, Fitted, LeastSquares, Misfit, NetKnots, Outermost, ParametricStations,
+    PointResidual, QuadraticNet, SettingProblem, SettingProblems, Thinned, UniformBicubic, VolumeEstimate, carried_on,
+    has_rocker, only_outlines, side_points,
 };
 pub(crate) use form::AFLOAT;
 pub use form::{Hull, HullError};

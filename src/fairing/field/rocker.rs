@@ -10,7 +10,7 @@
 
 use super::net::{DEGREE, ORDER};
 use super::observed::EXACT;
-use crate::hull::OffsetTable;
+use crate::hull::{OffsetTable, Outermost, carried_on};
 use crate::numeric::gauss_legendre;
 use crate::spline::{BsplineCurve, KnotVector};
 use nalgebra::{DMatrix, DVector};
@@ -26,9 +26,6 @@ const JUMP: f64 = 0.03;
 
 /// Heights above the keel line below this part of the depth there are on the keel.
 const ON_KEEL: f64 = 1e-3;
-
-/// The stem is at most this many times the last interval beyond the last station.
-const REACH: f64 = 1.5;
 
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CLOSED: f64 = 1e-6;
@@ -89,12 +86,13 @@ impl Rocker {
         let greatest = breadths.iter().map(|[_, y]| *y).fold(0.0, f64::max);
         let last = breadths.len() - 1;
         let mut closed = [0, last].map(|k| breadths[k][1] <= CLOSED * greatest);
-        for (side, beside) in [[0, 1], [last, last - 1]].into_iter().enumerate() {
+        let outermost = |k: usize| Outermost { x: heights[k].x, keel: heights[k].z, top, breadth: breadths[k][1] };
+        let tips = [[0, 1], [last, last - 1]].map(|[end, before]| carried_on(outermost(before), outermost(end)));
+        for (side, tip) in tips.into_iter().enumerate() {
             if closed[side] {
                 continue;
             }
-            let [end, before] = beside.map(|k| heights[k]);
-            if let Some(x) = carried_on([end, before], beside.map(|k| breadths[k][1]), top) {
+            if let Some([x, _]) = tip {
                 let tip = Height { x, z: top, scale: EXACT };
                 heights.insert(if side == 0 { 0 } else { heights.len() }, tip);
                 closed[side] = true;
@@ -137,19 +135,6 @@ impl Rocker {
         let (height, depth) = (top - bottom, (top - keel).max(f64::MIN_POSITIVE));
         [-height * slope * (top - z) / (depth * depth), height / depth]
     }
-}
-
-/// Where keel and upper edge meet beyond the last of two stations, carried on straight; none where that is far, or the hull
-/// would still be broad there.
-fn carried_on([end, before]: [Height; 2], [breadth, wider]: [f64; 2], top: f64) -> Option<f64> {
-    let step = end.x - before.x;
-    let (depth, deeper) = (top - end.z, top - before.z);
-    if deeper <= depth || wider <= breadth {
-        return None;
-    }
-    let run = depth / (deeper - depth);
-    let left = breadth - run * (wider - breadth);
-    (run <= REACH && left <= 0.5 * breadth).then_some(end.x + run * step)
 }
 
 /// The quintic spline of greatest restricted likelihood through heights of rising x.
@@ -212,6 +197,26 @@ fn keel_line(heights: &[Height], least: f64) -> Option<BsplineCurve<1>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hull::StationOffsets;
+
+    /// The keel 0.035 x^2 meets the upper edge, 3.2 m, beyond x = 9 m by 2 (3.2 - 2.835) / (2.835 - 1.715) at both ends.
+    #[test]
+    fn a_double_ender_closes_at_both_ends_alike() {
+        let station = |k: i32| {
+            let x = f64::from(k);
+            StationOffsets {
+                keel_height: Some(0.035 * x * x),
+                deck_half_breadth: Some(3.0 * (1.0 - (x / 9.6).powi(2))),
+                ..StationOffsets::new(format!("{k}"), x)
+            }
+        };
+        let stations = (-9..=9).step_by(2).map(station).collect();
+        let table = OffsetTable { stations, waterlines: vec![1.0, 3.2], ..OffsetTable::default() };
+        let found = Rocker::new(&table, 1e-6).unwrap();
+        let tip = 9.0 + 2.0 * 0.365 / 1.12;
+        assert_eq!(found.closed, [true; 2]);
+        assert!((found.length[0] + tip).abs() < 1e-9 && (found.length[1] - tip).abs() < 1e-9, "{:?}", found.length);
+    }
 
     /// A parabola and a cubic with errors of 5 mm: the line is nearer to it than the errors are.
     #[test]

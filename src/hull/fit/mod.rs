@@ -34,6 +34,7 @@ pub use method::{
 };
 pub use misfit::Misfit;
 pub use outlines::{PointResidual, only_outlines, side_points};
+pub use upright::ends::{Outermost, carried_on};
 pub use upright::has_rocker;
 
 /// A cell that the table leaves open and the surface fills, or that the surface does not meet.

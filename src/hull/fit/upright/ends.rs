@@ -22,7 +22,7 @@ pub(in crate::hull::fit) fn close(table: &OffsetTable, profiles: &mut Vec<Profil
         let (x, wide) = (end.x, end.breadth() > POINTED * breadth);
         let name = if fore { "fore" } else { "aft" };
         let point = profile_end(table, end, fore).or_else(|| {
-            if fore && wide { carried_on(profiles) } else { None }.inspect(|[at, _]| {
+            if fore && wide { stem(profiles) } else { None }.inspect(|[at, _]| {
                 notes.push(format!(
                     "the stem was put at x = {at:.3} m, where keel line and upper edge of the last stations meet when carried on"
                 ));
@@ -52,19 +52,38 @@ fn profile_end(table: &OffsetTable, last: &Profile, fore: bool) -> Option<[f64; 
     (beyond > slack && z >= last.top() - slack).then_some([end, z])
 }
 
-/// Where keel line and upper edge of the last two stations meet: (x, z), if breadth and height both fall to it soon.
-fn carried_on(profiles: &[Profile]) -> Option<[f64; 2]> {
-    let [.., a, b] = profiles else { return None };
-    let step = b.x - a.x;
-    let (height, before) = (b.top() - b.keel(), a.top() - a.keel());
-    let (breadth, wider) = (b.breadth(), a.breadth());
-    if !(height > 0.0 && before > height && wider > breadth) {
+/// The tip of the stem beyond the last section.
+fn stem(profiles: &[Profile]) -> Option<[f64; 2]> {
+    let outermost = |p: &Profile| Outermost { x: p.x, keel: p.keel(), top: p.top(), breadth: p.breadth() };
+    let [.., before, end] = profiles else { return None };
+    carried_on(outermost(before), outermost(end))
+}
+
+/// A section by its keel, its upper edge and its greatest half-breadth \[m\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outermost {
+    /// Position forward of AP.
+    pub x: f64,
+    /// Height of the keel.
+    pub keel: f64,
+    /// Height of the upper edge.
+    pub top: f64,
+    /// Greatest half-breadth.
+    pub breadth: f64,
+}
+
+/// Where keel line and upper edge meet \[m\], (x, z), carried on straight beyond the last of two sections; none where that is
+/// more than [`REACH`] spaces away, or the hull would still be broad there.
+#[must_use]
+pub fn carried_on(before: Outermost, end: Outermost) -> Option<[f64; 2]> {
+    let [height, higher] = [end.top - end.keel, before.top - before.keel];
+    if !(height > 0.0 && higher > height && before.breadth > end.breadth) {
         return None;
     }
-    let run = step * height / (before - height);
-    let left = breadth - run * (wider - breadth) / step;
-    let top = b.top() + run * (b.top() - a.top()) / step;
-    (run <= REACH * step && left <= 0.5 * breadth).then_some([b.x + run, top])
+    let spaces = height / (higher - height);
+    let left = end.breadth - spaces * (before.breadth - end.breadth);
+    let at = [end.x + spaces * (end.x - before.x), end.top + spaces * (end.top - before.top)];
+    (spaces <= REACH && left <= 0.5 * end.breadth).then_some(at)
 }
 
 /// Ends at which half-breadths grow like the square root of the distance, by the exponent between the two stations next
