@@ -445,6 +445,21 @@ fn sections_given_as_points_are_faired() {
     assert!(file(&outputs, "changes.csv").contains(",point 0.11,"));
 }
 
+/// 9.31 m at station 8 and 8.54 m at station 5 are written 9.13 and 8.34 m, both on waterline 3: each hides the other from its
+/// neighbours.
+#[test]
+fn errors_that_contradict_the_field_are_left_out() {
+    let (_, outputs) = faired(&carried("tests/frigate_misread.csv"), &[]);
+    let excluded = outputs.outcome.changes.iter().filter(|change| change.suspect);
+    let excluded: Vec<_> = excluded.map(|change| (change.station, change.origin.waterline().unwrap())).collect();
+    assert_eq!(excluded, [(5, 3), (8, 3)]);
+    let expected = [8.54, 9.31];
+    let half_breadth = |[x, z]: [f64; 2]| outputs.outcome.after.half_breadth(x, z).unwrap();
+    for (place, expected) in [[32.297, 4.965], [50.806, 4.965]].into_iter().zip(expected) {
+        assert!((half_breadth(place) - expected).abs() < 0.03, "{} {expected}", half_breadth(place));
+    }
+}
+
 #[test]
 #[ignore = "takes 11 s"]
 fn a_misprint_is_left_out_and_listed() {

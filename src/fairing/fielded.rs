@@ -6,7 +6,7 @@
 
 use super::constraint::{Constraint, Rule, breadths};
 use super::fair::{FairError, FairSettings, Prepared};
-use super::field::likelihood::ALLOWED;
+use super::field::likelihood::{ALLOWED, Cell};
 use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;
 use super::field::rocker::Rocker;
@@ -70,11 +70,13 @@ pub(super) struct Likely {
 impl FairSurface {
     /// The field of a level table of this noise \[m\] over the chart of its hull; none where the offsets determine none, or
     /// it does not follow them. It passes through offsets that are locked, and those of lines that do not move by the
-    /// `rules`. Deck and particulars are those of `fitted`.
+    /// `rules`. Deck and particulars are those of `fitted`. Where single offsets contradict all others they are noted in
+    /// `contradicting`, with the half-breadths of the field there.
     pub(super) fn of_field(
         table: &OffsetTable,
         fitted: &Hull,
         (noise, rules): (f64, &[Rule]),
+        contradicting: &mut Vec<((usize, usize), f64)>,
     ) -> Option<(Self, Likely)> {
         let breaks = |station: &StationOffsets| {
             let points = station.outlines.iter().flatten().map(|point| point.marks);
@@ -107,6 +109,10 @@ impl FairSurface {
         let field = ChartedField::new(&seen, shape, quantum).ok()?;
         let breadth = fitted.particulars().breadth;
         if lacks_fit(&field, quantum.max(LEAST_NOISE * noise), breadth) {
+            // Residuals that go together are no errors of single offsets.
+            if points.is_none() && field.correlation <= CORRELATED {
+                *contradicting = contradictions(table, &field, breadth);
+            }
             return None;
         }
         let hull = hull_of(&field, fitted).ok()?;
@@ -247,6 +253,28 @@ fn lacks_fit(field: &ChartedField, least: f64, breadth: f64) -> bool {
     let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
     let far = FARTHEST[0] * typical(residuals.iter().copied());
     all > least && field.correlation > CORRELATED || most > least.max(far).max(FARTHEST[1] * breadth)
+}
+
+/// Offsets of a table that are too far off its field ([`FARTHEST`]), farther than any other within [`AROUND`] stations and
+/// waterlines, with the half-breadths of the field there.
+fn contradictions(table: &OffsetTable, field: &ChartedField, breadth: f64) -> Vec<((usize, usize), f64)> {
+    let most = (FARTHEST[0] * typical(field.residuals.iter().copied())).max(FARTHEST[1] * breadth);
+    let height = |x: f64, z: f64| field.rocker.as_ref().map_or(Some(z), |rocker| rocker.relative(x, z));
+    let mut cells: Vec<((usize, usize), f64, f64)> = Vec::new();
+    for (k, station) in table.stations.iter().enumerate() {
+        let x = station.station.x;
+        for (j, &z) in table.waterlines.iter().enumerate() {
+            let Some(z) = height(x, z) else { continue };
+            let is_here = |cell: &Cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9;
+            let found = field.inexact.iter().zip(&field.residuals).find(|(cell, _)| is_here(cell));
+            cells.extend(found.map(|(cell, off)| ((k, j), off.abs(), cell.y + off * cell.scale)));
+        }
+    }
+    let is_near = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= AROUND && a.1.abs_diff(b.1) <= AROUND;
+    let stands_out = |(at, off, _): &&((usize, usize), f64, f64)| {
+        *off > most && cells.iter().all(|(other, far, _)| !is_near(*at, *other) || far <= off)
+    };
+    cells.iter().filter(stands_out).map(|(at, _, y)| (*at, *y)).collect()
 }
 
 /// The hull of a field.

@@ -20,6 +20,9 @@ use crate::units::counted;
 /// What a net of its own may leave the surface through the table by between offsets, over the breadth.
 const SWING: f64 = 0.05;
 
+/// Most offsets that contradict a field of all others, over their number.
+const CONTRADICTING: f64 = 0.02;
+
 /// A waterline or a station nearer to a proposed line than this \[m\] is the line.
 const SAME: f64 = 1e-9;
 
@@ -122,8 +125,15 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
         let mut likely = None;
         if as_field {
-            match FairSurface::of_field(&cleaned.clean, &modelled.before, (noise, &job.rules)) {
-                Some(field) => (modelled.surface, likely) = (field.0, Some(field.1)),
+            let (field, without) = field_without_contradictions(job, table, &cleaned, &modelled.before, noise);
+            match field {
+                Some(field) => {
+                    if without.excluded.len() > cleaned.excluded.len() {
+                        modelled = Modelled::new(job, &without, &found, noise, false)?;
+                        cleaned = without;
+                    }
+                    (modelled.surface, likely) = (field.0, Some(field.1));
+                }
                 None => modelled.net_again(job, &cleaned, &found, noise)?,
             }
         }
@@ -184,6 +194,29 @@ impl Started {
             excluded,
             watched,
         })
+    }
+}
+
+/// The field of a table. Where it does not follow the table, offsets that contradict all others are left out, as long as these
+/// are few.
+fn field_without_contradictions(
+    job: &Job,
+    table: &OffsetTable,
+    cleaned: &Cleaned,
+    before: &Hull,
+    noise: f64,
+) -> (Option<(FairSurface, Likely)>, Cleaned) {
+    let mut without = cleaned.clone();
+    let most = (CONTRADICTING * table.stations.len() as f64 * table.waterlines.len() as f64).max(1.0);
+    loop {
+        let mut wrong = Vec::new();
+        let field = FairSurface::of_field(&without.clean, before, (noise, &job.rules), &mut wrong);
+        wrong.retain(|(cell, _)| !job.holds(table, *cell));
+        let count = without.excluded.len() - cleaned.excluded.len() + wrong.len();
+        if field.is_some() || wrong.is_empty() || !job.exclude_suspects || count as f64 > most {
+            return (field, without);
+        }
+        wrong.into_iter().for_each(|(cell, expected)| without.leave_out(cell, expected));
     }
 }
 

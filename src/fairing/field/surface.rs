@@ -55,7 +55,9 @@ pub struct ChartedField {
     pub lines: Vec<FoundBreak>,
     /// The power of the steepness of the hull that the errors go with.
     pub power: f64,
-    /// Residuals of what is not exact, over the scale of its errors \[m\].
+    /// What is not exact.
+    pub inexact: Vec<Cell>,
+    /// Residuals of these, over the scale of their errors \[m\].
     pub residuals: Vec<f64>,
     /// Correlation of the residuals of neighbouring stations on a waterline, or of neighbouring points of a section, over
     /// its standard deviation for errors that are independent: errors have none, or a negative one, and the form of a hull
@@ -122,13 +124,14 @@ impl ChartedField {
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
         let bent = bent(&net, &field, seen, most)?;
         let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
-        let inexact = || readings.cells.iter().filter(|cell| cell.scale > EXACT);
-        let residuals: Vec<f64> = inexact().map(residual).collect();
+        let inexact: Vec<Cell> = readings.cells.iter().filter(|cell| cell.scale > EXACT).copied().collect();
+        let residuals: Vec<f64> = inexact.iter().map(residual).collect();
         let height = |cell: &Cell| seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z));
         // Points of sections follow each other up them.
         let place = |cell: &Cell| if seen.has_points { [cell.z, cell.x] } else { [cell.x, height(cell)] };
-        let correlation = correlation(inexact().map(place).zip(residuals.iter().copied()));
-        Ok(Self { field, bent, net, chosen, power, residuals, correlation, lines, rocker: seen.rocker.clone() })
+        let correlation = correlation(inexact.iter().map(place).zip(residuals.iter().copied()));
+        let rocker = seen.rocker.clone();
+        Ok(Self { field, bent, net, chosen, power, inexact, residuals, correlation, lines, rocker })
     }
 
     /// sqrt(1 + y_x^2 + y_z^2) at a place (x, z) of the hull ([`steepness`]).
