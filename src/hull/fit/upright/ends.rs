@@ -73,7 +73,7 @@ pub struct Outermost {
 }
 
 /// Where keel line and upper edge meet \[m\], (x, z), carried on straight beyond the last of two sections; none where that is
-/// more than [`REACH`] spaces away, or the hull would still be broad there.
+/// more than a space and a half away, or the hull would still be broad there.
 #[must_use]
 pub fn carried_on(before: Outermost, end: Outermost) -> Option<[f64; 2]> {
     let [height, higher] = [end.top - end.keel, before.top - before.keel];
