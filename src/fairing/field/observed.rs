@@ -319,8 +319,8 @@ impl Observations {
                 continue;
             }
             // A line of zeros is the keel.
-            let is_keel = positive.is_empty();
-            let scale = if is_keel { EXACT } else { scale(line.station(k).half_breadths[j].marks) };
+            let is_zero = positive.is_empty();
+            let scale = if is_zero { EXACT } else { scale(line.station(k).half_breadths[j].marks) };
             self.readings.push(Cell { x: line.station(k).station.x, z, y, scale });
         }
         let (Some(&first), Some(&last)) = (positive.first(), positive.last()) else { return };
