@@ -67,17 +67,28 @@ pub(super) struct Likely {
     pub(super) weight: f64,
 }
 
-impl FairSurface {
-    /// The field of a level table of this noise \[m\] over the chart of its hull; none where the offsets determine none, or
-    /// it does not follow them. It passes through offsets that are locked, and those of lines that do not move by the
-    /// `rules`. Deck and particulars are those of `fitted`. Where single offsets contradict all others they are noted in
-    /// `contradicting`, with the half-breadths of the field there.
-    pub(super) fn of_field(
-        table: &OffsetTable,
-        fitted: &Hull,
-        (noise, rules): (f64, &[Rule]),
-        contradicting: &mut Vec<((usize, usize), f64)>,
-    ) -> Option<(Self, Likely)> {
+/// The field of a level table, before it is known whether it follows the table.
+pub(super) struct TableField<'a> {
+    table: &'a OffsetTable,
+    /// The surface through the table.
+    fitted: &'a Hull,
+    rules: &'a [Rule],
+    /// The table with what the rules fix as locked.
+    marked: OffsetTable,
+    /// Points of sections, where the table has these.
+    points: Option<Points>,
+    field: ChartedField,
+    /// The greatest half-breadth of the table \[m\].
+    greatest: f64,
+    /// What residuals are not worth a look below \[m\].
+    least: f64,
+}
+
+impl<'a> TableField<'a> {
+    /// The field of greatest likelihood of a table of this noise \[m\] over the chart of its hull; none where the offsets
+    /// determine none. It passes through offsets that are locked, and those of lines that do not move by the `rules`.
+    /// Breadth, depth and deck are those of `fitted`.
+    pub(super) fn new(table: &'a OffsetTable, fitted: &'a Hull, (noise, rules): (f64, &'a [Rule])) -> Option<Self> {
         let breaks = |station: &StationOffsets| {
             let points = station.outlines.iter().flatten().map(|point| point.marks);
             station.half_breadths.iter().map(|cell| cell.marks).chain(points).any(|marks| marks.knuckle)
@@ -107,17 +118,66 @@ impl FairSurface {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = ChartedField::new(&seen, shape, quantum).ok()?;
-        let breadth = fitted.particulars().breadth;
-        if lacks_fit(&field, quantum.max(LEAST_NOISE * noise), breadth) {
-            // Residuals that go together are no errors of single offsets.
-            if points.is_none() && field.correlation <= CORRELATED {
-                *contradicting = contradictions(table, &field, breadth);
+        let least = quantum.max(LEAST_NOISE * noise);
+        let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
+        Some(Self { table, fitted, rules, marked, points, field, greatest, least })
+    }
+
+    /// What a residual is too large beyond \[m\] ([`FARTHEST`]).
+    fn farthest(&self) -> f64 {
+        let typical = typical(self.field.residuals.iter().copied());
+        (FARTHEST[0] * typical).max(FARTHEST[1] * self.fitted.particulars().breadth).max(self.least)
+    }
+
+    /// Whether residuals are above the least and go together ([`CORRELATED`]).
+    fn has_pattern(&self) -> bool {
+        let residuals = &self.field.residuals;
+        let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
+        self.field.correlation > CORRELATED && (squares / residuals.len().max(1) as f64).sqrt() > self.least
+    }
+
+    /// Whether the field follows its table: no pattern in the residuals, and none of them is too large.
+    fn follows(&self) -> bool {
+        let farthest = self.farthest();
+        !self.has_pattern() && self.field.residuals.iter().all(|residual| residual.abs() <= farthest)
+    }
+
+    /// Offsets that are too far off the field ([`FARTHEST`]), farther than any other within [`AROUND`] stations and
+    /// waterlines, with the half-breadths of the field there. None where the residuals go together: these are no errors of
+    /// single offsets.
+    pub(super) fn contradictions(&self) -> Vec<((usize, usize), f64)> {
+        if self.points.is_some() || self.field.correlation > CORRELATED {
+            return Vec::new();
+        }
+        let most = self.farthest();
+        let field = &self.field;
+        let height = |x: f64, z: f64| field.rocker.as_ref().map_or(Some(z), |rocker| rocker.relative(x, z));
+        let mut cells: Vec<((usize, usize), f64, f64)> = Vec::new();
+        for (k, station) in self.table.stations.iter().enumerate() {
+            let x = station.station.x;
+            for (j, &z) in self.table.waterlines.iter().enumerate() {
+                let Some(z) = height(x, z) else { continue };
+                let is_here = |cell: &Cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9;
+                let found = field.inexact.iter().zip(&field.residuals).find(|(cell, _)| is_here(cell));
+                cells.extend(found.map(|(cell, off)| ((k, j), off.abs(), cell.y + off * cell.scale)));
             }
+        }
+        let is_near = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= AROUND && a.1.abs_diff(b.1) <= AROUND;
+        let stands_out = |(at, off, _): &&((usize, usize), f64, f64)| {
+            *off > most && cells.iter().all(|(other, far, _)| !is_near(*at, *other) || far <= off)
+        };
+        cells.iter().filter(stands_out).map(|(at, _, y)| (*at, *y)).collect()
+    }
+
+    /// The field as a surface to be faired, with its likelihood; none where it does not follow the table.
+    pub(super) fn surface(&self) -> Option<(FairSurface, Likely)> {
+        if !self.follows() {
             return None;
         }
-        let hull = hull_of(&field, fitted).ok()?;
+        let Self { table, fitted, rules, marked, points, field, greatest, .. } = self;
+        let breadth = fitted.particulars().breadth;
+        let hull = hull_of(field, fitted).ok()?;
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
-        let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
         if start.iter().any(|y| y.abs() > BEYOND * greatest) {
             return None;
         }
@@ -139,10 +199,10 @@ impl FairSurface {
         };
         let (mut readings, places): (Vec<Reading>, Vec<Place>) =
             readings.into_iter().zip(places).filter(is_offset).unzip();
-        weigh(&mut readings, &places, &field, &known);
+        weigh(&mut readings, &places, field, &known);
         // A locked offset that is not on the hull would not be kept.
         let is_lost = |origin: &Origin| !places.iter().any(|place| place.origin == *origin);
-        if locked(&marked).iter().any(is_lost) {
+        if locked(marked).iter().any(is_lost) {
             return None;
         }
         let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
@@ -155,9 +215,9 @@ impl FairSurface {
             field.net.energy(field.chosen.metric, field.chosen.density.as_ref()).quadratic(&field.chosen.field.values);
         let stationary = Some(Stationary { weight: likely.weight, net: start.clone(), energy: own, moves });
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
-        let mut found = Self::over(hull, model, places, start);
-        found.breaks = field.lines;
-        found.keel = field.rocker.map(|rocker| rocker.off);
+        let mut found = FairSurface::over(hull, model, places, start);
+        found.breaks = field.lines.clone();
+        found.keel = field.rocker.as_ref().map(|rocker| rocker.off);
         let field = found.within_limits(likely, rules)?;
         let own = Constraint::Displacement(0.0).value(&field.hull);
         let given = match &points {
@@ -166,7 +226,9 @@ impl FairSurface {
         };
         ((own - given).abs() <= VOLUME * given.abs()).then_some((field, likely))
     }
+}
 
+impl FairSurface {
     /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
     /// errors; none where that was not found.
     fn within_limits(mut self, likely: Likely, rules: &[Rule]) -> Option<Self> {
@@ -242,39 +304,6 @@ fn locked(table: &OffsetTable) -> Vec<Origin> {
 /// What a field of this noise \[m\] may pass the centreplane by \[m\].
 pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
     (ALLOWED[0] * sigma).max(ALLOWED[1] * hull.particulars().breadth)
-}
-
-/// Whether a field does not follow its table: the residuals are above `least` \[m\] and go together ([`CORRELATED`]), or one
-/// of them is above it and too far off ([`FARTHEST`]).
-fn lacks_fit(field: &ChartedField, least: f64, breadth: f64) -> bool {
-    let residuals = &field.residuals;
-    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
-    let all = (squares / residuals.len().max(1) as f64).sqrt();
-    let most = residuals.iter().fold(0.0_f64, |most, residual| most.max(residual.abs()));
-    let far = FARTHEST[0] * typical(residuals.iter().copied());
-    all > least && field.correlation > CORRELATED || most > least.max(far).max(FARTHEST[1] * breadth)
-}
-
-/// Offsets of a table that are too far off its field ([`FARTHEST`]), farther than any other within [`AROUND`] stations and
-/// waterlines, with the half-breadths of the field there.
-fn contradictions(table: &OffsetTable, field: &ChartedField, breadth: f64) -> Vec<((usize, usize), f64)> {
-    let most = (FARTHEST[0] * typical(field.residuals.iter().copied())).max(FARTHEST[1] * breadth);
-    let height = |x: f64, z: f64| field.rocker.as_ref().map_or(Some(z), |rocker| rocker.relative(x, z));
-    let mut cells: Vec<((usize, usize), f64, f64)> = Vec::new();
-    for (k, station) in table.stations.iter().enumerate() {
-        let x = station.station.x;
-        for (j, &z) in table.waterlines.iter().enumerate() {
-            let Some(z) = height(x, z) else { continue };
-            let is_here = |cell: &Cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9;
-            let found = field.inexact.iter().zip(&field.residuals).find(|(cell, _)| is_here(cell));
-            cells.extend(found.map(|(cell, off)| ((k, j), off.abs(), cell.y + off * cell.scale)));
-        }
-    }
-    let is_near = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= AROUND && a.1.abs_diff(b.1) <= AROUND;
-    let stands_out = |(at, off, _): &&((usize, usize), f64, f64)| {
-        *off > most && cells.iter().all(|(other, far, _)| !is_near(*at, *other) || far <= off)
-    };
-    cells.iter().filter(stands_out).map(|(at, _, y)| (*at, *y)).collect()
 }
 
 /// The hull of a field.

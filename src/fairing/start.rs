@@ -2,7 +2,7 @@
 
 use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
-use super::fielded::Likely;
+use super::fielded::{Likely, TableField};
 use super::flats::shown_flat;
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
 use super::lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
@@ -93,6 +93,9 @@ struct Modelled {
 /// flats and the lines along which its curvature may jump, the net over it, and its weight where it is one of its own.
 type Surfaced = (Vec<Proposal>, Option<Hull>, (Hull, Breaks), FairSurface, Option<Search>);
 
+/// A field with its likelihood, and where offsets are left out for it the table and the model without them.
+type FieldStart = ((FairSurface, Likely), Option<(Cleaned, Modelled)>);
+
 impl Started {
     /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
     /// ([`super::robust`]), where the net follows what is left; `own` says whether there may be one.
@@ -125,12 +128,10 @@ impl Started {
         let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
         let mut likely = None;
         if as_field {
-            let (field, without) = field_without_contradictions(job, table, &cleaned, &modelled.before, noise);
-            match field {
-                Some(field) => {
-                    if without.excluded.len() > cleaned.excluded.len() {
-                        modelled = Modelled::new(job, &without, &found, noise, false)?;
-                        cleaned = without;
+            match field_without_contradictions(job, (&cleaned, &modelled), &found, noise)? {
+                Some((field, without)) => {
+                    if let Some(without) = without {
+                        (cleaned, modelled) = without;
                     }
                     (modelled.surface, likely) = (field.0, Some(field.1));
                 }
@@ -197,27 +198,52 @@ impl Started {
     }
 }
 
-/// The field of a table. Where it does not follow the table, offsets that contradict all others are left out, as long as these
-/// are few.
+/// The field of a table with what is left out of it, and the model of that. Where the field does not follow the table,
+/// offsets that contradict all others are left out, as long as these are few.
 fn field_without_contradictions(
     job: &Job,
-    table: &OffsetTable,
-    cleaned: &Cleaned,
-    before: &Hull,
+    (cleaned, modelled): (&Cleaned, &Modelled),
+    found: &Suspects,
     noise: f64,
-) -> (Option<(FairSurface, Likely)>, Cleaned) {
-    let mut without = cleaned.clone();
-    let most = (CONTRADICTING * table.stations.len() as f64 * table.waterlines.len() as f64).max(1.0);
+) -> Result<Option<FieldStart>, JobError> {
+    let offsets = cleaned.clean.stations.iter().flat_map(|station| &station.half_breadths);
+    let most = (CONTRADICTING * offsets.filter(|cell| cell.value().is_some()).count() as f64).max(1.0);
+    let mut without: Option<(Cleaned, Modelled)> = None;
     loop {
-        let mut wrong = Vec::new();
-        let field = FairSurface::of_field(&without.clean, before, (noise, &job.rules), &mut wrong);
-        wrong.retain(|(cell, _)| !job.holds(table, *cell));
-        let count = without.excluded.len() - cleaned.excluded.len() + wrong.len();
-        if field.is_some() || wrong.is_empty() || !job.exclude_suspects || count as f64 > most {
-            return (field, without);
+        let (table, model) = without.as_ref().map_or((cleaned, modelled), |(table, model)| (table, model));
+        let field = TableField::new(&table.clean, &model.before, (noise, &job.rules));
+        if let Some(surface) = field.as_ref().and_then(TableField::surface) {
+            return Ok(Some((surface, without)));
         }
-        wrong.into_iter().for_each(|(cell, expected)| without.leave_out(cell, expected));
+        if !job.exclude_suspects {
+            return Ok(None);
+        }
+        let mut wrong = match released(&table.clean, &job.rules) {
+            Some(free) => TableField::new(&free, &model.before, (noise, &[])).map(|field| field.contradictions()),
+            None => field.map(|field| field.contradictions()),
+        }
+        .unwrap_or_default();
+        wrong.retain(|(cell, _)| !job.holds(&table.clean, *cell));
+        let count = table.excluded.len() - cleaned.excluded.len() + wrong.len();
+        if wrong.is_empty() || count as f64 > most {
+            return Ok(None);
+        }
+        let mut table = table.clone();
+        wrong.into_iter().for_each(|(cell, expected)| table.leave_out(cell, expected));
+        let model = Modelled::new(job, &table, found, noise, false)?;
+        without = Some((table, model));
     }
+}
+
+/// A table without its locks where it has these, or rules that lock lines of it: they keep an offset where it is and do not
+/// say that others are wrong.
+fn released(table: &OffsetTable, rules: &[Rule]) -> Option<OffsetTable> {
+    let mut free = table.clone();
+    let mut count = rules.len();
+    for cell in free.stations.iter_mut().flat_map(|station| &mut station.half_breadths) {
+        count += usize::from(std::mem::take(&mut cell.marks.locked));
+    }
+    (count > 0).then_some(free)
 }
 
 /// Whether a cell lies on a knuckle.
