@@ -18,6 +18,9 @@ use crate::spline::KnotVector;
 /// A line of the net departs by no more than this \[m\] from the line that is proposed.
 const STRAIGHT: f64 = 1e-6;
 
+/// Powers of ten of a weight that are tried before a net with a line counts as undetermined.
+const WEIGHTS: usize = 8;
+
 /// Which proposals are taken.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Accepted {
@@ -201,10 +204,18 @@ pub fn proposals(
     for (k, line) in lines.iter().enumerate() {
         let accepted = accepted.has(k + 1);
         let mut proposal = Proposal { number: k + 1, line: *line, rms: None, gain: None, accepted };
-        if let Some(hull) = with_line(hull, line)? {
-            let mut breaks = breaks.clone();
-            add_lines(&hull, std::iter::once(line), &mut breaks);
-            let with = of(&hull, Some(without[2]), &breaks)?;
+        if let Some(lined) = with_line(hull, line)? {
+            let mut broken = breaks.clone();
+            add_lines(&lined, std::iter::once(line), &mut broken);
+            // More knots may need more of the energy.
+            let (mut without, mut with) = (without, of(&lined, Some(without[2]), &broken));
+            let mut tried = 1;
+            while matches!(with, Err(FairError::Undetermined(_))) && tried < WEIGHTS {
+                without = of(hull, Some(10.0 * without[2]), breaks)?;
+                with = of(&lined, Some(without[2]), &broken);
+                tried += 1;
+            }
+            let with = with?;
             proposal.rms = Some([without[0], with[0]]);
             proposal.gain = Some((without[1] - with[1]) / (noise * noise));
         } else {
