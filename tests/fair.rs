@@ -460,6 +460,17 @@ fn errors_that_contradict_the_field_are_left_out() {
     }
 }
 
+/// 4.841 m at station 13 is written 4.814 m on the highest waterline. The knuckle that it looks like has no offsets beyond it.
+#[test]
+fn a_misprint_on_the_highest_waterline_is_left_out() {
+    let (_, outputs) = faired(&carried("tests/wigley_misread.csv"), &[]);
+    let excluded = outputs.outcome.changes.iter().filter(|change| change.suspect);
+    let excluded: Vec<_> = excluded.map(|change| (change.station, change.origin.waterline().unwrap())).collect();
+    assert_eq!(excluded, [(13, 13)]);
+    let found = outputs.outcome.after.half_breadth(58.909, 10.0).unwrap();
+    assert!((found - 4.841).abs() < 1e-3, "{found}");
+}
+
 #[test]
 #[ignore = "takes 11 s"]
 fn a_misprint_is_left_out_and_listed() {

@@ -18,9 +18,6 @@ use crate::spline::KnotVector;
 /// A line of the net departs by no more than this \[m\] from the line that is proposed.
 const STRAIGHT: f64 = 1e-6;
 
-/// Powers of ten of a weight that are tried before a net with a line counts as undetermined.
-const WEIGHTS: usize = 8;
-
 /// Which proposals are taken.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Accepted {
@@ -207,20 +204,15 @@ pub fn proposals(
         if let Some(lined) = with_line(hull, line)? {
             let mut broken = breaks.clone();
             add_lines(&lined, std::iter::once(line), &mut broken);
-            // More knots may need more of the energy.
-            let (mut without, mut with) = (without, of(&lined, Some(without[2]), &broken));
-            let mut tried = 1;
-            while matches!(with, Err(FairError::Undetermined(_))) && tried < WEIGHTS {
-                without = of(hull, Some(10.0 * without[2]), breaks)?;
-                with = of(&lined, Some(without[2]), &broken);
-                tried += 1;
-            }
-            let with = with?;
-            proposal.rms = Some([without[0], with[0]]);
-            proposal.gain = Some((without[1] - with[1]) / (noise * noise));
-        } else {
-            proposal.accepted = false;
+            let with = match of(&lined, Some(without[2]), &broken) {
+                // Beyond the line there are too few offsets.
+                Err(FairError::Undetermined(_)) => None,
+                with => Some(with?),
+            };
+            proposal.rms = with.map(|with| [without[0], with[0]]);
+            proposal.gain = with.map(|with| (without[1] - with[1]) / (noise * noise));
         }
+        proposal.accepted &= proposal.rms.is_some();
         list.push(proposal);
     }
     Ok(list)
