@@ -254,6 +254,7 @@ fn warnings_and_notes() {
     among(&notes(GOOD, ""), &["W306", "no profiles of stem and stern"]);
     among(&notes(GOOD, "[table]\nT = 1\n"), &["W307", "only 2 waterlines up to T 1 m"]);
     among(&notes("station,0,1,2\n0,1,2,3\n1,1,,3\n2,1,2,3\n", ""), &["W314", "station 1, waterline 1 m"]);
+    among(&notes("x [m],0.5,1,2\n0,1,2,0\n10,2,3,0\n", ""), &["W320", "above waterline 1 m, where it is up to 3 m"]);
     among(&notes("station,0.5,1\n0,1,2\n1,2,3\n", ""), &["W320", "taken as 1 m apart", "station_spacing"]);
     // A unit beside the word: distances where a hull of so many would be longer than it is broad, numbers else.
     let metric = |x: [u32; 3]| format!("station [mm],500,1000\n{},0,100\n{},2000,3000\n{},0,100\n", x[0], x[1], x[2]);

@@ -93,7 +93,8 @@ impl<'a> TableField<'a> {
             let points = station.outlines.iter().flatten().map(|point| point.marks);
             station.half_breadths.iter().map(|cell| cell.marks).chain(points).any(|marks| marks.knuckle)
         };
-        if table.stations.iter().any(breaks) {
+        // A field closes at a keel, and not at the top.
+        if table.stations.iter().any(breaks) || table.closes_above().is_some() {
             return None;
         }
         let points = match table.point_count() {

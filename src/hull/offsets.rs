@@ -159,6 +159,14 @@ impl OffsetTable {
         self.stations.iter().flat_map(|station| &station.outlines).map(Vec::len).sum()
     }
 
+    /// The highest waterline with breadth, where one above it has zeros alone: the hull closes between them.
+    #[must_use]
+    pub fn closes_above(&self) -> Option<usize> {
+        let given = |j: usize| self.stations.iter().filter_map(move |station| station.half_breadth(j));
+        let highest = (0..self.waterlines.len()).rev().find(|&j| given(j).any(|y| y > 0.0))?;
+        (highest + 1..self.waterlines.len()).any(|j| given(j).next().is_some()).then_some(highest)
+    }
+
     /// Lifts the offsets of a hull at the given stations, waterlines and buttocks.
     #[must_use]
     pub fn from_hull(hull: &Hull, stations: &[OffsetStation], waterlines: &[f64], buttocks: &[f64]) -> Self {

@@ -168,6 +168,16 @@ pub(super) fn whole(table: &OffsetTable, full: Option<bool>, problems: &mut Prob
             "Give rows 'stern' and 'stem' below the half-breadths, or [endings]",
         );
     }
+    if let Some(highest) = table.closes_above() {
+        let breadths = table.stations.iter().filter_map(|station| station.half_breadth(highest));
+        let message = format!(
+            "no breadth at any station above waterline {} m, where it is up to {} m: 0 is taken for a hull that closes there",
+            table.waterlines[highest],
+            breadths.fold(0.0, f64::max)
+        );
+        let remedy = "Leave the cells above the deck blank";
+        problems.warning("W320", FilePosition::FILE, message, remedy);
+    }
     if let Some(draught) = table.stated.draught {
         let below = table.waterlines.iter().filter(|&&z| z <= draught + SAME).count();
         if (1..6).contains(&below) {
