@@ -246,8 +246,8 @@ fn signs_beyond(bends: &[Bend], net: &[f64], dead: f64) -> Vec<i8> {
 /// Changes of sign, zeros left out.
 #[must_use]
 pub fn changes(signs: &[i8]) -> usize {
-    let told: Vec<i8> = signs.iter().copied().filter(|&sign| sign != 0).collect();
-    told.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    let nonzero: Vec<i8> = signs.iter().copied().filter(|&sign| sign != 0).collect();
+    nonzero.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// Limits that keep a line at the signs that `start` has there, and in the dead band where it is; a hundredth of the

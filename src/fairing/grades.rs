@@ -3,12 +3,12 @@
 //! The surface through the table, the field or net that follows it, its noise and the search for the weight do not depend
 //! on the grade: they are made once. All grades are done in the way that was found for the grade that was asked for.
 
+use super::changes::Watched;
 use super::job::{Holding, Job, JobError};
 use super::outcome::{Outcome, Turns};
 use super::run::{Progress, Run, Way};
 use super::start::Started;
 use super::strength::Fairness;
-use super::told::Watched;
 use crate::hull::OffsetTable;
 use crate::numeric::join;
 use crate::units::counted;

@@ -84,7 +84,7 @@ impl Guarded {
     }
 
     /// The least inflections of lines of which nothing is asked.
-    pub(super) fn told(lines: &[TableLine]) -> Self {
+    pub(super) fn with_least(lines: &[TableLine]) -> Self {
         let least = lines.iter().filter_map(|line| Some((line.line, line.least.as_ref()?)));
         Self {
             accepted: None,
@@ -179,7 +179,7 @@ impl Question<'_> {
             charges(answer, &limits, 0, &free.net)
         };
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
-        let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::told(lines) };
+        let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::with_least(lines) };
         // Twice: what is too dear is asked for less at first.
         for _ in 0..2 {
             self.choose(&mut asked, free, &mut guarded)?;

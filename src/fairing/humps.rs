@@ -103,7 +103,7 @@ impl Question<'_> {
     pub(super) fn run(&self, free: &Solved) -> Result<Guarded, ProblemError> {
         let inverse = self.likely.factor.inverse_band();
         let mut asked: Vec<Asked> = self.lines.iter().map(|line| self.line(line, &free.net, &inverse)).collect();
-        let mut found = Guarded::told(self.lines);
+        let mut found = Guarded::with_least(self.lines);
         let mut choices = 0;
         for _ in 0..ROUNDS {
             let signs: Vec<Option<Vec<i8>>> = asked.iter().map(|line| line.signs(self.price)).collect();

@@ -15,6 +15,7 @@
 //! contradiction charges most, one line a program (DTMB 5415: 40 programs, 85 s, 377 left).
 
 use super::bends::{Bend, Line, asked, lobes};
+use super::changes::Counted;
 use super::choice::{charges, trial, worth_it};
 use super::fair::{FairError, FairSettings, Faired};
 use super::least::TableLine;
@@ -22,7 +23,6 @@ use super::model::Limit;
 use super::outcome::total;
 use super::repeated::{Attempt, excess};
 use super::surface::FairSurface;
-use super::told::Counted;
 
 /// Most times that lobes are chosen, and most programs with those that were.
 const ROUNDS: usize = 6;

@@ -6,6 +6,7 @@ pub mod bends;
 pub mod breaks;
 mod carry;
 mod cells;
+mod changes;
 mod choice;
 mod compromise;
 pub mod constraint;
@@ -46,7 +47,6 @@ mod start;
 pub mod strength;
 pub mod surface;
 mod suspects;
-mod told;
 mod unbroken;
 mod ways;
 

@@ -1,4 +1,4 @@
-//! What a job comes to: every offset with its move, what is held, what bends, and what is to be told of it.
+//! What a job comes to: every offset with its move, what is held, what bends, and what is to be said of it.
 
 use super::constraint::Constraint;
 use super::fair::Faired;
@@ -165,8 +165,8 @@ pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) ->
         let [before, after] = own.iter().fold([0, 0], |sum, turns| [sum[0] + turns.before, sum[1] + turns.after]);
         (!own.is_empty()).then(|| format!("{} from {before} to {after}", counted(own.len(), wanted)))
     });
-    let told: Vec<String> = kinds.into_iter().flatten().collect();
-    (!told.is_empty()).then(|| {
+    let parts: Vec<String> = kinds.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| {
         let wider = match carried.filter(|factor| *factor > 1.0) {
             Some(factor) => {
                 format!("tolerances {factor:.2} times as wide, with which the targets are one smooth move,")
@@ -179,7 +179,7 @@ pub(super) fn more_often(lines: &[Turns], wished: bool, carried: Option<f64>) ->
             "their signs do not go together with those of the other lines, half-breadths up to B/2 and the tolerances"
                 .to_owned()
         };
-        format!("bend more often than before: {}; {why}", told.join(", "))
+        format!("bend more often than before: {}; {why}", parts.join(", "))
     })
 }
 

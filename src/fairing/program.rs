@@ -136,11 +136,11 @@ impl Program {
             let size = row.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
             let (row, offset) = reduced.row(row);
             // What known control values leave of a row is rounding.
-            let told = row.iter().any(|(_, value)| value.abs() >= LEFT * size);
+            let counts = row.iter().any(|(_, value)| value.abs() >= LEFT * size);
             // A target so far away that its row vanishes beside it still cannot be had.
             let beyond = matches!(name, RowName::Constraint(_)) && (lower - offset > 1e-6 || upper - offset < -1e-6);
-            let row = if told { row } else { row.into_iter().map(|(i, _)| (i, 0.0)).collect() };
-            if told || beyond {
+            let row = if counts { row } else { row.into_iter().map(|(i, _)| (i, 0.0)).collect() };
+            if counts || beyond {
                 wanted.push(Wanted { name, row, tolerance, limits: [lower - offset, upper - offset] });
             }
         };

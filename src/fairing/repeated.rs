@@ -2,12 +2,12 @@
 //! after than before: stations and waterlines, and buttocks and diagonals, which no offset tells of.
 
 use super::bends::Line;
+use super::changes::Counted;
 use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
 use super::job::JobError;
 use super::oblique::oblique_limits;
 use super::outcome::Turns;
 use super::surface::FairSurface;
-use super::told::Counted;
 use crate::hull::{Cut, Hull};
 use crate::qp::RepeatedSolver;
 
@@ -68,20 +68,20 @@ impl Repeated<'_> {
             if !now.is_optimal() {
                 break;
             }
-            let told: Vec<Line> = now.worse().filter_map(|turns| Line::of(turns.cut)).filter(&guarded).collect();
-            let (again, told): (Vec<Line>, Vec<Line>) =
-                told.into_iter().partition(|line| now.faired.kept().contains(line));
+            let worse: Vec<Line> = now.worse().filter_map(|turns| Line::of(turns.cut)).filter(&guarded).collect();
+            let (again, worse): (Vec<Line>, Vec<Line>) =
+                worse.into_iter().partition(|line| now.faired.kept().contains(line));
             let stricter: Vec<Line> = again.into_iter().filter(|line| !settings.strict.contains(line)).collect();
             let across = now.worse().map(|turns| turns.cut).filter(|cut| Line::of(*cut).is_none());
             let across: Vec<Cut> = across.filter(|cut| !oblique.contains(cut)).collect();
-            if told.is_empty() && across.is_empty() {
+            if worse.is_empty() && across.is_empty() {
                 // The start itself may break a limit of half-breadths with the signs it has: the last thing to ask for.
                 if stricter.is_empty() {
                     break;
                 }
                 settings.strict.extend(stricter);
             }
-            settings.kept = now.faired.kept().iter().copied().chain(told).collect();
+            settings.kept = now.faired.kept().iter().copied().chain(worse).collect();
             settings.released = now.faired.released().to_vec();
             for cut in across {
                 settings.oblique.extend(oblique_limits(&surface.hull, &surface.start, cut, seen));

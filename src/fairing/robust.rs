@@ -100,14 +100,14 @@ pub(super) fn gross_errors(smoother: &Smoother, smoothed: &Smoothed) -> Result<V
     let left_out = |smoothed: &Smoothed| -> Vec<f64> {
         smoothed.left_out().iter().zip(given).map(|(e, weight)| e * weight.sqrt()).collect()
     };
-    let told = |list: &[f64]| typical(list.iter().zip(given).filter(|(_, weight)| **weight > 0.0).map(|(e, _)| *e));
+    let size_of = |list: &[f64]| typical(list.iter().zip(given).filter(|(_, weight)| **weight > 0.0).map(|(e, _)| *e));
     let mut best: Option<(f64, f64)> = None;
     for power in (POWERS[0]..=POWERS[1]).rev() {
         let Ok(tried) = smoother.at(10f64.powi(power)) else { continue };
         if tried.edf > FREEDOM * count {
             break;
         }
-        let size = told(&left_out(&tried));
+        let size = size_of(&left_out(&tried));
         if best.is_none_or(|(least, _)| size < least) {
             best = Some((size, tried.lambda));
         }
@@ -119,7 +119,7 @@ pub(super) fn gross_errors(smoother: &Smoother, smoothed: &Smoothed) -> Result<V
         let weights: Vec<f64> = given.iter().zip(&factors).map(|(weight, factor)| weight * factor).collect();
         let tried = smoother.reweighted(&weights).at(lambda)?;
         let errors = left_out(&tried);
-        let scale = told(&errors).max(f64::MIN_POSITIVE);
+        let scale = size_of(&errors).max(f64::MIN_POSITIVE);
         let next: Vec<f64> = errors
             .iter()
             .map(|e| match (e / scale).abs() {

@@ -1,7 +1,8 @@
 //! A job on one net, from the model to the outcome: the program; tolerances that give way to noise; rules and targets
-//! that cannot be had and what is done instead; lines that bend more often and are done again; what is told of it all.
+//! that cannot be had and what is done instead; lines that bend more often and are done again; what the page says of it all.
 
 use super::bends::Line;
+use super::changes::{Counted, Watched, changes, normal_moves, predicted, written};
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
@@ -24,7 +25,6 @@ use super::start::Started;
 use super::strength::Fairness;
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::Suspects;
-use super::told::{Counted, Watched, changes, normal_moves, predicted, written};
 use crate::hull::{Hull, OffsetTable};
 use crate::numeric::join;
 use crate::qp::{RepeatedSolver, Status};
@@ -37,7 +37,7 @@ const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
-/// Part of its greatest by which the half-breadth may pass it between offsets and nobody is told.
+/// Part of its greatest by which the half-breadth may pass it between offsets without a note.
 const BREADTH: f64 = 1e-6;
 
 /// How far offsets without a resolution may be from the surface through them, over the breadth.
@@ -57,11 +57,11 @@ pub(super) struct Way<'t> {
     pub(super) another: f64,
     /// The noise of the table \[m\] where a net of its own follows it, and cannot have what is wished: it is all errors.
     pub(super) followed: Option<f64>,
-    /// Is told what is being done.
+    /// Hears what is being done.
     pub(super) progress: Progress<'t>,
 }
 
-/// Is told in a few words what is being done.
+/// Hears in a few words what is being done.
 pub type Progress<'t> = &'t (dyn Fn(&str) + Sync);
 
 impl Job {
@@ -117,7 +117,7 @@ pub(super) struct Run<'a> {
     settings: FairSettings,
     prepared: Prepared,
     solver: RepeatedSolver<'a>,
-    /// What is told first, and what the surface through the table had to assume, which is told last.
+    /// The first notes, and what the surface through the table had to assume, which comes last.
     notes: Vec<String>,
     assumed: Vec<String>,
 }
@@ -502,7 +502,7 @@ impl<'a> Run<'a> {
             let Some(line) = Line::of(turns.cut) else { return };
             let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
             // The proof speaks of the line as one curve; where it is counted in pieces it may have less.
-            let told = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
+            let bounded = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
             let beside = self.known.into_iter().flatten().find(|other| other.cut == turns.cut);
             turns.minimum = match known {
                 Some((_, count, proved)) => Some((*count, *proved)),
@@ -512,19 +512,19 @@ impl<'a> Run<'a> {
                 }
                 None => None,
             }
-            .map(told);
+            .map(bounded);
         };
         let half = lines.len() / 2;
         let (some, others) = lines.split_at_mut(half);
         join(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
     }
 
-    /// What is told, what bends more often before all else: whoever reads no further should know it.
+    /// The notes, what bends more often before all else: whoever reads no further should know it.
     fn tell(&mut self, faired: &Faired, held: &[Held], lines: &[Turns], beyond: [f64; 2]) {
         let (job, surface) = (self.job, &self.surface);
         let notes = &mut self.notes;
-        let mut when = |told: bool, note: &str| {
-            if told {
+        let mut when = |applies: bool, note: &str| {
+            if applies {
                 notes.push(note.to_owned());
             }
         };

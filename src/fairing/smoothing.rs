@@ -46,7 +46,7 @@ pub struct Smoother {
     pub reduced: Reduced,
     normal: SymmetricBand,
     /// A'WA of the readings alone, without the pull to the start.
-    told: SymmetricBand,
+    of_readings: SymmetricBand,
     energy: SymmetricBand,
     right: Vec<f64>,
     pull: Vec<f64>,
@@ -130,8 +130,8 @@ impl Smoothed {
 
     /// The noise of a typical reading of weight 1 \[m\].
     fn typical_noise(&self, weights: &[f64]) -> f64 {
-        let told = self.residuals.iter().zip(&self.leverages).zip(weights).filter(|(_, w)| **w > 0.0);
-        let mut sizes: Vec<f64> = told.map(|((r, h), w)| r.abs() * w.sqrt() / (1.0 - h).max(1e-6).sqrt()).collect();
+        let weighted = self.residuals.iter().zip(&self.leverages).zip(weights).filter(|(_, w)| **w > 0.0);
+        let mut sizes: Vec<f64> = weighted.map(|((r, h), w)| r.abs() * w.sqrt() / (1.0 - h).max(1e-6).sqrt()).collect();
         1.4826 * median(&mut sizes).unwrap_or(0.0)
     }
 
@@ -173,7 +173,7 @@ impl Smoother {
                 }
             }
         }
-        let told = normal.clone();
+        let of_readings = normal.clone();
         if let Some(start) = &reduced.start {
             let weight = PRIOR * normal.trace() / n.max(1) as f64;
             for (i, value) in start.iter().enumerate() {
@@ -190,7 +190,7 @@ impl Smoother {
         energy.add_band(unit, &reduced.energy);
         let pull = reduced.pull.iter().map(|e| unit * e).collect();
         let count = weights.iter().filter(|&&weight| weight > 0.0).count();
-        Self { reduced, normal, told, energy, right, pull, weights, unit, count }
+        Self { reduced, normal, of_readings, energy, right, pull, weights, unit, count }
     }
 
     /// The largest weight, in half powers of ten below `lambda`, whose residuals are `rms` at most \[m\]; the least that makes a
@@ -307,7 +307,7 @@ impl Smoother {
     /// readings.
     pub(super) fn trial(&self, lambda: f64) -> Option<Trial> {
         let (free, factor) = self.solved(lambda).ok()?;
-        let edf = self.told.trace_of_product(&factor.inverse_band());
+        let edf = self.of_readings.trace_of_product(&factor.inverse_band());
         Some(Trial::new(self.count, lambda, [self.rss(&free), edf], self.energy_of(&free)))
     }
 
@@ -320,8 +320,8 @@ impl Smoother {
     /// Weighted sum of squared residuals of free control values \[m^2\].
     fn rss(&self, free: &[f64]) -> f64 {
         let data = &self.reduced.data;
-        let told = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
-        told.map(|(k, weight)| weight * (data.dot(k, free) - self.reduced.values[k]).powi(2)).sum()
+        let weighted = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+        weighted.map(|(k, weight)| weight * (data.dot(k, free) - self.reduced.values[k]).powi(2)).sum()
     }
 
     /// The weight of least Mallows C_p = RSS + 2 sigma^2 edf (Mallows 1973) for readings of known noise \[m\], to half

@@ -1,5 +1,6 @@
 //! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
 
+use super::changes::Watched;
 use super::constraint::{Constraint, Rule, edged, edges};
 use super::fair::{FairError, MISFIT};
 use super::fielded::{Likely, TableField};
@@ -11,7 +12,6 @@ use super::robust::gross_errors;
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::{FairSurface, Origin, Place};
 use super::suspects::{Suspects, point_suspects, suspects};
-use super::told::Watched;
 use super::unbroken::{Along, Breaks};
 use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
 use crate::numeric::join;
@@ -308,9 +308,9 @@ impl Modelled {
             return Err(JobError::NoLine { number, count: list.len() });
         }
         // What somebody says is there comes after what is found, and takes its place where both are one line.
-        let told: Vec<ProposedLine> = job.lines.iter().filter(|line| !has_line(before, line)).copied().collect();
+        let named: Vec<ProposedLine> = job.lines.iter().filter(|line| !has_line(before, line)).copied().collect();
         let found = list.len();
-        list.extend(&told);
+        list.extend(&named);
         let mut breaks = declared_breaks(charted, before, &table.excluded);
         breaks.runs_on = job.runs_on;
         let mut proposals = proposals(clean, before, &list, noise, (&job.accepted, &breaks))?;
@@ -327,7 +327,7 @@ impl Modelled {
         let mut index = 0;
         proposals.retain(|proposal| {
             index += 1;
-            index > found || !told.iter().any(|line| same(line, &proposal.line))
+            index > found || !named.iter().any(|line| same(line, &proposal.line))
         });
         let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };

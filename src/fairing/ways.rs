@@ -287,8 +287,9 @@ impl Job {
         (way.progress)("again, without the flat of side that the table shows");
         let other = Self { keep_flat: false, ..self.clone() }.run_within(table, way)?;
         let proved = other.status == Status::Optimal && outcome.status != Status::Optimal;
-        let told = |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
-        let nearer = (other.missed() < outcome.missed() || told(&other) && !told(&outcome))
+        let has_cheapest =
+            |outcome: &Outcome| outcome.faired.diagnosis.as_ref().is_some_and(|d| d.cheapest().is_some());
+        let nearer = (other.missed() < outcome.missed() || has_cheapest(&other) && !has_cheapest(&outcome))
             && other.excess() <= outcome.excess();
         let fairer = other.excess() < outcome.excess() && other.counted() <= outcome.counted();
         let better = proved || other.status == outcome.status && (fairer || nearer);

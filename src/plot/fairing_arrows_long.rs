@@ -278,8 +278,8 @@ pub(super) fn compose(record: &FairRecord, sheet: Sheet) -> Result<Canvas, PlotE
     let y = paper[1] - 14.0;
     canvas.text([14.0, y], "AFT", &small);
     let middle = TextStyle::new(LETTERS, Anchor::Middle);
-    let told = if beyond { format!("    {BEYOND}") } else { String::new() };
-    canvas.text([0.5 * paper[0], y], &format!("{}{told}", station_words(record)), &middle);
+    let note = if beyond { format!("    {BEYOND}") } else { String::new() };
+    canvas.text([0.5 * paper[0], y], &format!("{}{note}", station_words(record)), &middle);
     canvas.text([paper[0] - 14.0, y], "FORWARD", &TextStyle::new(3.2, Anchor::End));
     let suspects = record.changes.iter().any(|change| change.suspect);
     key(&mut canvas, paper, ["outward, up", "inward, down"], suspects);

@@ -384,14 +384,15 @@ fn all_json(check: &Check, table: &OffsetTable) -> Vec<Value> {
 }
 
 fn readings_json(readings: &[Reading]) -> Vec<Value> {
-    let told = readings.iter().filter(|reading| reading.probability >= 1e-6);
-    told.map(|reading| {
-        json!({
-            "hypothesis": reading.hypothesis.as_str(), "written": reading.text, "value": reading.value,
-            "probability": reading.probability,
+    let likely = readings.iter().filter(|reading| reading.probability >= 1e-6);
+    likely
+        .map(|reading| {
+            json!({
+                "hypothesis": reading.hypothesis.as_str(), "written": reading.text, "value": reading.value,
+                "probability": reading.probability,
+            })
         })
-    })
-    .collect()
+        .collect()
 }
 
 fn point_json(table: &OffsetTable, suspect: &PointSuspect) -> Value {

@@ -37,8 +37,8 @@ impl FairOutputs {
     }
 
     fn warned(&self, code: &'static str, message: String, help: &str) -> String {
-        let told = problem(code, &self.table_file, message, help);
-        Diagnostic { severity: Severity::Warning, ..told }.to_string()
+        let warning = problem(code, &self.table_file, message, help);
+        Diagnostic { severity: Severity::Warning, ..warning }.to_string()
     }
 
     /// Single lines that bend more often than before.
@@ -203,8 +203,8 @@ impl Refused<'_> {
                     | Constraint::Volume { .. }
                     | Constraint::CentreOfVolume { .. }
             );
-            let told = cheapest == Some(reach);
-            ((off && cheapest.is_none() || always) && !told).then_some(())?;
+            let is_cheapest = cheapest == Some(reach);
+            ((off && cheapest.is_none() || always) && !is_cheapest).then_some(())?;
             let given = if reach.missing.is_some() { "with" } else { "without" };
             Some(format!(" {} {given} the other targets: {};", self.words(&held.constraint), self.reached(reach)?))
         });
@@ -269,7 +269,7 @@ mod tests {
 
     #[test]
     fn lengths_are_rounded_upward() {
-        let told = [17.038, 17.0, 263.81, 0.041_231, 4123.4, 99.999].map(rounded_up);
-        assert_eq!(told, ["17.04", "17.00", "263.9", "0.04124", "4124", "100.00"]);
+        let rounded = [17.038, 17.0, 263.81, 0.041_231, 4123.4, 99.999].map(rounded_up);
+        assert_eq!(rounded, ["17.04", "17.00", "263.9", "0.04124", "4124", "100.00"]);
     }
 }

@@ -271,7 +271,7 @@ fn some(drawn: Result<Vec<Svg>, PlotError>) -> Result<Vec<Svg>, PlotError> {
 fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a Value)) -> [Job<'a>; 3] {
     let job = |words: [&'static str; 3], draw: Draw<'a>| Job { words, draw, scaled: false };
     let name = result.hull.name().replace('_', " ");
-    let [heading, told] = ["INFLECTIONS", "NOTES OF THE RUN"].map(|title| format!("{title} – {name}"));
+    let [heading, notes_title] = ["INFLECTIONS", "NOTES OF THE RUN"].map(|title| format!("{title} – {name}"));
     [
         job(
             [
@@ -303,7 +303,7 @@ fn appendix<'a>(result: &'a JobResult, (record, fairing): (&'a FairRecord, &'a V
                 "Notes of the run",
                 "What was found in the table and assumed where it says nothing: read it before the numbers.",
             ],
-            Box::new(move |_| Ok(sheets(&told, "what was found and assumed", notes(result, fairing)))),
+            Box::new(move |_| Ok(sheets(&notes_title, "what was found and assumed", notes(result, fairing)))),
         ),
     ]
 }

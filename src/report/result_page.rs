@@ -492,17 +492,17 @@ pub(super) fn report_page(
                 constraints(fairing).html()
             ),
         ));
-        let told = inflections_words(record, fairing, false);
-        let told = format!("<p>{}{}.</p>\n", told[..1].to_uppercase(), &told[1..]);
-        sections.push(("inflections", "Inflections", format!("{told}{}", inflections(record, fairing, false).html())));
+        let words = inflections_words(record, fairing, false);
+        let words = format!("<p>{}{}.</p>\n", words[..1].to_uppercase(), &words[1..]);
+        sections.push(("inflections", "Inflections", format!("{words}{}", inflections(record, fairing, false).html())));
     }
     if let Some(design) = design {
         sections.push(("condition", "Design condition", condition(result, design, before).html()));
     }
     sections.push(("table", "Hydrostatic table", hydrostatics(curves, p.draught).html()));
-    let told = "<p>Metres; x forward of AP, z from the base line, y and distances from the centreplane, diagonals by their height there.</p>\n";
+    let words = "<p>Metres; x forward of AP, z from the base line, y and distances from the centreplane, diagonals by their height there.</p>\n";
     for (id, title, table) in offsets {
-        sections.push((id, title, format!("{told}{}", table.html())));
+        sections.push((id, title, format!("{words}{}", table.html())));
     }
     if let Some(table) = changes(result) {
         sections.push(("changes", "Every offset before and after", table.html()));

@@ -9,7 +9,7 @@
 //!
 //! y the curve through the others with the weight that cross-validation gives them, sigma their noise and q_k the
 //! variance of y(x_k) over sigma^2, is beyond what one curve in 50 exceeds by chance anywhere (Bonferroni) is a suspect.
-//! Of the corners as many are told as Schwarz' criterion (1978) asks for, where they leave less than half of the noise.
+//! Of the corners as many are reported as Schwarz' criterion (1978) asks for, where they leave less than half of the noise.
 //!
 //! Not suspected: points that are locked, doubtful or have a tolerance or a break of their own, and the ends.
 //! Of 200 waterlines of 21 points with normal noise 1.5 % have a suspect; one error of 5, 8 and 15 standard deviations is
@@ -59,7 +59,7 @@ pub struct CurveSuspect {
 pub struct CurveCorner {
     /// Its index.
     pub index: usize,
-    /// Noise without the corners, and with all that are told.
+    /// Noise without the corners, and with all that are reported.
     pub noise: [f64; 2],
 }
 
@@ -161,21 +161,21 @@ pub fn contradictions(points: &[CurvePoint], settings: &CurveSettings) -> Result
         let mut spike: Option<(Judged, usize)> = None;
         let mut corner: Option<(Judged, usize)> = None;
         let mut pair = f64::INFINITY;
-        let less = |told: Judged, best: Option<(Judged, usize)>| best.is_none_or(|(best, _)| told.sigma < best.sigma);
+        let less = |trial: Judged, best: Option<(Judged, usize)>| best.is_none_or(|(best, _)| trial.sigma < best.sigma);
         let broken = |places: &[usize]| {
             let mut broken = now.clone();
             places.iter().for_each(|&at| broken[at].knuckle = true);
             judged(&broken, order, None, rounding)
         };
         for &k in &candidates {
-            if let Some(told) = judged(&now, order, Some(k), rounding) {
-                let beyond = told.score.abs() > point_of_t(0.5 * LEVEL / count, told.freedom);
-                if beyond && told.missed.abs() > least && less(told, spike) {
-                    spike = Some((told, k));
+            if let Some(trial) = judged(&now, order, Some(k), rounding) {
+                let beyond = trial.score.abs() > point_of_t(0.5 * LEVEL / count, trial.freedom);
+                if beyond && trial.missed.abs() > least && less(trial, spike) {
+                    spike = Some((trial, k));
                 }
             }
-            if let Some(told) = broken(&[k]).filter(|told| less(*told, corner)) {
-                corner = Some((told, k));
+            if let Some(trial) = broken(&[k]).filter(|trial| less(*trial, corner)) {
+                corner = Some((trial, k));
             }
         }
         let room = (found.suspects.len() + 1) as f64 <= (MOST * count).max(1.0);
@@ -183,24 +183,24 @@ pub fn contradictions(points: &[CurvePoint], settings: &CurveSettings) -> Result
         if let Some((_, k)) = spike.filter(|_| corners.len() + 1 < MOST_CORNERS) {
             let others = candidates.iter().filter(|&&other| other != k);
             let least =
-                others.filter_map(|&other| broken(&[k, other])).map(|told| told.sigma).fold(f64::INFINITY, f64::min);
-            if corner.is_none_or(|(told, _)| least < told.sigma)
-                && let Some(told) = broken(&[k])
+                others.filter_map(|&other| broken(&[k, other])).map(|trial| trial.sigma).fold(f64::INFINITY, f64::min);
+            if corner.is_none_or(|(trial, _)| least < trial.sigma)
+                && let Some(trial) = broken(&[k])
             {
-                corner = Some((told, k));
+                corner = Some((trial, k));
                 pair = least;
             }
         }
-        let rival = corner.map_or(f64::INFINITY, |(told, _)| told.sigma).min(pair);
-        if let Some((told, k)) = spike.filter(|(told, _)| room && CORNER * told.sigma <= rival) {
+        let rival = corner.map_or(f64::INFINITY, |(trial, _)| trial.sigma).min(pair);
+        if let Some((trial, k)) = spike.filter(|(trial, _)| room && CORNER * trial.sigma <= rival) {
             let value = now[k].y.unwrap_or_default();
-            found.suspects.push(CurveSuspect { index: k, value, expected: value + told.missed, score: told.score });
+            found.suspects.push(CurveSuspect { index: k, value, expected: value + trial.missed, score: trial.score });
             now[k].y = None;
             if corners.is_empty() {
-                smooth = told;
+                smooth = trial;
             }
-        } else if let Some((told, k)) = corner.filter(|_| corners.len() < MOST_CORNERS) {
-            corners.push((k, told));
+        } else if let Some((trial, k)) = corner.filter(|_| corners.len() < MOST_CORNERS) {
+            corners.push((k, trial));
             now[k].knuckle = true;
         } else {
             break;
@@ -209,11 +209,11 @@ pub fn contradictions(points: &[CurvePoint], settings: &CurveSettings) -> Result
     found.suspects.sort_by_key(|suspect| suspect.index);
     let criterion = |m: usize| m.checked_sub(1).map_or(smooth, |m| corners[m].1).criterion(count, m);
     let best = (0..=corners.len()).min_by(|&a, &b| criterion(a).total_cmp(&criterion(b))).unwrap_or(0);
-    let left = corners[..best].last().map_or(smooth.sigma, |(_, told)| told.sigma);
+    let left = corners[..best].last().map_or(smooth.sigma, |(_, trial)| trial.sigma);
     // As many as are tried are no corners, but something else.
     if best < MOST_CORNERS && left < LEFT * smooth.sigma && smooth.sigma > least {
-        let told = corners[..best].iter().map(|&(index, _)| CurveCorner { index, noise: [smooth.sigma, left] });
-        found.corners = told.collect();
+        let reported = corners[..best].iter().map(|&(index, _)| CurveCorner { index, noise: [smooth.sigma, left] });
+        found.corners = reported.collect();
         found.corners.sort_by_key(|corner| corner.index);
     }
     Ok(found)

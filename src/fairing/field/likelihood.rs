@@ -183,10 +183,10 @@ impl Observed {
             let count = scaled.len();
             let gram =
                 DMatrix::from_fn(count, count, |i, j| 0.5 * (dot(&scaled[i], &left[j]) + dot(&scaled[j], &left[i])));
-            let told = DVector::from_fn(count, |i, _| dot(&scaled[i], &residuals));
+            let right = DVector::from_fn(count, |i, _| dot(&scaled[i], &residuals));
             let solved = SymmetricEigen::new(gram);
             let greatest = solved.eigenvalues.max();
-            let parts = solved.eigenvectors.tr_mul(&told);
+            let parts = solved.eigenvectors.tr_mul(&right);
             let sum: f64 = parts
                 .iter()
                 .zip(&solved.eigenvalues)

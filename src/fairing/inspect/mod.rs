@@ -10,7 +10,7 @@
 //! smooth pieces); places of inflections and extrema O(h^4) in the distance of these points. Where the half-breadth
 //! shrinks to nothing, as at the end stations of a table, the surface can turn within microns of the centreplane, which
 //! says nothing about fairness. A curve whose half-breadth is below B/1000 all along is therefore not counted, and of
-//! other curves the ends where it is are left out if they are longer than B/50; both are told. Limit: at the edge of a
+//! other curves the ends where it is are left out if they are longer than B/50; both are reported. Limit: at the edge of a
 //! narrow flat of bottom near the ends a fitted surface may turn within centimetres. Such turns count, and rule the
 //! sums of squared curvature; the reports name the curve that holds more than half of such a sum, with the place of its
 //! turn, and give the median over the curves beside the sum. Cost: one section and about 30 evaluations of third
@@ -41,7 +41,7 @@ pub(super) use contour::{motion_rates, swept};
 
 /// Deviation of the section curves from surface and plane \[m\], in lengths between perpendiculars.
 const SECTION: f64 = 1e-11;
-/// The same where inflections are counted and no curvature is told.
+/// The same where inflections are counted and no curvature is asked for.
 const COUNTED: f64 = 1e-8;
 
 /// Half-breadths below this are none, in moulded breadths.

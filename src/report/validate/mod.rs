@@ -306,8 +306,8 @@ fn compare(figure: &Figure, ours: Option<f64>, left_out: Option<f64>, table: &Of
     let quantity = Quantity::of(figure.known.key);
     // Between the base line and the first waterline above it a table says nothing.
     let lines = table.waterlines.iter().filter(|&&z| z <= figure.draught + 1e-9).count();
-    let told = lines >= 3 || table.waterlines.is_empty();
-    let verdict = match (ours, figure.tolerance.filter(|_| told)) {
+    let is_known = lines >= 3 || table.waterlines.is_empty();
+    let verdict = match (ours, figure.tolerance.filter(|_| is_known)) {
         (None, _) => Verdict::Missing,
         (Some(_), None) => Verdict::NotJudged,
         (Some(ours), Some(tolerance)) => {

@@ -111,7 +111,7 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
         writeln!(page, "* **{}**: {}: {table}{}{residual}{source}", case.name, case.title, chart(case.chart))?;
         for c in case.comparisons.iter().filter(|c| c.key == "DISPVOL") {
             if let Some(percent) = c.percent().filter(|percent| percent.abs() > GOAL) {
-                let told = match c.left_out {
+                let cause = match c.left_out {
                     Some(change) if 100.0 * change / c.theirs.abs() >= percent.abs() => {
                         "the table leaves more than that open"
                     }
@@ -122,7 +122,7 @@ fn write_page(page: &mut String, cases: &[Case]) -> std::fmt::Result {
                 };
                 writeln!(
                     page,
-                    "  * volume at {} m: {} %, beyond {GOAL} %; {told}",
+                    "  * volume at {} m: {} %, beyond {GOAL} %; {cause}",
                     fixed(c.draught, 3),
                     signed(percent, 2)
                 )?;
