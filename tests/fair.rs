@@ -445,14 +445,18 @@ fn sections_given_as_points_are_faired() {
     assert!(file(&outputs, "changes.csv").contains(",point 0.11,"));
 }
 
+/// Station and waterline of what is left out.
+fn excluded(outputs: &FairOutputs) -> Vec<(usize, usize)> {
+    let excluded = outputs.outcome.changes.iter().filter(|change| change.suspect);
+    excluded.map(|change| (change.station, change.origin.waterline().unwrap())).collect()
+}
+
 /// 9.31 m at station 8 and 8.54 m at station 5 are written 9.13 and 8.34 m, both on waterline 3: each hides the other from its
 /// neighbours.
 #[test]
 fn errors_that_contradict_the_field_are_left_out() {
     let (_, outputs) = faired(&carried("tests/frigate_misread.csv"), &[]);
-    let excluded = outputs.outcome.changes.iter().filter(|change| change.suspect);
-    let excluded: Vec<_> = excluded.map(|change| (change.station, change.origin.waterline().unwrap())).collect();
-    assert_eq!(excluded, [(5, 3), (8, 3)]);
+    assert_eq!(excluded(&outputs), [(5, 3), (8, 3)]);
     let expected = [8.54, 9.31];
     let half_breadth = |[x, z]: [f64; 2]| outputs.outcome.after.half_breadth(x, z).unwrap();
     for (place, expected) in [[32.297, 4.965], [50.806, 4.965]].into_iter().zip(expected) {
@@ -464,9 +468,7 @@ fn errors_that_contradict_the_field_are_left_out() {
 #[test]
 fn a_misprint_on_the_highest_waterline_is_left_out() {
     let (_, outputs) = faired(&carried("tests/wigley_misread.csv"), &[]);
-    let excluded = outputs.outcome.changes.iter().filter(|change| change.suspect);
-    let excluded: Vec<_> = excluded.map(|change| (change.station, change.origin.waterline().unwrap())).collect();
-    assert_eq!(excluded, [(13, 13)]);
+    assert_eq!(excluded(&outputs), [(13, 13)]);
     let found = outputs.outcome.after.half_breadth(58.909, 10.0).unwrap();
     assert!((found - 4.841).abs() < 1e-3, "{found}");
 }
