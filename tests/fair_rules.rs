@@ -213,7 +213,7 @@ fn contradictory_rules_are_infeasible_and_say_which() {
     // The waterline falls by metres there: no small slack would do; the stern is no hindrance at all.
     assert!(give[0] > 1e-3, "{give:?}");
     assert!(give[1].is_infinite(), "{give:?}");
-    // What cannot be had is given up; the rest is held, and the hull is fair.
+    // What cannot be met is given up; the rest is held, and the hull is fair.
     let given_up: Vec<bool> = outcome.rules.iter().map(|rule| rule.given_up).collect();
     assert_eq!(given_up, [true, false]);
     assert!(outcome.rules[0].violation > 1e-3 && outcome.rules[1].violation < 1e-9, "{:?}", outcome.rules);

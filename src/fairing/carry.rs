@@ -27,7 +27,7 @@ use crate::qp::Settings;
 const SMOOTH: f64 = 1e4;
 
 /// What the surface may move between the offsets within the tolerances, over what a program of the offsets may: one and a
-/// half tolerances. With two thirds of it a Series 60 with 300 mm and 5 % more displacement cannot be had so (309
+/// half tolerances. With two thirds of it a Series 60 with 300 mm and 5 % more displacement cannot be met so (309
 /// inflections for 241), with twice as much tolerances that are just wide enough are used up by swells between the
 /// offsets.
 const BETWEEN: f64 = 0.5;
@@ -38,9 +38,9 @@ const LIMIT_ROUNDS: usize = 10;
 /// What the targets ask for.
 #[derive(Default)]
 pub(super) struct Carry {
-    /// The readings with the move; none where no target is another than the table's, or the targets cannot be had.
+    /// The readings with the move; none where no target is another than the table's, or the targets cannot be met.
     pub(super) carried: Option<Carried>,
-    /// The factor on the tolerances from which they do not bend the move; none where the targets cannot be had at all.
+    /// The factor on the tolerances from which they do not bend the move; none where the targets cannot be met at all.
     pub(super) widening: Option<f64>,
     /// Each such target, and what the linear part of a program over the free values has more without it, where the
     /// move is that of the others.
@@ -78,7 +78,7 @@ impl Basic<'_> {
         Ok(carry)
     }
 
-    /// The move of the control values \[m\]; none where the targets cannot be had within the tolerances. And the factor
+    /// The move of the control values \[m\]; none where the targets cannot be met within the tolerances. And the factor
     /// on these from which they do not bend it.
     fn moved(&self, wishes: &Wishes, programs: &mut usize) -> Result<(Option<Vec<f64>>, Option<f64>), FairError> {
         let mut wishes = wishes.clone();

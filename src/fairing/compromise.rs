@@ -266,7 +266,7 @@ impl<'a> Basic<'a> {
         Ok((None, programs))
     }
 
-    /// The rules that cannot be had, taking one after the other what can; none where it is not them.
+    /// The rules that cannot be met, taking one after the other what can; none where it is not them.
     fn without_rules(&self, wishes: &Wishes) -> Result<(Option<Vec<usize>>, usize), FairError> {
         let mut rules: Vec<usize> = wishes.rules.iter().map(|(rule, _)| *rule).collect();
         rules.dedup();

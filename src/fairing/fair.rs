@@ -158,7 +158,7 @@ pub struct Faired {
     /// What one less was allowed to cost, in sigma^2.
     pub dearest: f64,
     /// The factor on the tolerances from which what targets other than the table's ask for is one smooth move over the
-    /// whole hull; none where there are no such targets, or they cannot be had at all.
+    /// whole hull; none where there are no such targets, or they cannot be met at all.
     pub carried: Option<f64>,
     /// Each such target by index, and what the linear part of the program has more when it is dropped.
     pub without: Vec<(usize, Vec<f64>)>,
@@ -297,7 +297,7 @@ impl Prepared {
 /// Fairs.
 ///
 /// # Errors
-/// [`FairError`] when the question is none; that wishes cannot be had is the status of the answer.
+/// [`FairError`] when the question is none; that wishes cannot be met is the status of the answer.
 pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
     let prepared = Prepared::new(surface, settings)?;
     fair_prepared(surface, settings, &prepared, &mut RepeatedSolver::new(&settings.solver))

@@ -30,8 +30,8 @@ pub struct Reach {
     /// Index of the constraint.
     pub constraint: usize,
     /// Least and greatest value of its quantity within the tolerances and the other constraints, in its unit; where
-    /// these cannot be had themselves, without them, and without the rules where these cannot be had either; none where the
-    /// tolerances alone cannot be had. Of what is not
+    /// these cannot be met themselves, without them, and without the rules where these cannot be met either; none where the
+    /// tolerances alone cannot be met. Of what is not
     /// linear: the values where its tangent at the start is least and greatest, which can be had, if the others are not
     /// its like.
     pub values: Option<[f64; 2]>,
@@ -266,7 +266,7 @@ pub fn diagnose(
 
 /// Two answers within every row but those of the constraints of which `gives` holds: where these miss their targets by
 /// the least sum of relative misses, and the one of least objective without those that miss; with the programs that it
-/// took. None where the other rows cannot be had. Every row is convex, so that the way from the one to the other keeps
+/// took. None where the other rows cannot be met. Every row is convex, so that the way from the one to the other keeps
 /// what both keep. `cut` as in [`diagnose`].
 ///
 /// # Errors

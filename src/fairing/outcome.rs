@@ -143,7 +143,7 @@ pub struct Outcome {
     /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of
     /// its noise.
     pub resolution: f64,
-    /// Whether targets that cannot be had within the tolerances gave way to the nearest that can.
+    /// Whether targets that cannot be met within the tolerances gave way to the nearest that can.
     pub nearest: bool,
     /// What the job came to in words, and then what the surface through the table had to assume.
     pub notes: Vec<String>,

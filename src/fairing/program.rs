@@ -137,7 +137,7 @@ impl Program {
             let (row, offset) = reduced.row(row);
             // What known control values leave of a row is rounding.
             let counts = row.iter().any(|(_, value)| value.abs() >= LEFT * size);
-            // A target so far away that its row vanishes beside it still cannot be had.
+            // A target so far away that its row vanishes beside it still cannot be met.
             let beyond = matches!(name, RowName::Constraint(_)) && (lower - offset > 1e-6 || upper - offset < -1e-6);
             let row = if counts { row } else { row.into_iter().map(|(i, _)| (i, 0.0)).collect() };
             if counts || beyond {

@@ -98,7 +98,7 @@ pub(super) struct Turned {
 /// Asks lines that bend more often than their rule allows for signs, `solve` being the program with rows for them; none
 /// where no line does. The last program may have no solution: then the wishes cannot all be had.
 ///
-/// The signs are those nearest to the net; where these cannot be had and the offsets of the line allow a curve with so
+/// The signs are those nearest to the net; where these cannot be met and the offsets of the line allow a curve with so
 /// few inflections, the signs of that curve.
 pub(super) fn turned(
     surface: &FairSurface,

@@ -1,5 +1,5 @@
 //! A job on one net, from the model to the outcome: the program; tolerances that give way to noise; rules and targets
-//! that cannot be had and what is done instead; lines that bend more often and are done again; what the page says of it all.
+//! that cannot be met and what is done instead; lines that bend more often and are done again; what the page says of it all.
 
 use super::bends::Line;
 use super::changes::{Counted, Watched, changes, normal_moves, predicted, written};
@@ -424,7 +424,7 @@ impl<'a> Run<'a> {
         Ok(faired)
     }
 
-    /// The nearest targets to those that cannot be had that leave a fair hull; the settings are theirs then.
+    /// The nearest targets to those that cannot be met that leave a fair hull; the settings are theirs then.
     fn nearest(
         &mut self,
         faired: &Faired,

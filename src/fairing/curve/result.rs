@@ -151,7 +151,7 @@ pub struct FairCurve {
     pub refused: Vec<(usize, f64)>,
     /// Factor on all tolerances; 1 unless infeasible.
     pub widening: f64,
-    /// Why area, centroid and slopes cannot be had, in numbers.
+    /// Why area, centroid and slopes cannot be met, in numbers.
     pub diagnosis: Option<Diagnosis>,
     /// Whether these gave way to the nearest that can be had.
     pub nearest: bool,

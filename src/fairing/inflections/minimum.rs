@@ -309,7 +309,7 @@ fn allowed(part: &Bands, space: &Space, windows: &[[usize; 2]]) -> Option<(Vec<[
         limits.push([low, high.max(low)]);
         start.push(wish.max(after));
     }
-    // Starts that were pushed beyond their limits by those before them cannot be had.
+    // Starts that were pushed beyond their limits by those before them are out of reach.
     start.iter().zip(&limits).all(|(at, limit)| *at <= limit[1]).then_some((limits, start))
 }
 
