@@ -52,6 +52,27 @@ fn a_higher_grade_is_fairer_and_moves_more() {
     }
 }
 
+/// Where the noise is that of rounding, the cost of an inflection rises while there are many over the least. The hull is
+/// nearer to the least, and whoever states the cost has what that leaves.
+#[test]
+fn the_cost_of_an_inflection_rises_where_a_table_has_no_errors_but_rounding() {
+    let left = |name: &str, price: Option<f64>| {
+        let table = table_of(carried(&format!("tests/truth/{name}.csv")));
+        let outcome = Job { price, ..Job::default() }.run(&table).unwrap();
+        let signs = outcome.changes_of_sign()[1];
+        (signs, far_above(signs, outcome.least_changes_of_sign().unwrap()))
+    };
+    assert_eq!([None, Some(12.0)].map(|price| left("08", price).1), [false, true]);
+    assert!(left("26", None).0 < left("26", Some(12.0)).0);
+    // An error of 40 mm leaves room for fewer inflections than the hull has.
+    assert_eq!(left("39", None), left("39", Some(12.0)));
+}
+
+/// Whether a hull has many changes of sign over the least.
+fn far_above(count: usize, least: usize) -> bool {
+    count as f64 > 1.5 * least as f64 + 2.0
+}
+
 #[test]
 fn the_command_takes_grades_by_number_and_name() {
     let folder = folder("strength");

@@ -84,7 +84,7 @@ pub(super) struct Arguments {
     /// Take knuckles and tangent lines that are proposed: "L1,L2", or "all"
     #[arg(long, value_name = "L1,L2|all")]
     accept_lines: Option<String>,
-    /// Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared [default: 12]
+    /// Greatest cost of removing an inflection: the sum of squared moves that it adds, over the noise squared [default: 12, and more while changes of sign are far above the least]
     #[arg(long, alias = "sign-price", value_name = "NUMBER", allow_hyphen_values = true)]
     inflection_cost: Option<String>,
     #[command(flatten)]

@@ -225,7 +225,7 @@ impl JobFile {
         job.weight = self.weight.flatten();
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
         job.keep_flat = self.keep_flat.unwrap_or(true);
-        job.price = self.price.unwrap_or(job.price);
+        job.price = self.price;
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;
         job.holding = self.holding(table, length);

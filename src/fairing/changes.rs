@@ -1,6 +1,6 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
-use super::inspect::{Counts, Planes, Traced};
+use super::inspect::{Counts, Planes, Traced, kind};
 use super::outcome::{Change, Predicted, Turns};
 use super::surface::{FairSurface, Origin};
 use crate::hull::{Cell, Cut, Entry, Hull, OffsetTable, default_waterlines};
@@ -142,6 +142,12 @@ pub(super) struct Counted {
 }
 
 impl Counted {
+    /// Changes of sign of curvature before, on stations and waterlines.
+    pub(super) fn changes_of_sign(&self) -> usize {
+        let of_table = self.before.iter().filter(|(cut, _)| matches!(kind(cut), "station" | "waterline"));
+        of_table.map(|(_, counts)| counts.inflections).sum()
+    }
+
     /// Inflections and monotone pieces before and after.
     pub(super) fn turns(&self, after: &Hull) -> Vec<Turns> {
         let new = Traced::new(after, &self.planes).counts(self.tolerance);

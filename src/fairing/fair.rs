@@ -75,6 +75,10 @@ pub struct FairSettings {
     pub signs: bool,
     /// Dearest of them, in units of sigma^2.
     pub price: f64,
+    /// Factor on the least inflections of a field above which their price rises; none: never.
+    pub near_least: Option<f64>,
+    /// Changes of sign of curvature of the surface through the table on stations and waterlines.
+    pub before: usize,
     /// Lines that must not bend more often than the start does.
     pub lines: Vec<Line>,
     /// Lines that keep the signs of the start in any case.
@@ -415,6 +419,9 @@ pub fn fair_prepared(
             lines,
             seen: settings.seen,
             price: settings.price,
+            near_least: settings.near_least,
+            before: settings.before,
+            least_tolerance: settings.least_tolerance,
             solver: &settings.solver,
         };
         let of_fit = || Question {
@@ -462,11 +469,10 @@ pub fn fair_prepared(
         settled,
         diagnosis,
         instead,
-        guarded,
         net: solved.net.clone(),
         sigma,
         errors: prepared.errors,
-        dearest: settings.price,
+        dearest: guarded.as_ref().map_or(settings.price, |guarded| guarded.dearest),
         lambda,
         trials: prepared.trials.clone(),
         chosen: prepared.smoothed.trial(smoother.count()),
@@ -476,6 +482,7 @@ pub fn fair_prepared(
         forms,
         patterns,
         price,
+        guarded,
         smoother: smoother.clone(),
         programs,
         iterations,

@@ -63,6 +63,8 @@ pub struct Guarded {
     pub most: Vec<(Line, usize)>,
     /// The least inflections of every line, and whether they are proved.
     pub least: Vec<(Line, usize, bool)>,
+    /// What one less was allowed to cost, in sigma^2.
+    pub dearest: f64,
     /// Programs solved.
     pub programs: usize,
     /// Iterations of the solver.
@@ -94,6 +96,7 @@ impl Guarded {
             prices: Vec::new(),
             most: Vec::new(),
             least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
+            dearest: 0.0,
             programs: 0,
             iterations: 0,
         }
@@ -179,7 +182,8 @@ impl Question<'_> {
             charges(answer, &limits, 0, &free.net)
         };
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
-        let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::with_least(lines) };
+        let mut guarded =
+            Guarded { released: self.released.to_vec(), dearest: self.price, ..Guarded::with_least(lines) };
         // Twice: what is too dear is asked for less at first.
         for _ in 0..2 {
             self.choose(&mut asked, free, &mut guarded)?;

@@ -2,7 +2,7 @@
 //! it is done: `ways` and `run`; what it comes to: [`super::outcome`].
 
 use super::constraint::{Constraint, Rule};
-use super::fair::{FairError, PRICE};
+use super::fair::FairError;
 use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;
 use super::strength::Fairness;
@@ -175,8 +175,8 @@ pub struct Job {
     pub exclude_suspects: bool,
     /// Whether extraneous changes of curvature are forbidden.
     pub signs: bool,
-    /// Dearest change of curvature that is forbidden, in squares of the noise.
-    pub price: f64,
+    /// Dearest change of curvature that is forbidden, in squares of the noise; none: by the grade and what it comes to.
+    pub price: Option<f64>,
     /// The solver.
     pub solver: Settings,
 }
@@ -209,7 +209,7 @@ impl Default for Job {
             field: true,
             exclude_suspects: true,
             signs: true,
-            price: PRICE,
+            price: None,
             solver: Settings { tolerance: 1e-11, ..Settings::default() },
         }
     }

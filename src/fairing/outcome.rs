@@ -8,16 +8,13 @@ use super::inspect::{PolygonSigns, kind};
 use super::proposals::Proposal;
 use super::record::moves;
 use super::repeated::excess;
-use super::strength::Fairness;
+use super::strength::{Fairness, far_above};
 use super::surface::Origin;
 use super::suspects::Suspect;
 use crate::hull::{Cut, Hull, OffsetTable};
 use crate::numeric::median;
 use crate::qp::Status;
 use crate::units::counted;
-
-/// Changes of sign over their least number, and beyond that, from which they are far above it.
-const FAR_ABOVE: [f64; 2] = [1.5, 2.0];
 
 /// A cell and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -269,7 +266,7 @@ impl Outcome {
     pub fn is_no_fairer(&self) -> bool {
         let [before, after] = self.changes_of_sign();
         let [pieces, pieces_after] = self.monotone_pieces();
-        let far = |least: usize| after as f64 > FAR_ABOVE[0] * least as f64 + FAR_ABOVE[1];
+        let far = |least: usize| Fairness::default().near_least().is_some_and(|factor| far_above(after, least, factor));
         let promised = self.fairness.promises_a_fairer_hull();
         let stalled = promised && after == before && self.least_changes_of_sign().is_some_and(far);
         !self.fairness.is_raw() && (after > before || pieces_after > pieces || stalled)

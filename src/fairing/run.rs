@@ -5,7 +5,7 @@ use super::bends::Line;
 use super::changes::{Counted, Watched, changes, normal_moves, predicted, written};
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
-use super::fair::{FairSettings, Faired, Prepared, fair_prepared};
+use super::fair::{FairSettings, Faired, PRICE, Prepared, fair_prepared};
 use super::flats::shown_flat;
 use super::grades::Taken;
 use super::held::{self, Held, HeldRule};
@@ -219,7 +219,9 @@ impl<'a> Run<'a> {
             least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
             tolerances: job.tolerances(&surface),
             signs: job.signs,
-            price: job.price,
+            price: job.price.unwrap_or(PRICE),
+            near_least: None,
+            before: 0,
             lines: stations.chain(waterlines).collect(),
             kept: Vec::new(),
             strict: Vec::new(),
@@ -284,19 +286,19 @@ impl<'a> Run<'a> {
         self.fairness = fairness;
         self.settings.strength = fairness.on_the_weight();
         self.settings.through = fairness.is_raw().then(|| (0.5 * self.quantum).max(LEAST_THROUGH * breadth));
-        self.settings.price = self.job.price * fairness.on_the_price();
+        self.settings.price = self.job.price.unwrap_or(PRICE) * fairness.on_the_price();
+        // Whoever names a price means it.
+        self.settings.near_least = fairness.near_least().filter(|_| self.job.price.is_none());
         self.prepared = self.prepared.graded(&mut self.surface, &self.settings)?;
         Ok(self)
     }
 
     /// All of it.
     pub(super) fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
-        let (lines_before, faired) = {
-            let Self { surface, settings, prepared, solver, .. } = &mut self;
-            let seen = settings.seen;
-            join(|| watched.counted(seen), || fair_prepared(surface, settings, prepared, solver))
-        };
-        let faired = faired?;
+        let lines_before = watched.counted(self.settings.seen);
+        self.settings.before = lines_before.changes_of_sign();
+        let Self { surface, settings, prepared, solver, .. } = &mut self;
+        let faired = fair_prepared(surface, settings, prepared, solver)?;
         (self.way.progress)(&format!(
             "{} solved: {}",
             counted(faired.programs, "program"),

@@ -17,6 +17,11 @@ use std::fmt;
 const WEIGHT: [f64; 2] = [0.6, 0.3];
 const PRICE: f64 = 0.6;
 
+/// Factors on the least inflections above which a hull has many, at the default and at the top of the dial, and how many
+/// more are none too many.
+const NEAR_LEAST: [f64; 2] = [1.5, 1.15];
+const MORE: f64 = 2.0;
+
 /// Grades with a name.
 const NAMED: [(&str, f64); 4] = [("raw", 0.0), ("light", 3.0), ("fair", 5.0), ("smooth", 8.0)];
 
@@ -64,6 +69,14 @@ impl Fairness {
         self >= Self::default()
     }
 
+    /// Factor on the proved least inflections above which a hull has many ([`far_above`]): 1.5 at the default to 1.15 at
+    /// the top; none below the default.
+    #[must_use]
+    pub fn near_least(self) -> Option<f64> {
+        let above = (self.0 - Self::default().0) / (10.0 - Self::default().0);
+        self.promises_a_fairer_hull().then_some(NEAR_LEAST[0] + above * (NEAR_LEAST[1] - NEAR_LEAST[0]))
+    }
+
     /// The weight over that of the default.
     #[must_use]
     pub fn on_the_weight(self) -> f64 {
@@ -76,6 +89,12 @@ impl Fairness {
     pub fn on_the_price(self) -> f64 {
         10f64.powf(PRICE * (self.0 - Self::default().0))
     }
+}
+
+/// Whether a hull with this many inflections has many for its proved least: more than `factor` times those, and 2.
+#[must_use]
+pub(super) fn far_above(count: usize, least: usize, factor: f64) -> bool {
+    count as f64 > factor * least as f64 + MORE
 }
 
 impl Default for Fairness {

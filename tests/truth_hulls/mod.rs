@@ -426,7 +426,7 @@ impl Case {
     pub(crate) fn job(&self, truth: &Truth) -> Job {
         let mut job = truth.job();
         if let (Some(price), Errors::Normal(sigma)) = (self.told, self.errors) {
-            (job.tolerance.table, job.price) = (Some(3.0 * sigma), price);
+            (job.tolerance.table, job.price) = (Some(3.0 * sigma), Some(price));
         }
         job
     }

@@ -43,7 +43,7 @@ fn everything_is_read() {
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(!job.exclude_suspects && !job.keep_flat && (job.price - 2.5).abs() < 1e-12);
+    assert!(!job.exclude_suspects && !job.keep_flat && job.price == Some(2.5));
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
