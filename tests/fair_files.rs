@@ -73,6 +73,10 @@ fn a_table_becomes_a_fair_hull_with_its_files() {
         assert!(line["variation"]["after"].as_f64().is_none_or(|variation| variation > 1.0 - 1e-9), "{line}");
     }
     assert!(["before", "after"].iter().all(|of| number(&fair["variation"][of]) > 1.0), "{fair}");
+    // The plan has rings where the counts have inflections.
+    let band = 1000.0 * number(&certificate["inflections"]["dead_band"]);
+    let plan = read_text(out.join("fairing-half-breadth-plan.svg"));
+    assert!(plan.contains(&format!("bends {band:.2} mm or more")), "{band}");
     assert!(number(&fair["gaussian_regions"]["after"]) >= 1.0, "{fair}");
     let kinds: Vec<&str> =
         certificate["constraints"].as_array().unwrap().iter().map(|c| c["kind"].as_str().unwrap()).collect();

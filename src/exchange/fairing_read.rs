@@ -80,6 +80,8 @@ pub struct FairingFile {
     pub energy: [f64; 2],
     /// Whether the first is that of the likeliest field.
     pub is_field: bool,
+    /// The departure of a bend from its chord that counts \[m\], where it is known.
+    pub resolution: Option<f64>,
     /// Noise of an offset \[m\].
     pub sigma: f64,
     /// What a search for the smoothing weight takes of it for errors \[m\].
@@ -116,6 +118,12 @@ struct Record {
     suspects: Vec<SuspectRecord>,
     #[serde(default)]
     constraints: Vec<HeldRecord>,
+    inflections: Option<BandRecord>,
+}
+
+#[derive(Deserialize)]
+struct BandRecord {
+    dead_band: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -278,6 +286,7 @@ pub fn read_fairing(text: &str) -> Result<FairingFile, FairingFileError> {
             notation,
             crossings,
         },
+        resolution: record.inflections.and_then(|inflections| inflections.dead_band),
         sigma: record.noise.sigma,
         errors: record.noise.errors.unwrap_or(record.noise.sigma),
         offsets: record.moves.offsets,

@@ -120,6 +120,8 @@ pub struct FairRecord {
     pub energy: [f64; 2],
     /// Whether the first is that of the likeliest field.
     pub is_field: bool,
+    /// The departure of a bend from its chord that counts \[m\].
+    pub resolution: f64,
     /// Noise level of an offset \[m\].
     pub sigma: f64,
     /// What a search for the smoothing weight takes of it for errors \[m\].
@@ -253,6 +255,7 @@ impl FairRecord {
             ),
             energy: outcome.energy,
             is_field: outcome.is_field,
+            resolution: outcome.resolution,
             sigma: faired.sigma,
             errors: faired.errors,
             readings: faired.smoother.count(),
@@ -268,12 +271,6 @@ impl FairRecord {
     #[must_use]
     pub fn moves(&self) -> (f64, f64, Option<&Change>) {
         moves(&self.changes)
-    }
-
-    /// The departure that counts as one of the table \[m\]: its rounding, or a tenth of its noise.
-    #[must_use]
-    pub fn tolerance(&self) -> f64 {
-        resolution(self.lines.quantum, self.sigma)
     }
 }
 

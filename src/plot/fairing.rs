@@ -433,7 +433,7 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
             "{}    {}    rings: inflections of bends {} or more off their chord{}",
             station_words(plan.record),
             plan.heights,
-            plan.record.lines.notation.small(plan.record.tolerance()),
+            plan.record.lines.notation.small(plan.record.resolution),
             if drawn.beyond { format!("    {BEYOND}") } else { String::new() }
         ),
         &words,

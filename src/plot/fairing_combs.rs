@@ -117,7 +117,7 @@ impl FairingCombs {
                 cuts.push(cut);
             }
         }
-        let of = |hull: &Hull| combs(hull, &cuts, TEETH, record.tolerance());
+        let of = |hull: &Hull| combs(hull, &cuts, TEETH, record.resolution);
         let (before, after) = join(|| of(&record.before), || of(&record.after));
         let scales = std::array::from_fn(|k| {
             let own = || before.iter().chain(&after).filter(move |comb| kind(&comb.cut) == k);

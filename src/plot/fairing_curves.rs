@@ -171,7 +171,7 @@ pub(super) fn compose(record: &FairRecord, combs: &FairingCombs, sheet: Sheet, a
     let y = paper[1] - 5.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut words = format!("{} {plural} of the table, by the RMS of their moves", lines.len());
-    let chord = record.lines.notation.small(record.tolerance());
+    let chord = record.lines.notation.small(record.resolution);
     words.push_str(&format!("    inflections: of bends {chord} or more off their chord"));
     let any = |which: fn(&Change) -> bool| lines.iter().flat_map(|line| &line.offsets).any(|change| which(change));
     if any(|change| change.locked && !change.suspect) {

@@ -13,7 +13,7 @@ use crate::exchange::{
     read_manifest_outputs,
 };
 use crate::fairing::outcome::Change;
-use crate::fairing::record::{Doubt, FairRecord};
+use crate::fairing::record::{Doubt, FairRecord, resolution};
 use crate::hull::Hull;
 use crate::hydrostatics::{Conventions, default_draughts};
 use crate::units::counted;
@@ -193,6 +193,7 @@ fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
                 doubts,
                 energy,
                 is_field,
+                resolution: band,
                 sigma,
                 errors,
                 readings,
@@ -217,7 +218,7 @@ fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
                 return Err(unread(&folder.join(file), &message));
             }
             let after = hull.clone();
-            let lambda = chosen.lambda;
+            let (lambda, quantum) = (chosen.lambda, lines.quantum);
             // An older certificate does not say: those that are no suspects.
             let readings = readings.unwrap_or_else(|| moved.iter().filter(|change| !change.suspect).count());
             let record = FairRecord {
@@ -231,6 +232,8 @@ fn of_folder(mut reader: ResultReader) -> Result<JobResult, Failure> {
                 changes: moved,
                 energy,
                 is_field,
+                // An older certificate does not say.
+                resolution: band.unwrap_or_else(|| resolution(quantum, sigma)),
                 sigma,
                 errors,
                 readings,

@@ -328,7 +328,7 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> 
 
 /// What the columns of [`inflections`] are.
 pub(super) fn inflections_words(record: &FairRecord, fairing: &Value, paper: bool) -> String {
-    let band = fairing["inflections"]["dead_band"].as_f64().unwrap_or_else(|| record.tolerance());
+    let band = record.resolution;
     let variation =
         if paper { "" } else { " variation: total variation of curvature over its range, empty on straight lines;" };
     format!(
@@ -462,7 +462,7 @@ fn scene(result: &JobResult) -> String {
     if let Some((record, _)) = &result.fairing {
         planes.stations = record.lines.stations.iter().map(|station| station.x).collect();
         planes.waterlines.clone_from(&record.lines.waterlines);
-        tolerance = record.tolerance();
+        tolerance = record.resolution;
         hulls.push(("before", &record.before));
     }
     scene_json(&hulls, &planes.cuts(), tolerance).to_string().replace("</", "<\\/")
