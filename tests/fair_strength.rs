@@ -57,7 +57,7 @@ fn a_higher_grade_is_fairer_and_moves_more() {
 #[test]
 fn the_cost_of_an_inflection_rises_where_a_table_has_no_errors_but_rounding() {
     let left = |name: &str, price: Option<f64>| {
-        let table = table_of(carried(&format!("tests/truth/{name}.csv")));
+        let table = table_of(carried(format!("tests/truth/{name}.csv")));
         let outcome = Job { price, ..Job::default() }.run(&table).unwrap();
         let signs = outcome.changes_of_sign()[1];
         (signs, far_above(signs, outcome.least_changes_of_sign().unwrap()))

@@ -69,7 +69,7 @@ impl Fairness {
         self >= Self::default()
     }
 
-    /// Factor on the proved least inflections above which a hull has many ([`far_above`]): 1.5 at the default to 1.15 at
+    /// Factor on the proved least inflections above which a hull has many, and 2 more: 1.5 at the default to 1.15 at
     /// the top; none below the default.
     #[must_use]
     pub fn near_least(self) -> Option<f64> {
