@@ -1,6 +1,6 @@
 //! What became of a table: every offset with its move, the table with the new offsets, inflections before and after.
 
-use super::inspect::{Counts, Planes, Traced, kind};
+use super::inspect::{Counts, Planes, Traced, is_of_table};
 use super::outcome::{Change, Predicted, Turns};
 use super::surface::{FairSurface, Origin};
 use crate::hull::{Cell, Cut, Entry, Hull, OffsetTable, default_waterlines};
@@ -144,7 +144,7 @@ pub(super) struct Counted {
 impl Counted {
     /// Changes of sign of curvature before, on stations and waterlines.
     pub(super) fn changes_of_sign(&self) -> usize {
-        let of_table = self.before.iter().filter(|(cut, _)| matches!(kind(cut), "station" | "waterline"));
+        let of_table = self.before.iter().filter(|(cut, _)| is_of_table(cut));
         of_table.map(|(_, counts)| counts.inflections).sum()
     }
 

@@ -301,7 +301,7 @@ impl Prepared {
 /// Fairs.
 ///
 /// # Errors
-/// [`FairError`] when the question is none; that wishes cannot be met is the status of the answer.
+/// [`FairError`] when the question is none; that targets and limits cannot be met is the status of the answer.
 pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
     let prepared = Prepared::new(surface, settings)?;
     fair_prepared(surface, settings, &prepared, &mut RepeatedSolver::new(&settings.solver))

@@ -85,8 +85,8 @@ impl Guarded {
         self.released.retain(|(other, _)| *other != line);
     }
 
-    /// The least inflections of lines of which nothing is asked.
-    pub(super) fn with_least(lines: &[TableLine]) -> Self {
+    /// The least inflections of lines of which nothing is asked, at the dearest price in sigma^2.
+    pub(super) fn with_least(lines: &[TableLine], dearest: f64) -> Self {
         let least = lines.iter().filter_map(|line| Some((line.line, line.least.as_ref()?)));
         Self {
             accepted: None,
@@ -96,7 +96,7 @@ impl Guarded {
             prices: Vec::new(),
             most: Vec::new(),
             least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
-            dearest: 0.0,
+            dearest,
             programs: 0,
             iterations: 0,
         }
@@ -182,8 +182,7 @@ impl Question<'_> {
             charges(answer, &limits, 0, &free.net)
         };
         let nothing = |asked: &[Asked]| asked.is_empty() && self.oblique.is_empty();
-        let mut guarded =
-            Guarded { released: self.released.to_vec(), dearest: self.price, ..Guarded::with_least(lines) };
+        let mut guarded = Guarded { released: self.released.to_vec(), ..Guarded::with_least(lines, self.price) };
         // Twice: what is too dear is asked for less at first.
         for _ in 0..2 {
             self.choose(&mut asked, free, &mut guarded)?;

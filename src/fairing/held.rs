@@ -74,7 +74,7 @@ pub struct HeldRule {
     /// Root of the mean square of what the readings move less when the rule is dropped \[m\]; not a number where that was
     /// not found or not asked for.
     pub price: f64,
-    /// Whether it was given up, because it cannot be met with the other wishes.
+    /// Whether it was given up, because it cannot be met with the others.
     pub given_up: bool,
 }
 

@@ -159,7 +159,7 @@ impl Question<'_> {
         free: &Solved,
         is_worth_it: &dyn Fn(usize) -> bool,
     ) -> Result<Guarded, ProblemError> {
-        let mut found = Guarded { dearest: price, ..Guarded::with_least(self.lines) };
+        let mut found = Guarded::with_least(self.lines, price);
         let mut choices = 0;
         for _ in 0..ROUNDS {
             let signs: Vec<Option<Vec<i8>>> = asked.iter().map(|line| line.signs(price)).collect();

@@ -4,7 +4,7 @@ use super::constraint::Constraint;
 use super::fair::Faired;
 use super::grades::Taken;
 use super::held::{Held, HeldRule};
-use super::inspect::{PolygonSigns, kind};
+use super::inspect::{PolygonSigns, is_of_table, kind};
 use super::proposals::Proposal;
 use super::record::moves;
 use super::repeated::excess;
@@ -234,7 +234,7 @@ impl Outcome {
 
     /// Stations and waterlines.
     fn table_lines(&self) -> impl Iterator<Item = &Turns> {
-        self.turns.iter().filter(|turns| matches!(kind(&turns.cut), "station" | "waterline"))
+        self.turns.iter().filter(|turns| is_of_table(&turns.cut))
     }
 
     /// Monotone pieces of curvature on all stations and waterlines before and after.

@@ -75,12 +75,12 @@ impl Job {
     /// Fairs a table.
     ///
     /// # Errors
-    /// [`JobError`] when the table makes no surface; wishes that cannot be met are the status of the outcome.
+    /// [`JobError`] when the table makes no surface; targets that cannot be met are the status of the outcome.
     pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
         self.run_telling(table, &|_| ())
     }
 
-    /// Fairs a table and tells what is being done, which takes seconds for a large table or wishes that cannot be met.
+    /// Fairs a table and tells what is being done, which takes seconds for a large table or targets that cannot be met.
     ///
     /// # Errors
     /// As [`Job::run`].

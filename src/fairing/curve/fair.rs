@@ -111,7 +111,7 @@ impl Job<'_> {
 /// Fairs a curve; points must have rising abscissae.
 ///
 /// # Errors
-/// [`CurveError`] when the question is none; that wishes cannot be met together is a status.
+/// [`CurveError`] when the question is none; that targets and limits cannot be met together is a status.
 pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<FairCurve, CurveError> {
     checked(points, settings)?;
     // Sites and values are judged before anything is built on them.

@@ -179,6 +179,12 @@ pub struct Inspection {
     pub surface: SurfaceMeasures,
 }
 
+/// Whether a plane is that of a station or a waterline, of which a table consists.
+#[must_use]
+pub(super) fn is_of_table(cut: &Cut) -> bool {
+    matches!(cut, Cut::Station { .. } | Cut::Waterline { .. })
+}
+
 /// The word for the kind of a plane.
 #[must_use]
 pub fn kind(cut: &Cut) -> &'static str {
