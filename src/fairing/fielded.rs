@@ -34,9 +34,6 @@ const BEYOND: f64 = 1.5;
 /// Part of the volume by which a field may differ from the surface through the table: more is open between its waterlines.
 const VOLUME: f64 = 0.02;
 
-/// Part of the noise of the table below which residuals say nothing of the fit.
-const LEAST_NOISE: f64 = 0.5;
-
 /// The largest residual over the typical one, and over the breadth, beyond both of which a field does not follow its table.
 const FARTHEST: [f64; 2] = [10.0, 3e-3];
 
@@ -80,7 +77,7 @@ pub(super) struct TableField<'a> {
     field: ChartedField,
     /// The greatest half-breadth of the table \[m\].
     greatest: f64,
-    /// What residuals are not worth a look below \[m\].
+    /// What residuals say nothing of the fit below: the noise of the table, or its last digit \[m\].
     least: f64,
 }
 
@@ -119,7 +116,7 @@ impl<'a> TableField<'a> {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let field = ChartedField::new(&seen, shape, quantum).ok()?;
-        let least = quantum.max(LEAST_NOISE * noise);
+        let least = quantum.max(noise);
         let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
         Some(Self { table, fitted, rules, marked, points, field, greatest, least })
     }
@@ -170,7 +167,8 @@ impl<'a> TableField<'a> {
         cells.iter().filter(stands_out).map(|(at, _, y)| (*at, *y)).collect()
     }
 
-    /// The field as a surface to be faired, with its likelihood; none where it does not follow the table.
+    /// The field as a surface to be faired, with its likelihood; none where it does not follow the table, or no longer does
+    /// once it keeps to its side of the centreplane.
     pub(super) fn surface(&self) -> Option<(FairSurface, Likely)> {
         if !self.follows() {
             return None;
@@ -220,6 +218,9 @@ impl<'a> TableField<'a> {
         found.breaks = field.lines.clone();
         found.keel = field.rocker.as_ref().map(|rocker| rocker.off);
         let field = found.within_limits(likely, rules)?;
+        if field.farthest_off() > self.farthest() {
+            return None;
+        }
         let own = Constraint::Displacement(0.0).value(&field.hull);
         let given = match &points {
             Some(points) => points.volume(field.hull.reference_height()),
@@ -230,6 +231,12 @@ impl<'a> TableField<'a> {
 }
 
 impl FairSurface {
+    /// The largest residual of an offset that counts, over the scale of its errors \[m\].
+    fn farthest_off(&self) -> f64 {
+        let off = |reading: &Reading| (value(&reading.row, &self.start) - reading.value).abs() * reading.weight.sqrt();
+        self.model.readings.iter().map(off).fold(0.0, f64::max)
+    }
+
     /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
     /// errors; none where that was not found.
     fn within_limits(mut self, likely: Likely, rules: &[Rule]) -> Option<Self> {

@@ -35,6 +35,9 @@ pub const KERNEL: usize = ORDER * (ORDER + 1) / 2;
 /// Lines of the net nearer to each other than this part of a span are one.
 pub const CLOSE: f64 = 0.4;
 
+/// Parts of its diagonal that are added to P where rounding makes it indefinite, the least that suffices.
+const ROUNDING: [f64; 3] = [1e-15, 1e-14, 1e-13];
+
 /// A symmetric matrix over the functions along v: of each one the entries with it and with those after it.
 pub(super) type Strip = Vec<[f64; DEGREE + 1]>;
 
@@ -280,12 +283,20 @@ impl Net {
 
     /// The logarithm of the product of the eigenvalues of P that are not zero over the determinant of the Gram matrix of the
     /// kernel's functions in control values: that of the determinant of P without the rows and columns of as many control
-    /// values as its kernel has functions, over the square of that of the functions there.
+    /// values as its kernel has functions, over the square of that of the functions there. Eigenvalues below the rounding of P,
+    /// of long waves on a net of many spans, are raised to it ([`ROUNDING`]).
     ///
     /// # Errors
-    /// [`SingularMatrix`] when rounding makes it indefinite.
+    /// [`SingularMatrix`] when rounding makes it indefinite by more.
     pub fn log_determinant(&self, energy: &SymmetricBand) -> Result<f64, SingularMatrix> {
-        Ok(energy.clone().without(&self.grounded).factor()?.log_determinant() - self.grounding)
+        let grounded = energy.clone().without(&self.grounded);
+        let raised = |part: f64| {
+            let mut raised = grounded.clone();
+            (0..raised.size()).for_each(|k| raised.add(k, k, part * grounded.get(k, k)));
+            raised.factor()
+        };
+        let known = ROUNDING.iter().fold(grounded.factor(), |known, &part| known.or_else(|_| raised(part)));
+        Ok(known?.log_determinant() - self.grounding)
     }
 
     /// The values of the functions along one direction that are not zero at a place, and the first of them.

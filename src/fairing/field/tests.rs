@@ -75,6 +75,22 @@ fn the_grounded_determinant_is_the_pseudo_determinant() {
     }
 }
 
+/// On a net of many spans the energies of long waves are below the rounding of those of short ones. The determinant is as
+/// smooth over log a there as on a coarser net.
+#[test]
+fn a_net_of_many_spans_has_a_determinant_in_every_metric() {
+    let determinant = |spans: [usize; 2], anisotropy: f64| {
+        let net = Net::uniform(spans, [16.0, 36.0]).unwrap();
+        net.log_determinant(&net.energy(Metric { anisotropy, mixed: 1.0 }, None)).unwrap()
+    };
+    for spans in [[17, 37], [26, 56]] {
+        let values: Vec<f64> = [1.0, 2.0, 4.0, 8.0].map(|a| determinant(spans, a)).to_vec();
+        let third = values[3] - 3.0 * values[2] + 3.0 * values[1] - values[0];
+        let range = values.iter().fold(f64::MIN, |m, v| m.max(*v)) - values.iter().fold(f64::MAX, |m, v| m.min(*v));
+        assert!(third.abs() < 0.1 * range, "{spans:?}: {values:?}");
+    }
+}
+
 /// The restricted likelihood of a net and a weight, and the same from the dense A, but for one constant of the table.
 fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
     let chart = chart();
