@@ -34,7 +34,7 @@ const BESIDE: f64 = 1e-6;
 /// What the net of a hull may miss its field by between its knots, over the noise and over the greatest half-breadth.
 const MISSED: [f64; 2] = [0.05, 5e-5];
 
-/// Rounds in which the side above the deck is kept from closing.
+/// Rounds in which the side above the deck is kept from closing, and a waterline made to close.
 const ROUNDS: usize = 4;
 
 /// Least noise over the length of the half-breadths where no digit says it.
@@ -103,28 +103,34 @@ impl ChartedField {
         let found = likeliest(&mut energies, &readings, &steepness, (rectangle, least))?;
         let Likeliest { power, mut readings, mut chosen, net, lines } = found;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
+        let offsets = readings.cells.len();
+        let weight = 10f64.powf(chosen.exponent);
+        let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
         for _ in 0..ROUNDS {
-            let count = readings.cells.len();
-            for bound in &seen.bounds {
-                let broken = field.at([field.chart.u(bound.x), field.chart.v(bound.z)]) < 0.5 * bound.y;
-                let same = |cell: &Cell| (cell.x - bound.x).abs() < 1e-9 && (cell.z - bound.z).abs() < 1e-9;
-                if broken && !readings.cells.iter().any(same) {
-                    readings.cells.push(*bound);
-                }
-            }
-            if readings.cells.len() == count {
+            let value = |cell: &Cell| field.at([field.chart.u(cell.x), field.chart.v(cell.z)]);
+            let is_new = |cell: &Cell| {
+                let same = |other: &Cell| (other.x - cell.x).abs() < 1e-9 && (other.z - cell.z).abs() < 1e-9;
+                !readings.cells.iter().any(same)
+            };
+            let open = seen.bounds.iter().filter(|bound| value(bound) < 0.5 * bound.y).copied();
+            let unclosed = closings(seen).filter(|cell| value(cell) > chosen.field.sigma && is_new(cell)).collect();
+            let observed = Observed::new(&net, &chosen.chart, &readings);
+            let closed = within_errors(unclosed, &net, &chosen, |rows| {
+                observed.errors(&rough, weight, &chosen.field, rows).map_err(|_| FieldError::Undetermined)
+            })?;
+            let added: Vec<Cell> = open.filter(is_new).chain(closed).collect();
+            if added.is_empty() {
                 break;
             }
-            let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
+            readings.cells.extend(added);
             let observed = Observed::new(&net, &chosen.chart, &readings);
-            chosen.field = smoothed(&observed, &rough, 10f64.powf(chosen.exponent), least)
-                .map_err(|_| FieldError::Undetermined)?;
+            chosen.field = smoothed(&observed, &rough, weight, least).map_err(|_| FieldError::Undetermined)?;
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
         let bent = bent(&net, &field, seen, most)?;
         let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
-        let inexact: Vec<Cell> = readings.cells.iter().filter(|cell| cell.scale > EXACT).copied().collect();
+        let inexact: Vec<Cell> = readings.cells[..offsets].iter().filter(|cell| cell.scale > EXACT).copied().collect();
         let residuals: Vec<f64> = inexact.iter().map(residual).collect();
         let height = |cell: &Cell| seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z));
         // Points of sections follow each other up them.
@@ -237,6 +243,33 @@ fn settle(seen: &mut Observations, energies: &mut Energies<'_>, chart: Chart, le
     let found = zeros.iter().zip(rows.iter().zip(&errors));
     let agreeing = found.filter(|(zero, (row, error))| agrees(zero, value(row), **error)).map(|(zero, _)| *zero);
     seen.settle(&agreeing.collect::<Vec<_>>());
+}
+
+/// Where waterlines have closed: at the station beyond their last offset.
+fn closings(seen: &Observations) -> impl Iterator<Item = Cell> + '_ {
+    let closing = |z: f64, end: End| match end {
+        End::Between(_, x) => Some(Cell { x, z, y: 0.0, scale: 1.0 }),
+        _ => None,
+    };
+    seen.waterlines.iter().flat_map(move |line| line.ends.into_iter().filter_map(move |end| closing(line.z, end)))
+}
+
+/// Of places at which a field has breadth those where this may be an error of the field ([`BREADTH`]).
+fn within_errors(
+    places: Vec<Cell>,
+    net: &Net,
+    chosen: &Chosen,
+    errors: impl Fn(&[Vec<(usize, f64)>]) -> Result<Vec<f64>, FieldError>,
+) -> Result<Vec<Cell>, FieldError> {
+    if places.is_empty() {
+        return Ok(places);
+    }
+    let (chart, field) = (&chosen.chart, &chosen.field);
+    let rows: Vec<_> = places.iter().map(|cell| net.row([chart.u(cell.x), chart.v(cell.z)])).collect();
+    let value = |row: &[(usize, f64)]| row.iter().map(|(j, b)| b * field.values[*j]).sum::<f64>();
+    let is_error = |(row, error): (&Vec<(usize, f64)>, f64)| value(row) <= BREADTH * error.hypot(field.sigma);
+    let kept: Vec<bool> = rows.iter().zip(errors(&rows)?).map(is_error).collect();
+    Ok(places.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(cell, _)| cell).collect())
 }
 
 /// The ends of a hull at any height.
