@@ -72,7 +72,8 @@ impl Truth {
 }
 
 /// The fair hull is nearer to the truth than the table is, it has fewer pieces of curvature and no more changes of sign: on
-/// all but one of 26 tables. That one ends plumb before its keel line meets the upper edge, and is taken to end there.
+/// all but one of 26 tables. That one ends plumb before its keel line meets the upper edge. The field that ends there would
+/// leave its offsets, and is refused.
 #[test]
 fn hulls_with_rocker_come_nearer_to_their_truth() {
     let mut worse = Vec::new();
@@ -82,7 +83,10 @@ fn hulls_with_rocker_come_nearer_to_their_truth() {
         for noise in [5e-4, 4e-3] {
             let table = truth.table(noise, random);
             let outcome = Job::default().run(&table).unwrap();
-            assert!(outcome.is_field, "{seed} {noise}");
+            if !outcome.is_field {
+                worse.push(format!("{seed} {noise}: no field"));
+                continue;
+            }
             let off = |value: fn(&Change) -> f64| {
                 // Just above the keel a section is level, and its half-breadth says nothing.
                 let changes = || outcome.changes.iter().filter(|c| c.z - truth.keel(c.x) > 0.02 * truth.depth);
