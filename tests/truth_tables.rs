@@ -218,3 +218,16 @@ fn a_draw_is_measured_beside_its_partners() {
         assert!(row.contains(part), "{row}");
     }
 }
+
+/// Where a hull ends beside its last offsets, or its keel rises above an empty waterline, no offset leaves its place by more
+/// than five standard deviations of its errors.
+#[test]
+fn ends_that_no_offset_shows_move_no_offset() {
+    for (number, noise) in [(55, 0.01), (136, 0.002), (155, 0.01)] {
+        let draw = Draw::new(1, number);
+        let outcome = Job::default().run(&draw.table).unwrap();
+        let moves = outcome.changes.iter().map(|change| (change.after - change.before).abs());
+        let furthest = moves.fold(0.0, f64::max);
+        assert!(furthest <= 5.0 * noise, "{}: {furthest}", draw.title());
+    }
+}
