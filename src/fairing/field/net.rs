@@ -284,7 +284,7 @@ impl Net {
     /// The logarithm of the product of the eigenvalues of P that are not zero over the determinant of the Gram matrix of the
     /// kernel's functions in control values: that of the determinant of P without the rows and columns of as many control
     /// values as its kernel has functions, over the square of that of the functions there. Eigenvalues below the rounding of P,
-    /// of long waves on a net of many spans, are raised to it ([`ROUNDING`]).
+    /// of long waves on a net of many spans, are raised to it.
     ///
     /// # Errors
     /// [`SingularMatrix`] when rounding makes it indefinite by more.
