@@ -1,5 +1,6 @@
 //! Sections that are given as points.
 
+use loftsman::exchange::read_table;
 use loftsman::fairing::job::Job;
 use loftsman::hull::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
 use rand::rngs::StdRng;
@@ -103,4 +104,28 @@ fn locked_points_stay() {
     let locked: Vec<_> = outcome.changes.iter().filter(|change| change.locked).collect();
     assert_eq!(locked.len(), 1);
     assert!((locked[0].after - locked[0].before).abs() < 1e-9, "{:?}", locked[0]);
+}
+
+/// A skeg under level bottoms, and no knuckle is declared: parts of its lines that nobody sees are straight to rounding.
+#[test]
+fn a_skeg_under_a_level_bottom_is_faired() {
+    let sections = [
+        [0.2, 1.4, 1.4, 1.6],
+        [0.3, 1.2, 1.5, 1.8],
+        [0.45, 1.0, 1.6, 2.0],
+        [0.6, 0.95, 1.65, 2.05],
+        [0.75, 1.0, 1.5, 1.9],
+        [0.9, 1.15, 1.0, 1.4],
+        [1.1, 1.4, 0.4, 0.7],
+    ];
+    let mut text = "# units = ft\nstation,x,curve,z,y,flag\n".to_owned();
+    for (k, [keel, bottom, chine, sheer]) in sections.into_iter().enumerate() {
+        for [z, y] in [[keel, 0.0], [keel, 0.04], [bottom, 0.04], [bottom, chine], [2.3, sheer]] {
+            text += &format!("{k},{},SEC,{z},{y},\n", 2 * k);
+        }
+    }
+    let table = read_table("skeg.csv", text.as_bytes()).unwrap().table;
+    let outcome = Job::default().run(&table).unwrap();
+    let furthest = outcome.changes.iter().map(|change| (change.after - change.before).abs()).fold(0.0, f64::max);
+    assert!(furthest < 1e-3, "{furthest}");
 }

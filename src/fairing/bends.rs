@@ -275,8 +275,8 @@ pub fn kept(bends: &[Bend], start: &[f64], seen: f64, strictly: bool) -> Vec<Lim
         Some(scaled.limit(match signs[k] {
             // A long part can be seen to bend however little it does.
             0 => [most.min(-room), most.max(room)],
-            1.. => [-room, if small[k] { most } else { f64::INFINITY }],
-            _ => [if small[k] { most } else { f64::NEG_INFINITY }, room],
+            1.. => [-room, if small[k] { most.max(-room) } else { f64::INFINITY }],
+            _ => [if small[k] { most.min(room) } else { f64::NEG_INFINITY }, room],
         }))
     };
     rooms(bends, &signs, start, [ROOM * none, seen]).into_iter().enumerate().filter_map(limit).collect()
