@@ -105,7 +105,6 @@ impl ChartedField {
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         let offsets = readings.cells.len();
         let weight = 10f64.powf(chosen.exponent);
-        let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
         for _ in 0..ROUNDS {
             let value = |cell: &Cell| field.at([field.chart.u(cell.x), field.chart.v(cell.z)]);
             let is_new = |cell: &Cell| {
@@ -114,15 +113,13 @@ impl ChartedField {
             };
             let open = seen.bounds.iter().filter(|bound| value(bound) < 0.5 * bound.y).copied();
             let unclosed = closings(seen).filter(|cell| value(cell) > chosen.field.sigma && is_new(cell)).collect();
-            let observed = Observed::new(&net, &chosen.chart, &readings);
-            let closed = within_errors(unclosed, &net, &chosen, |rows| {
-                observed.errors(&rough, weight, &chosen.field, rows).map_err(|_| FieldError::Undetermined)
-            })?;
+            let closed = within_errors(unclosed, &net, &chosen, &readings)?;
             let added: Vec<Cell> = open.filter(is_new).chain(closed).collect();
             if added.is_empty() {
                 break;
             }
             readings.cells.extend(added);
+            let rough = chosen.roughness(&net).map_err(|_| FieldError::Undetermined)?;
             let observed = Observed::new(&net, &chosen.chart, &readings);
             chosen.field = smoothed(&observed, &rough, weight, least).map_err(|_| FieldError::Undetermined)?;
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
@@ -255,20 +252,19 @@ fn closings(seen: &Observations) -> impl Iterator<Item = Cell> + '_ {
 }
 
 /// Of places at which a field has breadth those where this may be an error of the field ([`BREADTH`]).
-fn within_errors(
-    places: Vec<Cell>,
-    net: &Net,
-    chosen: &Chosen,
-    errors: impl Fn(&[Vec<(usize, f64)>]) -> Result<Vec<f64>, FieldError>,
-) -> Result<Vec<Cell>, FieldError> {
+fn within_errors(places: Vec<Cell>, net: &Net, chosen: &Chosen, readings: &Readings) -> Result<Vec<Cell>, FieldError> {
     if places.is_empty() {
         return Ok(places);
     }
     let (chart, field) = (&chosen.chart, &chosen.field);
     let rows: Vec<_> = places.iter().map(|cell| net.row([chart.u(cell.x), chart.v(cell.z)])).collect();
     let value = |row: &[(usize, f64)]| row.iter().map(|(j, b)| b * field.values[*j]).sum::<f64>();
+    let rough = chosen.roughness(net).map_err(|_| FieldError::Undetermined)?;
+    let observed = Observed::new(net, chart, readings);
+    let weight = 10f64.powf(chosen.exponent);
+    let errors = observed.errors(&rough, weight, field, &rows).map_err(|_| FieldError::Undetermined)?;
     let is_error = |(row, error): (&Vec<(usize, f64)>, f64)| value(row) <= BREADTH * error.hypot(field.sigma);
-    let kept: Vec<bool> = rows.iter().zip(errors(&rows)?).map(is_error).collect();
+    let kept: Vec<bool> = rows.iter().zip(errors).map(is_error).collect();
     Ok(places.into_iter().zip(kept).filter(|(_, kept)| *kept).map(|(cell, _)| cell).collect())
 }
 
