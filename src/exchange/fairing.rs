@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::number::{cell, json_number, line};
 use crate::fairing::bends::Line;
 use crate::fairing::constraint::Constraint;
+use crate::fairing::field::line_errors::{FoundErrors, ShiftedLine};
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::fairing::program::RowName;
@@ -228,6 +229,15 @@ fn place(table: &OffsetTable, change: &Change) -> Value {
     })
 }
 
+/// Lines that are shifted and turned, with what each is too wide by at the two ends \[m\].
+fn of_lines(found: &FoundErrors) -> Value {
+    let line = |line: &ShiftedLine| json!({ "at": number(line.at), "too_wide": line.ends.map(number) });
+    json!({
+        "course": found.course.as_str(), "rms": number(found.rms), "gain": number(found.gain),
+        "ends": found.extent.map(number), "lines": found.lines.iter().map(line).collect::<Vec<_>>(),
+    })
+}
+
 /// The lines of a table, which `changes.csv` names.
 fn lines(table: &OffsetTable, outcome: &Outcome) -> Value {
     let lines = TableLines::new(table, outcome);
@@ -359,7 +369,11 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "largest": number(rounding.largest), "rms": number(rounding.root_mean_square),
             "volume": json_number(rounding.volume), "volume_share": json_number(rounding.volume_share),
         },
-        "noise": { "sigma": number(faired.sigma), "errors": number(faired.errors) },
+        "noise": {
+            "sigma": number(faired.sigma), "errors": number(faired.errors),
+            // What offsets of a line are too wide by together [m]; null where lines have no errors in common.
+            "of_lines": outcome.line_errors.as_ref().map(of_lines),
+        },
         "smoothing": {
             "fairness": number(outcome.fairness.grade()), "weight": number(faired.lambda), "readings": faired.smoother.count(), "edf": number(faired.edf), "rms": number(faired.chosen.rms),
             "energy": number(faired.chosen.energy), "trials": trials,

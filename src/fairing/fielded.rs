@@ -216,6 +216,7 @@ impl<'a> TableField<'a> {
         let model = Model { energy, readings, known, straight: None, start: None, carried: None, stationary };
         let mut found = FairSurface::over(hull, model, places, start);
         found.breaks = field.lines.clone();
+        found.line_errors = field.line_errors.clone();
         found.keel = field.rocker.as_ref().map(|rocker| rocker.off);
         let field = found.within_limits(likely, rules)?;
         if field.farthest_off() > self.farthest() {
@@ -231,10 +232,18 @@ impl<'a> TableField<'a> {
 }
 
 impl FairSurface {
-    /// The largest residual of an offset that counts, over the scale of its errors \[m\].
+    /// The largest residual of an offset that counts, without what its line is off by, over the scale of its errors \[m\].
     fn farthest_off(&self) -> f64 {
-        let off = |reading: &Reading| (value(&reading.row, &self.start) - reading.value).abs() * reading.weight.sqrt();
-        self.model.readings.iter().map(off).fold(0.0, f64::max)
+        let residual = |(reading, place): (&Reading, &Place)| {
+            let off = value(&reading.row, &self.start) + self.error_of_line(place) - reading.value;
+            off.abs() * reading.weight.sqrt()
+        };
+        self.model.readings.iter().zip(&self.places).map(residual).fold(0.0, f64::max)
+    }
+
+    /// What the line of an offset is too wide by \[m\].
+    fn error_of_line(&self, place: &Place) -> f64 {
+        self.line_errors.as_ref().map_or(0.0, |found| found.at([place.x, place.z]))
     }
 
     /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
@@ -413,12 +422,15 @@ impl Prepared {
     }
 }
 
-/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) over the readings at most
-/// [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more.
+/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w (r - b)^2 / (1 - h) + w b^2 over the
+/// readings at most [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more. Here b is what
+/// the line of an offset is off by in common.
 pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
     let square = |k: usize| {
         let weight = surface.model.readings[k].weight;
-        weight * smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM)
+        let of_line = surface.error_of_line(&surface.places[k]);
+        let own = (smoothed.residuals[k] + of_line).powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM);
+        weight * (own + of_line * of_line)
     };
     let stations: BTreeSet<usize> = surface.places.iter().map(|place| place.origin.station()).collect();
     let height = surface.hull.top() - surface.hull.bottom();

@@ -2,6 +2,7 @@
 
 use super::constraint::Constraint;
 use super::fair::Faired;
+use super::field::line_errors::FoundErrors;
 use super::grades::Taken;
 use super::held::{Held, HeldRule};
 use super::inspect::{PolygonSigns, is_of_table, kind};
@@ -137,6 +138,8 @@ pub struct Outcome {
     pub is_field: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
     pub table_noise: f64,
+    /// What offsets of a line were found to be off by together.
+    pub line_errors: Option<FoundErrors>,
     /// Departure of a bend from its chord below which it is no inflection \[m\]: the rounding of the table, or a tenth of
     /// its noise.
     pub resolution: f64,

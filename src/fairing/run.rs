@@ -383,6 +383,7 @@ impl<'a> Run<'a> {
             own: surface.own,
             is_field: surface.is_field,
             table_noise: self.found.noise,
+            line_errors: surface.line_errors,
             notes: self.notes,
             taken: Taken::new(self.job, self.way, self.started),
         })

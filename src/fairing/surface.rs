@@ -19,6 +19,7 @@ use super::adapt::Spared;
 use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
+use super::field::line_errors::FoundErrors;
 use super::field::observed::DOUBTFUL;
 use super::metric::{self, Metric};
 use super::model::{Model, Reading, value};
@@ -146,6 +147,8 @@ pub struct FairSurface {
     pub is_field: bool,
     /// Waterlines across which a field breaks.
     pub breaks: Vec<FoundBreak>,
+    /// What the lines of the table are off by in common, of a field.
+    pub line_errors: Option<FoundErrors>,
     /// How far the keel line of a field with rocker is from its heights at most \[m\].
     pub keel: Option<f64>,
 }
@@ -368,6 +371,7 @@ impl FairSurface {
             own: smooth,
             is_field: false,
             breaks: Vec::new(),
+            line_errors: None,
             keel: None,
             simple: over.is_none_or(|(over, _)| over.simple),
             hull,
@@ -389,6 +393,7 @@ impl FairSurface {
             courses: [Course::default(), Course::default()],
             is_field: true,
             breaks: Vec::new(),
+            line_errors: None,
             keel: None,
         }
     }
@@ -412,7 +417,7 @@ impl FairSurface {
         self.model.readings.iter().zip(&self.places).filter_map(named).collect()
     }
 
-    /// What a field does with the keel line, in words, and across which waterlines its curvature breaks.
+    /// What a field does with the keel line, in words, across which waterlines its curvature breaks, and what lines are off by.
     pub(super) fn lines_of_field(&self) -> impl Iterator<Item = String> {
         let keel = self.keel.map(|off| {
             format!(
@@ -427,7 +432,8 @@ impl FairSurface {
                 line.z, line.gain
             )
         });
-        keel.into_iter().chain(breaks)
+        let line_errors = self.line_errors.iter().map(FoundErrors::words);
+        keel.into_iter().chain(breaks).chain(line_errors)
     }
 
     /// Straight parts that were found and are kept straight, in words.

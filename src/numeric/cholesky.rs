@@ -333,6 +333,9 @@ impl BandedCholesky {
     pub fn solve_blocks(&self, b: &mut [f64]) {
         let (n, block) = (self.panels.size, self.panels.block);
         let count = b.len() / n.max(1);
+        if count == 0 {
+            return;
+        }
         let mut known = Vec::new();
         for p in 0..self.panels.count() {
             let (panel, columns, first) = (self.panels.panel(p), self.panels.columns(p), p * block);

@@ -6,6 +6,7 @@ use super::fair_page::{dimensions, limit, millimetres, not_stated, place, tolera
 use super::page::WIDTH;
 use crate::exchange::status_word;
 use crate::fairing::constraint::Constraint;
+use crate::fairing::field::line_errors::FoundErrors;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::qp::Status;
 use crate::units::counted;
@@ -59,9 +60,12 @@ pub fn fair_summary(job: &FairJob, outputs: &FairOutputs, folder: &str) -> Strin
     let outcome = &outputs.outcome;
     let name: String = job.table.name.chars().take(WIDTH - 20).collect();
     let noise = millimetres(outcome.faired.sigma);
+    let of_lines =
+        |found: &FoundErrors| format!(", and {} mm of whole {}s", millimetres(found.rms), found.course.as_str());
+    let of_lines = outcome.line_errors.as_ref().map(of_lines).unwrap_or_default();
     let lines = [
         headline(outcome),
-        format!("{name}: {}; fairness {}; noise {noise} mm", status_word(outcome.status), outcome.fairness),
+        format!("{name}: {}; fairness {}; noise {noise} mm{of_lines}", status_word(outcome.status), outcome.fairness),
         dimensions(outcome).trim_end().to_owned(),
         stated(job, outcome),
         offsets(job, outcome),

@@ -10,14 +10,19 @@
 //! log det+ A = r log w + log det+ P - log det(M'M + wP) + log det X'X,   r = rank P
 //! ```
 //!
+//! Where lines have errors in common, L b with variance q sigma^2 of each of the m numbers b ([`super::line_errors`]), they
+//! are unknowns beside c. |S^-1 (y - M c - L b)|^2 + w c'Pc + b'b / q takes the place of y'Ay, and the determinant of both
+//! together times q^m that of M'M + wP. The band of c is factored first; its Schur complement has order m.
+//!
 //! A field may pass the centreplane between the offsets of a station by three times sigma, or by [`ALLOWED`] of the breadth.
 //! With d more than that it is as unlikely as with a reading there that is off by d: it costs (d / sigma)^2.
 
 use super::chart::Chart;
 use super::density::Density;
+use super::line_errors::LineErrors;
 use super::net::{DEGREE, KERNEL, Metric, Net, ORDER};
-use crate::numeric::{SingularMatrix, SymmetricBand};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use crate::numeric::{BandedCholesky, SingularMatrix, SymmetricBand};
+use nalgebra::{Cholesky, DMatrix, DMatrixView, DMatrixViewMut, DVector, Dyn, SymmetricEigen};
 use std::collections::HashMap;
 
 /// Candidates of a score test whose systems are solved at once.
@@ -43,6 +48,8 @@ pub struct Readings {
     pub cells: Vec<Cell>,
     /// Places (x, z) \[m\] between the offsets at which the hull is: half-breadths are not negative there.
     pub inside: Vec<[f64; 2]>,
+    /// What the errors of lines have in common; none: they are independent.
+    pub common: Option<LineErrors>,
 }
 
 /// What a field may pass the centreplane by: in standard deviations of the errors, and over the breadth. Beside its ends it
@@ -60,15 +67,29 @@ struct Row {
     stride: usize,
     along: [f64; DEGREE + 1],
     up: [f64; DEGREE + 1],
+    /// The number of the shift of its line, with the factors of this and of the turn, which follows it.
+    line: Option<(usize, [f64; 2])>,
 }
 
 impl Row {
-    fn of(&self, net: &[f64]) -> f64 {
+    /// Value of a net without what its line has in common.
+    fn of_net(&self, net: &[f64]) -> f64 {
         let line = |r: usize| -> f64 {
             let from = self.first + r * self.stride;
             self.up.iter().zip(&net[from..=from + DEGREE]).map(|(b, c)| b * c).sum()
         };
         (0..=DEGREE).map(|r| self.along[r] * line(r)).sum()
+    }
+
+    fn of(&self, net: &[f64], common: &[f64]) -> f64 {
+        self.of_net(net) + self.line.map_or(0.0, |(k, [shift, turn])| shift * common[k] + turn * common[k + 1])
+    }
+
+    fn add_common(&self, common: &mut [f64], value: f64) {
+        if let Some((k, [shift, turn])) = self.line {
+            common[k] += shift * value;
+            common[k + 1] += turn * value;
+        }
     }
 
     fn add_to(&self, net: &mut [f64], value: f64) {
@@ -106,6 +127,12 @@ pub(super) fn places(chart: &Chart, places: impl Iterator<Item = [f64; 2]>) -> V
 pub struct Observed {
     normal: SymmetricBand,
     right: Vec<f64>,
+    /// M'L, column by column, and L'L + I / q, of what lines have in common.
+    borders: Vec<f64>,
+    corner: DMatrix<f64>,
+    right_of_lines: Vec<f64>,
+    /// q.
+    ratio: f64,
     /// Rows over the scales.
     rows: Vec<Row>,
     /// Rows of places at which the hull is.
@@ -121,7 +148,7 @@ pub struct Observed {
 impl Observed {
     /// Rows of the readings.
     #[must_use]
-    pub fn new(net: &Net, chart: &Chart, Readings { cells, inside }: &Readings) -> Self {
+    pub fn new(net: &Net, chart: &Chart, Readings { cells, inside, common }: &Readings) -> Self {
         let places = places(chart, cells.iter().map(|cell| [cell.x, cell.z]));
         let mut normal = SymmetricBand::zeros(net.size(), net.energy_width());
         let mut right = vec![0.0; net.size()];
@@ -129,13 +156,32 @@ impl Observed {
         let stride = net.shape()[1];
         let row = |[u, v]: [f64; 2], scale: f64| {
             let ((i, along), (j, up)) = (net.basis(0, u), net.basis(1, v));
-            Row { first: i * stride + j, stride, along, up: up.map(|b| b / scale) }
+            Row { first: i * stride + j, stride, along, up: up.map(|b| b / scale), line: None }
         };
-        for (cell, &at) in cells.iter().zip(&places) {
-            let row = row(at, cell.scale);
+        let size = net.size();
+        let count = 2 * common.as_ref().map_or(0, |common| common.lines.len());
+        let mut of_line = vec![None; cells.len()];
+        for (k, line) in common.iter().flat_map(|common| &common.lines).enumerate() {
+            for &(cell, along) in &line.cells {
+                of_line[cell] = Some((2 * k, [1.0, along].map(|factor| factor / cells[cell].scale)));
+            }
+        }
+        let ratio = common.as_ref().map_or(1.0, |common| common.ratio);
+        let mut borders = vec![0.0; size * count];
+        let mut corner = DMatrix::from_diagonal_element(count, count, 1.0 / ratio);
+        let mut right_of_lines = vec![0.0; count];
+        for ((cell, &at), &line) in cells.iter().zip(&places).zip(&of_line) {
+            let row = Row { line, ..row(at, cell.scale) };
             let value = cell.y / cell.scale;
             row.add_to(&mut right, value);
+            row.add_common(&mut right_of_lines, value);
             row.add_square(&mut normal);
+            if let Some((k, factors)) = line {
+                for (a, factor) in factors.into_iter().enumerate() {
+                    row.add_to(&mut borders[(k + a) * size..(k + a + 1) * size], factor);
+                    factors.into_iter().enumerate().for_each(|(b, other)| corner[(k + a, k + b)] += factor * other);
+                }
+            }
             rows.push(row);
             values.push(value);
         }
@@ -156,7 +202,19 @@ impl Observed {
         let kernel = SymmetricEigen::new(gram).eigenvalues.iter().map(|e| e.max(1e-300).ln()).sum();
         let scales = cells.iter().map(|cell| cell.scale).collect();
         let breadth = 2.0 * cells.iter().map(|cell| cell.y).fold(0.0, f64::max);
-        Self { normal, right, rows, inside, values, scales, breadth, kernel }
+        Self { normal, right, borders, corner, right_of_lines, ratio, rows, inside, values, scales, breadth, kernel }
+    }
+
+    /// The system of a weight.
+    fn system(&self, roughness: &Roughness, weight: f64) -> Result<System<'_>, SingularMatrix> {
+        let band = self.normal.factor_plus(weight, &roughness.matrix)?;
+        let (size, count) = (self.right.len(), self.right_of_lines.len());
+        let mut solved = self.borders.clone();
+        band.solve_blocks(&mut solved);
+        let borders = DMatrixView::from_slice(&self.borders, size, count);
+        let gram = &self.corner - borders.tr_mul(&DMatrixView::from_slice(&solved, size, count));
+        let gram = Cholesky::new(gram).ok_or(SingularMatrix { column: size })?;
+        Ok(System { size, band, borders: &self.borders, solved, gram, log_ratio: count as f64 * self.ratio.ln() })
     }
 
     /// How likely it is that functions, given by their values at the cells, are in the errors of the field of a weight: the
@@ -175,9 +233,9 @@ impl Observed {
         field: &Smoothed,
         candidates: &[Vec<Vec<f64>>],
     ) -> Result<Vec<f64>, SingularMatrix> {
-        let factor = self.normal.factor_plus(weight, &roughness.matrix)?;
+        let system = self.system(roughness, weight)?;
         let residuals: Vec<f64> =
-            self.rows.iter().zip(&self.values).map(|(row, y)| y - row.of(&field.values)).collect();
+            self.rows.iter().zip(&self.values).map(|(row, y)| y - row.of(&field.values, &field.common)).collect();
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let score = |scaled: &[Vec<f64>], left: &[Vec<f64>]| {
             let count = scaled.len();
@@ -195,21 +253,26 @@ impl Observed {
                 .sum();
             sum / (field.sigma * field.sigma)
         };
-        let size = self.right.len();
+        let (size, count) = (self.right.len(), self.right_of_lines.len());
         let scores = candidates.chunks(AT_ONCE).flat_map(|candidates| {
             let scaled: Vec<Vec<Vec<f64>>> = candidates
                 .iter()
                 .map(|functions| functions.iter().map(|f| f.iter().zip(&self.scales).map(|(f, s)| f / s).collect()))
                 .map(Iterator::collect)
                 .collect();
-            let mut solved = vec![0.0; size * scaled.iter().map(Vec::len).sum::<usize>()];
-            for (net, f) in solved.chunks_exact_mut(size).zip(scaled.iter().flatten()) {
-                self.rows.iter().zip(f).for_each(|(row, value)| row.add_to(net, *value));
+            let columns = scaled.iter().map(Vec::len).sum::<usize>();
+            let (mut nets, mut common) = (vec![0.0; size * columns], vec![0.0; count * columns]);
+            for (k, f) in scaled.iter().flatten().enumerate() {
+                let (net, common) = (&mut nets[k * size..][..size], &mut common[k * count..][..count]);
+                for (row, value) in self.rows.iter().zip(f) {
+                    row.add_to(net, *value);
+                    row.add_common(common, *value);
+                }
             }
-            factor.solve_blocks(&mut solved);
-            let mut solved = solved.chunks_exact(size);
-            let left = |f: &Vec<f64>, net: &[f64]| -> Vec<f64> {
-                self.rows.iter().zip(f).map(|(row, value)| value - row.of(net)).collect()
+            system.solve(&mut nets, &mut common);
+            let mut solved = (0..columns).map(|k| (&nets[k * size..][..size], &common[k * count..][..count]));
+            let left = |f: &Vec<f64>, (net, common): (&[f64], &[f64])| -> Vec<f64> {
+                self.rows.iter().zip(f).map(|(row, value)| value - row.of(net, common)).collect()
             };
             let score = |functions: &Vec<Vec<f64>>| {
                 let left: Vec<Vec<f64>> = functions.iter().zip(&mut solved).map(|(f, net)| left(f, net)).collect();
@@ -231,11 +294,11 @@ impl Observed {
         field: &Smoothed,
         rows: &[Vec<(usize, f64)>],
     ) -> Result<Vec<f64>, SingularMatrix> {
-        let factor = self.normal.factor_plus(weight, &roughness.matrix)?;
+        let system = self.system(roughness, weight)?;
         let error = |row: &Vec<(usize, f64)>| {
             let mut solved = vec![0.0; self.right.len()];
             row.iter().for_each(|&(j, b)| solved[j] = b);
-            factor.solve(&mut solved);
+            system.solve(&mut solved, &mut vec![0.0; self.right_of_lines.len()]);
             field.sigma * row.iter().map(|(j, b)| b * solved[*j]).sum::<f64>().max(0.0).sqrt()
         };
         Ok(rows.iter().map(error).collect())
@@ -248,11 +311,60 @@ impl Observed {
     }
 }
 
+/// The factor of the unknowns of a field and of what lines have in common.
+///
+/// ```text
+/// | M'M + wP   M'L        |
+/// | L'M        L'L + I/q  |
+/// ```
+struct System<'a> {
+    band: BandedCholesky,
+    borders: &'a [f64],
+    /// Number of unknowns of the field.
+    size: usize,
+    /// (M'M + wP)^-1 M'L.
+    solved: Vec<f64>,
+    /// Of the Schur complement of M'M + wP.
+    gram: Cholesky<f64, Dyn>,
+    log_ratio: f64,
+}
+
+impl System<'_> {
+    /// Solves for columns of right-hand sides, those of nets and those of what lines have in common.
+    fn solve(&self, nets: &mut [f64], common: &mut [f64]) {
+        let count = self.gram.l_dirty().nrows();
+        if nets.len() == self.size {
+            self.band.solve(nets);
+        } else {
+            self.band.solve_blocks(nets);
+        }
+        if count == 0 {
+            return;
+        }
+        let columns = common.len() / count;
+        let size = self.size;
+        let view = |values| DMatrixView::from_slice(values, size, count);
+        let (borders, solved): (DMatrixView<'_, f64>, DMatrixView<'_, f64>) = (view(self.borders), view(&self.solved));
+        let mut nets = DMatrixViewMut::from_slice(nets, size, columns);
+        let mut common = DMatrixViewMut::from_slice(common, count, columns);
+        common -= borders.tr_mul(&nets);
+        self.gram.solve_mut(&mut common);
+        nets -= solved * &common;
+    }
+
+    /// log det, with that of the variances of what lines have in common.
+    fn log_determinant(&self) -> f64 {
+        self.band.log_determinant() + self.gram.ln_determinant() + self.log_ratio
+    }
+}
+
 /// A fair field.
 #[derive(Debug, Clone)]
 pub struct Smoothed {
     /// Control values \[m\].
     pub values: Vec<f64>,
+    /// Shift and turn of each line that has errors in common \[m\].
+    pub common: Vec<f64>,
     /// Standard deviation of the errors of the offsets, normal to the hull \[m\].
     pub sigma: f64,
     /// -2 log l, but for a constant.
@@ -291,18 +403,20 @@ pub fn smoothed(
     weight: f64,
     least: f64,
 ) -> Result<Smoothed, SingularMatrix> {
-    let factor = observed.normal.factor_plus(weight, &roughness.matrix)?;
-    let mut values = observed.right.clone();
-    factor.solve(&mut values);
-    let misfit: f64 = observed.rows.iter().zip(&observed.values).map(|(row, y)| (row.of(&values) - y).powi(2)).sum();
-    let left = misfit + weight * roughness.matrix.quadratic(&values).max(0.0);
+    let system = observed.system(roughness, weight)?;
+    let (mut values, mut common) = (observed.right.clone(), observed.right_of_lines.clone());
+    system.solve(&mut values, &mut common);
+    let off = |(row, y): (&Row, &f64)| (row.of(&values, &common) - y).powi(2);
+    let misfit: f64 = observed.rows.iter().zip(&observed.values).map(off).sum();
+    let of_lines = common.iter().map(|value| value * value).sum::<f64>() / observed.ratio;
+    let left = misfit + weight * roughness.matrix.quadratic(&values).max(0.0) + of_lines;
     let freedom = observed.count().saturating_sub(KERNEL).max(1) as f64;
     let variance = (left / freedom).max(least * least);
     let rank = (values.len() - KERNEL) as f64;
-    let determinant = rank * weight.ln() + roughness.log_determinant - factor.log_determinant() + observed.kernel;
+    let determinant = rank * weight.ln() + roughness.log_determinant - system.log_determinant() + observed.kernel;
     let allowed = (ALLOWED[0] * variance.sqrt()).max(ALLOWED[1] * observed.breadth);
-    let deepest = |gap: &[Row]| gap.iter().map(|row| row.of(&values) + allowed).fold(0.0, f64::min).powi(2);
+    let deepest = |gap: &[Row]| gap.iter().map(|row| row.of_net(&values) + allowed).fold(0.0, f64::min).powi(2);
     let below = observed.inside.chunks(PLACES).map(deepest).sum::<f64>() / variance;
     let cost = freedom * variance.ln() + left / variance - determinant + below;
-    Ok(Smoothed { values, sigma: variance.sqrt(), cost, below })
+    Ok(Smoothed { values, common, sigma: variance.sqrt(), cost, below })
 }

@@ -14,6 +14,8 @@
 //! Where a hull bends unlike from place to place, the energy has a density that follows it ([`density`]). [`likeliest`] has
 //! the order in which all of this is chosen.
 //!
+//! Waterlines, or stations, may have errors in common: each is shifted and turned ([`line_errors`]).
+//!
 //! On a keel with rocker the field is one over heights relative to it ([`rocker`]).
 //!
 //! [`observed`] has what the table says of ends, [`region`] where the hull is within its rectangle. [`bent`] is the net
@@ -31,6 +33,7 @@ pub mod choice;
 pub mod density;
 pub mod likeliest;
 pub mod likelihood;
+pub mod line_errors;
 pub mod net;
 pub mod observed;
 pub mod points;

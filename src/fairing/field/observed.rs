@@ -202,7 +202,7 @@ impl Observations {
     /// What a field is made from.
     #[must_use]
     pub fn of_field(&self) -> Readings {
-        Readings { cells: self.readings.clone(), inside: self.inside.clone() }
+        Readings { cells: self.readings.clone(), inside: self.inside.clone(), common: None }
     }
 
     /// Notes where the hull is at a station, `bottom` being its keel where that is on the base.

@@ -1,11 +1,13 @@
 //! From the offsets of a table to the chart of its hull.
 
+use super::super::lines::LineCourse;
 use super::bent::Bent;
 use super::breaks::FoundBreak;
 use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies};
 use super::likeliest::{Likeliest, likeliest};
 use super::likelihood::{Cell, Observed, Readings, Smoothed, smoothed};
+use super::line_errors::{FoundErrors, LineErrors, SAME};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
 use super::observed::{EXACT, End, Observations, Zero, ZeroKind};
 use super::region::{Bend, Field, steepness};
@@ -24,9 +26,6 @@ const NO_ZERO: f64 = 0.05;
 
 /// Standard deviations from which a field has breadth at a zero.
 const BREADTH: f64 = 2.0;
-
-/// Heights that differ by no more are one waterline \[m\].
-const HEIGHT: f64 = 1e-6;
 
 /// Distance in v at which the sides of a corner are looked at.
 const BESIDE: f64 = 1e-6;
@@ -53,11 +52,13 @@ pub struct ChartedField {
     pub bent: Bent,
     /// Lines across which it breaks.
     pub lines: Vec<FoundBreak>,
+    /// What its lines are off by in common.
+    pub line_errors: Option<FoundErrors>,
     /// The power of the steepness of the hull that the errors go with.
     pub power: f64,
     /// What is not exact.
     pub inexact: Vec<Cell>,
-    /// Residuals of these, over the scale of their errors \[m\].
+    /// Residuals of these, without what lines are off by in common, over the scale of their errors \[m\].
     pub residuals: Vec<f64>,
     /// Correlation of the residuals of neighbouring stations on a waterline, or of neighbouring points of a section, over
     /// its standard deviation for errors that are independent: errors have none, or a negative one, and the form of a hull
@@ -100,8 +101,15 @@ impl ChartedField {
         let field = Field::new(rectangle, &net, &first.values)?;
         let steep = |cell: &Cell| steepness(slopes(&field, seen.rocker.as_ref(), [cell.x, cell.z]));
         let steepness: Vec<f64> = seen.readings.iter().map(steep).collect();
-        let found = likeliest(&mut energies, &readings, &steepness, (rectangle, least))?;
-        let Likeliest { power, mut readings, mut chosen, net, lines } = found;
+        let place =
+            |cell: &Cell| [cell.x, seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z))];
+        // Points of sections are on no waterlines.
+        let courses: &[LineCourse] =
+            if seen.has_points { &[LineCourse::Station] } else { &[LineCourse::Waterline, LineCourse::Station] };
+        let lines: Vec<_> =
+            courses.iter().filter_map(|course| LineErrors::of(*course, &readings.cells, place)).collect();
+        let found = likeliest(&mut energies, &readings, (&steepness, &lines), (rectangle, least))?;
+        let Likeliest { power, mut readings, mut chosen, net, lines, gain } = found;
         let mut field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         let offsets = readings.cells.len();
         let weight = 10f64.powf(chosen.exponent);
@@ -126,15 +134,18 @@ impl ChartedField {
         }
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
         let bent = bent(&net, &field, seen, most)?;
-        let residual = |cell: &Cell| (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) - cell.y) / cell.scale;
+        let line_errors = readings.common.as_ref().map(|lines| lines.found(&chosen.field.common, gain));
+        let of_line = |cell: &Cell| line_errors.as_ref().map_or(0.0, |found| found.at(place(cell)));
+        let residual = |cell: &Cell| {
+            (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) + of_line(cell) - cell.y) / cell.scale
+        };
         let inexact: Vec<Cell> = readings.cells[..offsets].iter().filter(|cell| cell.scale > EXACT).copied().collect();
         let residuals: Vec<f64> = inexact.iter().map(residual).collect();
-        let height = |cell: &Cell| seen.rocker.as_ref().map_or(cell.z, |rocker| rocker.absolute(cell.x, cell.z));
         // Points of sections follow each other up them.
-        let place = |cell: &Cell| if seen.has_points { [cell.z, cell.x] } else { [cell.x, height(cell)] };
-        let correlation = correlation(inexact.iter().map(place).zip(residuals.iter().copied()));
+        let order = |[x, z]: [f64; 2]| if seen.has_points { [z, x] } else { [x, z] };
+        let correlation = correlation(inexact.iter().map(place).map(order).zip(residuals.iter().copied()));
         let rocker = seen.rocker.clone();
-        Ok(Self { field, bent, net, chosen, power, inexact, residuals, correlation, lines, rocker })
+        Ok(Self { field, bent, net, chosen, power, inexact, residuals, correlation, lines, line_errors, rocker })
     }
 
     /// sqrt(1 + y_x^2 + y_z^2) at a place (x, z) of the hull ([`steepness`]).
@@ -171,9 +182,9 @@ impl ChartedField {
 fn correlation(found: impl Iterator<Item = ([f64; 2], f64)>) -> f64 {
     let mut sorted: Vec<([f64; 2], f64)> = found.collect();
     sorted.sort_by(|([x, z], _), ([other, height], _)| {
-        (z / HEIGHT).round().total_cmp(&(height / HEIGHT).round()).then(x.total_cmp(other))
+        (z / SAME).round().total_cmp(&(height / SAME).round()).then(x.total_cmp(other))
     });
-    let pairs = sorted.windows(2).filter(|pair| (pair[0].0[1] - pair[1].0[1]).abs() <= HEIGHT);
+    let pairs = sorted.windows(2).filter(|pair| (pair[0].0[1] - pair[1].0[1]).abs() <= SAME);
     let (mut count, mut products, mut squares) = (0.0f64, 0.0, 0.0);
     for pair in pairs {
         count += 1.0;

@@ -1,9 +1,11 @@
 //! The field against closed forms, dense matrices and quadrature.
 
+use super::super::lines::LineCourse;
 use super::bent::Bent;
 use super::chart::{Chart, Shape};
 use super::density::Density;
 use super::likelihood::{Cell, Observed, Readings, Roughness, smoothed};
+use super::line_errors::LineErrors;
 use super::net::{Break, KERNEL, Metric, Net};
 use super::observed::{End, Observations};
 use super::region::{Bend, Field};
@@ -91,8 +93,9 @@ fn a_net_of_many_spans_has_a_determinant_in_every_metric() {
     }
 }
 
-/// The restricted likelihood of a net and a weight, and the same from the dense A, but for one constant of the table.
-fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
+/// The restricted likelihood of a net and a weight, and the same from the dense A, but for one constant of the table. Where
+/// waterlines have errors in common their covariance is V = I + q L L'.
+fn likelihoods(net: &Net, weights: [f64; 2], ratio: Option<f64>) -> Vec<[f64; 2]> {
     let chart = chart();
     let cells: Vec<Cell> = (0..40)
         .map(|k| {
@@ -106,7 +109,10 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
         })
         .collect();
     let rough = Roughness::new(net, METRIC, None).unwrap();
-    let readings = Readings { cells: cells.clone(), inside: Vec::new() };
+    let lines = LineErrors::of(LineCourse::Waterline, &cells, |cell| [cell.x, cell.z]).unwrap();
+    assert_eq!(lines.lines.len(), 5);
+    let common = ratio.map(|ratio| LineErrors { ratio, ..lines });
+    let readings = Readings { cells: cells.clone(), inside: Vec::new(), common };
     let observed = Observed::new(net, &chart, &readings);
     let n = cells.len();
     let rows = DMatrix::from_fn(n, net.size(), |i, j| {
@@ -115,9 +121,16 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
     });
     let y = DMatrix::from_fn(n, 1, |i, _| cells[i].y / cells[i].scale);
     let energy = DMatrix::from_fn(net.size(), net.size(), |i, j| rough.matrix.get(i, j));
+    let q = ratio.unwrap_or(0.0);
+    let along = |i: usize| 2.0 * (cells[i].x - 1.0) / 97.0 - 1.0;
+    let shared = |i: usize, j: usize| if i / 8 == j / 8 { q * (1.0 + along(i) * along(j)) } else { 0.0 };
+    let own = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let covariance = DMatrix::from_fn(n, n, |i, j| own(i, j) + shared(i, j) / (cells[i].scale * cells[j].scale));
+    let inverse_of = covariance.try_inverse().unwrap();
     let dense = |weight: f64| {
-        let inverse = (rows.transpose() * &rows + &energy * weight).try_inverse().unwrap();
-        let a = DMatrix::identity(n, n) - &rows * inverse * rows.transpose();
+        let weighed = &inverse_of * &rows;
+        let inverse = (rows.transpose() * &weighed + &energy * weight).try_inverse().unwrap();
+        let a = &inverse_of - &weighed * inverse * weighed.transpose();
         let left = (y.transpose() * &a * &y)[(0, 0)];
         let mut eigenvalues: Vec<f64> = SymmetricEigen::new(a).eigenvalues.iter().copied().collect();
         eigenvalues.sort_by(f64::total_cmp);
@@ -129,11 +142,13 @@ fn likelihoods(net: &Net, weights: [f64; 2]) -> Vec<[f64; 2]> {
     weights.map(|weight| [ours(weight), dense(weight)]).to_vec()
 }
 
-/// Weights and nets with and without breaks are compared by the likelihood that dense matrices have.
+/// Weights, nets with and without breaks, and errors that waterlines have in common are compared by the likelihood that dense matrices have.
 #[test]
 fn the_likelihood_is_that_of_the_dense_matrices() {
     let nets = [Vec::new(), breaks()].map(|breaks| Net::broken([5, 4], [4.0, 3.0], breaks).unwrap());
-    let found: Vec<[f64; 2]> = nets.iter().flat_map(|net| likelihoods(net, [1e-3, 1e-1])).collect();
+    let ratios = [None, Some(0.3), Some(30.0)];
+    let cases = nets.iter().flat_map(|net| ratios.map(|ratio| (net, ratio)));
+    let found: Vec<[f64; 2]> = cases.flat_map(|(net, ratio)| likelihoods(net, [1e-3, 1e-1], ratio)).collect();
     let constant = found[0][0] - found[0][1];
     assert!(found.iter().all(|[ours, dense]| (ours - dense - constant).abs() < 1e-5), "{found:?}");
 }
