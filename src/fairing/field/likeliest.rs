@@ -19,9 +19,9 @@ const FINER: f64 = 1.5;
 /// (Kass and Raftery 1995).
 const SEEN: f64 = 10.0;
 
-/// What it has to fall by for each line that has errors in common: four for a shift and four for a turn, the squares of two
-/// standard errors.
-const COMMON: f64 = 8.0;
+/// What it has to fall by for each line that has errors in common: as much for a shift as for a turn, the square of two and a
+/// half standard errors.
+const COMMON: f64 = 12.5;
 
 /// The part of this by which the likeliest charts must be likelier, before breaks and a density are looked for.
 const SHOWN: f64 = 0.25;
