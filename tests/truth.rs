@@ -8,6 +8,7 @@ use crate::truth_hulls::measure::{Summary, page};
 use crate::truth_hulls::{Case, Errors, LARGE, ROUGH, SIX_SIGMA, SMALL, cases, middle_body, s_shaped, wigley};
 use loftsman::fairing::LineCourse;
 use loftsman::fairing::job::Job;
+use loftsman::fairing::strength::Fairness;
 use loftsman::hull::Entry;
 
 const SEEDS: u64 = 3;
@@ -173,6 +174,10 @@ fn lines_that_are_shifted_and_turned_are_told_from_the_form() {
             println!("{course:?} {seed}: {:.4} {error:.4}", found.rms);
             assert_eq!(found.course, course);
             assert!((0.5 * off..2.0 * off).contains(&found.rms), "{course:?} {seed}: {}", found.rms);
+            // What lines are off by is no force on a hull that is faired more strongly.
+            let smooth = Job { fairness: Fairness::new(8.0).unwrap(), ..Job::default() }.run(&table).unwrap();
+            let [_, signs] = smooth.changes_of_sign();
+            assert!(signs <= outcome.changes_of_sign()[1], "{course:?} {seed}: {signs}");
             assert!(error < 0.8 * found.rms, "{course:?} {seed}: {error}");
         }
         let independent = Job::default().run(&truth.table(Errors::Normal(off), seed)).unwrap();

@@ -199,6 +199,12 @@ impl<'a> TableField<'a> {
         let (mut readings, places): (Vec<Reading>, Vec<Place>) =
             readings.into_iter().zip(places).filter(is_offset).unzip();
         weigh(&mut readings, &places, field, &known);
+        if let Some(found) = &field.line_errors {
+            // Zeros and locked offsets are where they are.
+            let shares = |(reading, place): &(&mut Reading, &Place)| reading.value > 0.0 && !place.locked;
+            let shared = readings.iter_mut().zip(&places).filter(shares);
+            shared.for_each(|(reading, place)| reading.shared = found.at([place.x, place.z]));
+        }
         // A locked offset that is not on the hull would not be kept.
         let is_lost = |origin: &Origin| !places.iter().any(|place| place.origin == *origin);
         if locked(marked).iter().any(is_lost) {
@@ -234,16 +240,11 @@ impl<'a> TableField<'a> {
 impl FairSurface {
     /// The largest residual of an offset that counts, without what its line is off by, over the scale of its errors \[m\].
     fn farthest_off(&self) -> f64 {
-        let residual = |(reading, place): (&Reading, &Place)| {
-            let off = value(&reading.row, &self.start) + self.error_of_line(place) - reading.value;
-            off.abs() * reading.weight.sqrt()
+        let off = |reading: &Reading| {
+            let residual = value(&reading.row, &self.start) + reading.shared - reading.value;
+            residual.abs() * reading.weight.sqrt()
         };
-        self.model.readings.iter().zip(&self.places).map(residual).fold(0.0, f64::max)
-    }
-
-    /// What the line of an offset is too wide by \[m\].
-    fn error_of_line(&self, place: &Place) -> f64 {
-        self.line_errors.as_ref().map_or(0.0, |found| found.at([place.x, place.z]))
+        self.model.readings.iter().map(off).fold(0.0, f64::max)
     }
 
     /// The field of least objective that has the offsets which do not move, and passes the centreplane by no more than its
@@ -365,7 +366,7 @@ fn side_readings(table: &OffsetTable, sides: &[[usize; 3]], hull: &Hull) -> (Vec
         let row = basis_row(hull.surface(), at, [0, 0]);
         let origin = Origin::Point { station, outline, point };
         let place = Place { origin, x, z: p.z, at, locked: p.marks.locked };
-        Some((Reading { row, value: p.y, weight, tolerance: None }, place))
+        Some((Reading { row, value: p.y, weight, tolerance: None, shared: 0.0 }, place))
     });
     found.unzip()
 }
@@ -422,15 +423,14 @@ impl Prepared {
     }
 }
 
-/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w (r - b)^2 / (1 - h) + w b^2 over the
+/// The noise \[m\] about each reading of a field, normal to the hull: the mean of w r^2 / (1 - h) + w b^2 over the
 /// readings at most [`AROUND`] stations and waterlines away, with `sigma` counting as [`PRIOR`] readings more. Here b is what
-/// the line of an offset is off by in common.
+/// the line of an offset is too wide by, and r the residual without it.
 pub(super) fn local_noise(surface: &FairSurface, smoothed: &Smoothed, sigma: f64) -> Vec<f64> {
     let square = |k: usize| {
-        let weight = surface.model.readings[k].weight;
-        let of_line = surface.error_of_line(&surface.places[k]);
-        let own = (smoothed.residuals[k] + of_line).powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM);
-        weight * (own + of_line * of_line)
+        let Reading { weight, shared, .. } = surface.model.readings[k];
+        let own = smoothed.residuals[k].powi(2) / (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM);
+        weight * (own + shared * shared)
     };
     let stations: BTreeSet<usize> = surface.places.iter().map(|place| place.origin.station()).collect();
     let height = surface.hull.top() - surface.hull.bottom();

@@ -22,6 +22,8 @@ pub struct Reading {
     pub weight: f64,
     /// How far the surface may depart from the reading \[m\]; none: as far as it likes.
     pub tolerance: Option<f64>,
+    /// What its line is too wide by \[m\]. It is taken off before the reading is smoothed, and not for its tolerance.
+    pub shared: f64,
 }
 
 /// A linear limit.
@@ -59,8 +61,10 @@ pub struct Model {
 /// A field F, stationary for its weight w. Its energy grows with a move d = c - F by
 ///
 /// ```text
-/// E(c) - E(F) = 2 g'd + d'E d,   g = A'W (y - A F) / w.
+/// E(c) - E(F) = 2 g'd + d'E d,   g = A'W (y - b - A F) / w.
 /// ```
+///
+/// Here b is what the lines of the readings are too wide by.
 ///
 /// For c'E c itself g would be E F, which has what E is on the ends of the hull.
 #[derive(Debug, Clone)]
@@ -124,7 +128,7 @@ impl Model {
     fn slope(&self, field: &Stationary) -> Vec<f64> {
         let mut slope = vec![0.0; field.net.len()];
         for reading in &self.readings {
-            let left = reading.weight * (reading.value - value(&reading.row, &field.net));
+            let left = reading.weight * (reading.value - reading.shared - value(&reading.row, &field.net));
             reading.row.iter().for_each(|&(i, a)| slope[i] += left * a / field.weight);
         }
         slope
@@ -142,9 +146,9 @@ impl Model {
         self.residuals(c).iter().zip(weights).map(|(r, w)| w * r.powi(2)).sum()
     }
 
-    /// A reading with what is carried \[m\].
+    /// A reading without what its line is too wide by, with what is carried \[m\].
     fn wished(&self, reading: &Reading) -> f64 {
-        reading.value + self.carried.as_ref().map_or(0.0, |carried| value(&reading.row, carried))
+        reading.value - reading.shared + self.carried.as_ref().map_or(0.0, |carried| value(&reading.row, carried))
     }
 
     /// Takes the known control values out.

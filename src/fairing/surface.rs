@@ -478,7 +478,13 @@ pub(super) fn readings(table: &OffsetTable, hull: &Hull) -> (Vec<Reading>, Vec<P
     let (mut readings, mut places) = (Vec::new(), Vec::new());
     let mut put = |origin: Origin, at: [f64; 2], [x, value, z]: [f64; 3], doubtful: bool, locked: bool| {
         let weight = if doubtful { DOUBTFUL.powi(-2) } else { 1.0 };
-        readings.push(Reading { row: basis_row(hull.surface(), at, [0, 0]), value, weight, tolerance: None });
+        readings.push(Reading {
+            row: basis_row(hull.surface(), at, [0, 0]),
+            value,
+            weight,
+            tolerance: None,
+            shared: 0.0,
+        });
         places.push(Place { origin, x, z, at, locked });
     };
     for (station, column) in table.stations.iter().enumerate() {

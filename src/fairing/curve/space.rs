@@ -164,6 +164,7 @@ impl CurveSpace {
                 value: points[k].y.unwrap_or_default(),
                 weight: points[k].weight,
                 tolerance: tolerances[k],
+                shared: 0.0,
             })
             .collect();
         Model {

@@ -135,7 +135,10 @@ impl ChartedField {
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
         let bent = bent(&net, &field, seen, most)?;
         let line_errors = readings.common.as_ref().map(|lines| lines.found(&chosen.field.common, gain));
-        let of_line = |cell: &Cell| line_errors.as_ref().map_or(0.0, |found| found.at(place(cell)));
+        let of_line = |cell: &Cell| {
+            let found = line_errors.as_ref().filter(|_| cell.y > 0.0);
+            found.map_or(0.0, |found| found.at(place(cell)))
+        };
         let residual = |cell: &Cell| {
             (field.at([field.chart.u(cell.x), field.chart.v(cell.z)]) + of_line(cell) - cell.y) / cell.scale
         };
