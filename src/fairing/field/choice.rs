@@ -162,8 +162,19 @@ impl Chosen {
     }
 
     fn weighed(&self, net: &Net, observed: &Observed, start: f64, least: f64, rival: f64) -> Option<Self> {
-        let rough = self.roughness(net).ok()?;
-        let (found, trials) = weighed(observed, &rough, start, least, rival);
+        self.weighed_with(&self.roughness(net).ok()?, observed, start, least, rival)
+    }
+
+    /// The same with its energy.
+    pub(super) fn weighed_with(
+        &self,
+        rough: &Roughness,
+        observed: &Observed,
+        start: f64,
+        least: f64,
+        rival: f64,
+    ) -> Option<Self> {
+        let (found, trials) = weighed(observed, rough, start, least, rival);
         let Weighed::Best(exponent, field) = found else { return None };
         Some(Self { exponent, field, trials: self.trials + trials, ..self.clone() })
     }

@@ -11,8 +11,14 @@
 //! ```
 //!
 //! Where lines have errors in common, L b with variance q sigma^2 of each of the m numbers b ([`super::line_errors`]), they
-//! are unknowns beside c. |S^-1 (y - M c - L b)|^2 + w c'Pc + b'b / q takes the place of y'Ay, and the determinant of both
-//! together times q^m that of M'M + wP. The band of c is factored first; its Schur complement has order m.
+//! are unknowns beside c. This takes the place of y'Ay.
+//!
+//! ```text
+//! |S^-1 (y - M c - L b)|^2 + w c'Pc + b'b / q
+//! ```
+//!
+//! The determinant of both together times q^m takes the place of that of M'M + wP. The band of c is factored first; its Schur
+//! complement has order m.
 //!
 //! A field may pass the centreplane between the offsets of a station by three times sigma, or by [`ALLOWED`] of the breadth.
 //! With d more than that it is as unlikely as with a reading there that is off by d: it costs (d / sigma)^2.
@@ -127,7 +133,7 @@ pub(super) fn places(chart: &Chart, places: impl Iterator<Item = [f64; 2]>) -> V
 pub struct Observed {
     normal: SymmetricBand,
     right: Vec<f64>,
-    /// M'L, column by column, and L'L + I / q, of what lines have in common.
+    /// M'L, column by column, and L'L, of what lines have in common.
     borders: Vec<f64>,
     corner: DMatrix<f64>,
     right_of_lines: Vec<f64>,
@@ -168,7 +174,7 @@ impl Observed {
         }
         let ratio = common.as_ref().map_or(1.0, |common| common.ratio);
         let mut borders = vec![0.0; size * count];
-        let mut corner = DMatrix::from_diagonal_element(count, count, 1.0 / ratio);
+        let mut corner = DMatrix::zeros(count, count);
         let mut right_of_lines = vec![0.0; count];
         for ((cell, &at), &line) in cells.iter().zip(&places).zip(&of_line) {
             let row = Row { line, ..row(at, cell.scale) };
@@ -205,6 +211,11 @@ impl Observed {
         Self { normal, right, borders, corner, right_of_lines, ratio, rows, inside, values, scales, breadth, kernel }
     }
 
+    /// Takes another ratio q of what lines have in common.
+    pub(super) fn set_ratio(&mut self, ratio: f64) {
+        self.ratio = ratio;
+    }
+
     /// The system of a weight.
     fn system(&self, roughness: &Roughness, weight: f64) -> Result<System<'_>, SingularMatrix> {
         let band = self.normal.factor_plus(weight, &roughness.matrix)?;
@@ -212,7 +223,8 @@ impl Observed {
         let mut solved = self.borders.clone();
         band.solve_blocks(&mut solved);
         let borders = DMatrixView::from_slice(&self.borders, size, count);
-        let gram = &self.corner - borders.tr_mul(&DMatrixView::from_slice(&solved, size, count));
+        let corner = &self.corner + DMatrix::from_diagonal_element(count, count, 1.0 / self.ratio);
+        let gram = corner - borders.tr_mul(&DMatrixView::from_slice(&solved, size, count));
         let gram = Cholesky::new(gram).ok_or(SingularMatrix { column: size })?;
         Ok(System { size, band, borders: &self.borders, solved, gram, log_ratio: count as f64 * self.ratio.ln() })
     }

@@ -1,7 +1,7 @@
 //! Errors that the offsets of a line have in common.
 //!
 //! A waterline or a station that was drawn or read askew is shifted by a and turned by b, with places s from -1 to 1 along
-//! the lines of its kind. Its offsets then are those of the hull with errors e of their own, and
+//! the lines of its kind. Its offsets have errors e of their own besides.
 //!
 //! ```text
 //! y = M c + a + b s + e,   var a = var b = q sigma^2
@@ -13,7 +13,7 @@
 
 use super::super::lines::LineCourse;
 use super::choice::Chosen;
-use super::likelihood::{Cell, Readings};
+use super::likelihood::{Cell, Observed, Readings};
 use super::net::Net;
 use super::observed::EXACT;
 
@@ -75,14 +75,19 @@ pub struct ShiftedLine {
     pub ends: [f64; 2],
 }
 
+/// Where the line through (x, z) is, and the place along it.
+fn line_and_place(course: LineCourse, [x, z]: [f64; 2]) -> [f64; 2] {
+    match course {
+        LineCourse::Waterline => [z, x],
+        LineCourse::Station => [x, z],
+    }
+}
+
 impl FoundErrors {
-    /// What an offset at (x, z) is too wide by \[m\]; 0 off the lines.
+    /// What an offset at a place (x, z) is too wide by \[m\]; 0 off the lines.
     #[must_use]
-    pub fn at(&self, [x, z]: [f64; 2]) -> f64 {
-        let (own, along) = match self.course {
-            LineCourse::Waterline => (z, x),
-            LineCourse::Station => (x, z),
-        };
+    pub fn at(&self, place: [f64; 2]) -> f64 {
+        let [own, along] = line_and_place(self.course, place);
         let part = (along - self.extent[0]) / (self.extent[1] - self.extent[0]);
         let line = self.lines.iter().find(|line| (line.at - own).abs() <= SAME);
         line.map_or(0.0, |line| line.ends[0] + part * (line.ends[1] - line.ends[0]))
@@ -119,10 +124,8 @@ impl LineErrors {
         let found = cells.iter().enumerate().filter(|(_, cell)| cell.scale > EXACT && cell.y > 0.0);
         // The number of the line, and the place along it.
         let mut places: Vec<(usize, f64, f64)> = found
-            .map(|(k, cell)| match (course, place(cell)) {
-                (LineCourse::Waterline, [x, z]) => (k, (z / SAME).round(), x),
-                (LineCourse::Station, [x, z]) => (k, (x / SAME).round(), z),
-            })
+            .map(|(k, cell)| (k, line_and_place(course, place(cell))))
+            .map(|(k, [line, along])| (k, (line / SAME).round(), along))
             .collect();
         places.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.total_cmp(&b.2)));
         let wider = |[low, high]: [f64; 2], place: &(usize, f64, f64)| [low.min(place.2), high.max(place.2)];
@@ -156,16 +159,18 @@ impl LineErrors {
         readings: &Readings,
         least: f64,
     ) -> Option<(Self, Chosen)> {
-        let of = |ratio: f64, start: f64| {
-            let own = Self { ratio, ..self.clone() };
-            let readings = Readings { common: Some(own.clone()), ..readings.clone() };
-            Some((own, chosen.on(net, &readings, start, least, f64::INFINITY)?))
+        let rough = chosen.roughness(net).ok()?;
+        let readings = Readings { common: Some(self.clone()), ..readings.clone() };
+        let mut observed = Observed::new(net, &chosen.chart, &readings);
+        let mut of = |ratio: f64, start: f64| {
+            observed.set_ratio(ratio);
+            Some((ratio, chosen.weighed_with(&rough, &observed, start, least, f64::INFINITY)?))
         };
         let own = RATIOS.partition_point(|ratio| *ratio < self.ratio);
         let mut best = of(self.ratio, chosen.exponent)?;
         let [above, below] = [(own + 1..RATIOS.len()).collect::<Vec<_>>(), (0..own).rev().collect()];
         for side in [above, below] {
-            let from = best.0.ratio;
+            let from = best.0;
             for k in side {
                 let next = of(RATIOS[k], best.1.exponent)?;
                 if next.1.field.cost >= best.1.field.cost {
@@ -173,10 +178,11 @@ impl LineErrors {
                 }
                 best = next;
             }
-            if best.0.ratio > from {
+            if best.0 > from {
                 break;
             }
         }
-        Some(best)
+        let (ratio, found) = best;
+        Some((Self { ratio, ..self.clone() }, found))
     }
 }
