@@ -6,7 +6,7 @@ use loftsman::hull::{Hull, Marks, OffsetTable, OutlinePoint, StationOffsets};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::support::{half_breadth_of_form, normal, random_form};
+use crate::support::{carried, half_breadth_of_form, normal, random_form, table_of};
 
 /// Stations of a table.
 const STATIONS: i32 = 17;
@@ -89,6 +89,17 @@ fn sections_as_points_come_nearer_to_their_truth() {
         }
     }
     assert!(worse.is_empty(), "{}", worse.join("\n"));
+}
+
+/// A keel above the base is where a section ends, and no half-breadth that the field has to have: S-175 with the sections of
+/// its counter, and a yacht with rocker.
+#[test]
+fn keels_of_sections_are_no_half_breadths() {
+    for name in ["s175", "pdstrip_yacht"] {
+        let outcome = Job::default().run(&table_of(carried(&format!("tests/data/{name}/sections.csv")))).unwrap();
+        let [before, after] = outcome.changes_of_sign();
+        assert!(outcome.is_field && after <= before * 6 / 10, "{name}: {before} > {after}");
+    }
 }
 
 /// A locked point stays to rounding, and moves the points beside it.

@@ -36,7 +36,10 @@ impl Points {
     /// last section, to `ends` at most \[m\], there are empty sections.
     #[must_use]
     pub fn new(table: &OffsetTable, ends: [f64; 2]) -> Option<Self> {
-        let sides = side_points(table);
+        let greatest = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).map(|p| p.y).fold(0.0, f64::max);
+        let mut sides = side_points(table);
+        // A keel is where a section ends, and no half-breadth.
+        sides.retain(|&[s, o, p]| table.stations[s].outlines[o][p].y > CENTREPLANE * greatest);
         let all = table.stations.iter().flat_map(|station| station.outlines.iter().flatten());
         let [bottom, top] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.z), b.max(p.z)]);
         let height = top - bottom;
@@ -50,7 +53,6 @@ impl Points {
         }
         let mut waterlines: Vec<f64> = (0..count).map(|k| heights[k * (heights.len() - 1) / (count - 1)]).collect();
         waterlines.dedup_by(|a, b| *a - *b <= SAME * height);
-        let greatest = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).map(|p| p.y).fold(0.0, f64::max);
         let level = |station: &StationOffsets| {
             let mut found = StationOffsets::new(station.station.name.clone(), station.station.x);
             let points = || station.outlines.iter().flatten();
