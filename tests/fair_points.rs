@@ -96,7 +96,7 @@ fn sections_as_points_come_nearer_to_their_truth() {
 #[test]
 fn keels_of_sections_are_no_half_breadths() {
     for name in ["s175", "pdstrip_yacht"] {
-        let outcome = Job::default().run(&table_of(carried(&format!("tests/data/{name}/sections.csv")))).unwrap();
+        let outcome = Job::default().run(&table_of(carried(format!("tests/data/{name}/sections.csv")))).unwrap();
         let [before, after] = outcome.changes_of_sign();
         assert!(outcome.is_field && after <= before * 6 / 10, "{name}: {before} > {after}");
     }

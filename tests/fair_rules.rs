@@ -23,7 +23,7 @@ fn series60() -> OffsetTable {
 }
 
 fn faired(rules: Vec<Rule>) -> Outcome {
-    let outcome = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
+    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     let gap = outcome.faired.solved.certificate.gap.abs();
     assert!(gap < 5e-8, "gap {gap:e}");
@@ -100,14 +100,10 @@ fn tangents_are_met() {
         Rule::Tangent(TangentPlace::Station(wall), 0.0),
         Rule::Tangent(TangentPlace::Waterline(place), angle),
     ];
-    let outcome = Job {
-        rules,
-        keep_flat: false,
-        tolerance: Tolerance { table: Some(0.05), ..Job::default().tolerance },
-        ..Job::default()
-    }
-    .run(&table)
-    .unwrap();
+    let outcome =
+        Job { rules, tolerance: Tolerance { table: Some(0.05), ..Job::default().tolerance }, ..Job::default() }
+            .run(&table)
+            .unwrap();
     assert_eq!(outcome.status, Status::Optimal);
     assert!(slope(&outcome.after, wall, true).abs() < 1e-6);
     assert!((slope(&outcome.after, place, false) - angle.tan()).abs() < 1e-6);
@@ -146,8 +142,7 @@ fn a_waterline_rises_and_a_part_is_hollow() {
 #[test]
 fn a_line_has_no_more_inflections_than_it_may() {
     // Without the guard of inflections, so that only the rule can be what takes one away.
-    let run =
-        |rules: Vec<Rule>| Job { rules, signs: false, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
+    let run = |rules: Vec<Rule>| Job { rules, signs: false, ..Job::default() }.run(&series60()).unwrap();
     let free = run(Vec::new());
     let turns = |outcome: &Outcome, z: f64| {
         outcome
@@ -195,7 +190,7 @@ fn rules_that_name_nothing_are_refused_all_at_once() {
         Rule::FlatOfSide { x: [200.0, 210.0], z: [1.0, 2.0] },
         Rule::Tangent(TangentPlace::Entrance(40.0), 0.1),
     ];
-    let said = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap_err().to_string();
+    let said = Job { rules, ..Job::default() }.run(&series60()).unwrap_err().to_string();
     for words in ["no station at x = 500", "no cell of the net", "the stem does not reach z = 40"] {
         assert!(said.contains(words), "{said}");
     }
@@ -206,7 +201,7 @@ fn rules_that_name_nothing_are_refused_all_at_once() {
 fn contradictory_rules_are_infeasible_and_say_which() {
     let line = Line::Waterline(6.5024);
     let rules = vec![Rule::Monotone { line, over: [80.0, 115.0], rising: true }, Rule::Fixed(FixedLine::Stern)];
-    let outcome = Job { rules, keep_flat: false, ..Job::default() }.run(&series60()).unwrap();
+    let outcome = Job { rules, ..Job::default() }.run(&series60()).unwrap();
     assert_eq!(outcome.status, Status::Infeasible);
     let found = outcome.faired.diagnosis.as_ref().unwrap();
     let give = found.rules.iter().map(|(_, give)| give.unwrap_or(f64::INFINITY)).collect::<Vec<_>>();

@@ -75,7 +75,8 @@ pub(super) struct Arguments {
     /// "stem", "stern", "keel", "deck", "line NAME" of the table; may be repeated
     #[arg(long, value_name = "NAME")]
     lock: Vec<String>,
-    /// Smoothing weight, or "auto": by the errors of the table (Mallows) on the net of a fit, by cross-validation on an independent net [default: auto]
+    /// Smoothing weight, or "auto": of a field by its likelihood, on the net of the surface through the table by the errors of
+    /// the table (Mallows) [default: auto]
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     weight: Option<String>,
     /// Take suspected typing errors as they are

@@ -75,8 +75,6 @@ pub struct JobFile {
     pub section_area_band: f64,
     /// Whether suspects are left out.
     pub exclude_suspects: Option<bool>,
-    /// Whether the flat of side that the table shows is kept.
-    pub keep_flat: Option<bool>,
     /// What the removal of an inflection may cost at most, in squares of the noise.
     pub price: Option<f64>,
     /// Where the values of the keys stand; of a key that is given twice the last counts.
@@ -166,7 +164,6 @@ fn interpret(document: &mut Document<'_>) -> JobFile {
         weight: weight(document),
         tolerance: positive(document, "tolerance.table", "length; what must not move is locked under [lock]"),
         exclude_suspects: document.switch("suspects.exclude"),
-        keep_flat: document.switch("flat.keep"),
         price: price(document),
         places: document.entries.iter().map(|e| Location::new(document, &e.key.path(), e.span.start)).collect(),
         ..JobFile::default()
@@ -209,7 +206,6 @@ impl JobFile {
             weight: other.weight.or(self.weight),
             tolerance: other.tolerance.or(self.tolerance),
             exclude_suspects: other.exclude_suspects.or(self.exclude_suspects),
-            keep_flat: other.keep_flat.or(self.keep_flat),
             price: other.price.or(self.price),
             ..self
         }
@@ -224,7 +220,6 @@ impl JobFile {
         let mut job = Job { fairness: self.fairness.unwrap_or_default(), ..Job::default() };
         job.weight = self.weight.flatten();
         job.exclude_suspects = self.exclude_suspects.unwrap_or(true);
-        job.keep_flat = self.keep_flat.unwrap_or(true);
         job.price = self.price;
         job.accepted = self.accepted.clone().unwrap_or_default();
         job.tolerance.table = self.tolerance;

@@ -8,7 +8,6 @@ use crate::fairing::constraint::Constraint;
 use crate::fairing::field::line_errors::{FoundErrors, ShiftedLine};
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::outcome::{Change, Outcome};
-use crate::fairing::program::RowName;
 use crate::fairing::proposals::Proposal;
 use crate::fairing::record::TableLines;
 use crate::fairing::surface::Origin;
@@ -320,11 +319,6 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
     let iterates = faired.solved.solution.progress.iter();
     let convergence: Vec<Value> =
         iterates.map(|p| json!({ "primal": number(p.primal), "dual": number(p.dual), "gap": number(p.gap) })).collect();
-    let signs = faired.patterns.as_ref().map(|patterns| {
-        let rows = faired.program.names.iter().filter(|name| matches!(name, RowName::Sign(..))).count();
-        let lobes: usize = patterns.iter().map(|pattern| pattern.flipped.len()).sum();
-        json!({ "imposed": rows, "removed": lobes, "price": number(faired.price) })
-    });
     json!({
         "name": table.name,
         "table": lines(table, outcome),
@@ -352,7 +346,6 @@ pub fn fairing_json(table: &OffsetTable, outcome: &Outcome, rounding: &RoundingE
             "waterlines": inflections(outcome, "waterline"), "stations": inflections(outcome, "station"),
             "buttocks": inflections(outcome, "buttock"), "diagonals": inflections(outcome, "diagonal"),
         },
-        "signs": signs,
         // The greatest jump of curvature across lines of the net where the surface through the table has none [1/m].
         "max_curvature_jump": json_number(outcome.jump),
         // By how much the half-breadth passes the greatest of the table, or B/2, before and after [m].

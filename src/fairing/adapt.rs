@@ -136,7 +136,7 @@ fn spared(density: f64, median: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::unbroken::{Breaks, RunsOn};
+    use super::super::unbroken::{Along, Breaks};
     use super::*;
     use crate::spline::{BsplineSurface, KnotVector};
 
@@ -193,7 +193,8 @@ mod tests {
         let pairs = |t: &[f64]| (t[0] * t[1] + t[0] * t[2] + t[1] * t[2]) / 3.0;
         // Slopes so small that curvature is the second derivative.
         let cube = surface(&u, &v, |_, j| 1e-6 * knots(j).iter().product::<f64>());
-        let weights = weights(&cube, &Breaks { runs_on: RunsOn::Nowhere, ..Breaks::default() });
+        let lines = vec![Along { at: 0.5, reach: [f64::NEG_INFINITY, f64::INFINITY] }];
+        let weights = weights(&cube, &Breaks { tangents: [Vec::new(), lines], ..Breaks::default() });
         let smooth = surface(&u, &v, |_, j| 1e-6 * pairs(knots(j)));
         assert!(of(&weights.energy(&Cells::new(&smooth), &Metric::new(&smooth)), &smooth).abs() < 1e-15);
         // max(v - 1, 0)^2 has the jump 2 and no third derivative: 2^5 * 2^2 / 0.5, over 0.6^3.

@@ -19,8 +19,7 @@ use super::compromise::Basic;
 use super::fair::FairError;
 use super::model::{Model, value};
 use super::program::{Program, RowName, Wishes, symmetric};
-use super::smoothing::{Smoothed, Smoother};
-use crate::numeric::SingularMatrix;
+use super::smoothing::Smoother;
 use crate::qp::Settings;
 
 /// Weight of the energy of the move.
@@ -63,13 +62,13 @@ impl Basic<'_> {
         let (moved, widening) = self.moved(wishes, &mut carry.programs)?;
         carry.widening = widening;
         let Some(moved) = moved else { return Ok(carry) };
-        let carried = Carried::new(self.model, self.smoother, self.lambda, moved)?;
+        let carried = Carried::new(self.model, self.smoother, moved);
         for &k in &others {
             let mut rest = wishes.clone();
             rest.constraints.remove(k);
             let moved = if others.len() > 1 { self.moved(&rest, &mut carry.programs)?.0 } else { None };
             let smoother = match moved {
-                Some(moved) => &Carried::new(self.model, self.smoother, self.lambda, moved)?.smoother,
+                Some(moved) => &Carried::new(self.model, self.smoother, moved).smoother,
                 None => self.smoother,
             };
             carry.without.push((k, carried.smoother.linear_less(self.lambda, smoother)));
@@ -132,20 +131,13 @@ impl Basic<'_> {
 pub(super) struct Carried {
     pub(super) model: Model,
     pub(super) smoother: Smoother,
-    pub(super) smoothed: Smoothed,
 }
 
 impl Carried {
     /// `moved` is added to every control value of what is smoothed.
-    pub(super) fn new(
-        model: &Model,
-        smoother: &Smoother,
-        lambda: f64,
-        moved: Vec<f64>,
-    ) -> Result<Self, SingularMatrix> {
+    pub(super) fn new(model: &Model, smoother: &Smoother, moved: Vec<f64>) -> Self {
         let model = Model { carried: Some(moved), ..model.clone() };
         let smoother = Smoother::new(&model).reweighted(smoother.weights());
-        let smoothed = smoother.at(lambda)?;
-        Ok(Self { model, smoother, smoothed })
+        Self { model, smoother }
     }
 }

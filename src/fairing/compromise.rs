@@ -125,11 +125,10 @@ impl<'a> Basic<'a> {
         (smoother, lambda): (&'a Smoother, f64),
         (constraints, rooms, others): (&'a [Constraint], &'a [f64], &'a [bool]),
         wishes: &Wishes,
-        (smoothed, greatest): (&[f64], f64),
+        greatest: f64,
         solver: &'a Settings,
     ) -> Result<Self, FairError> {
-        // The net of a fit goes through its table; a net of its own follows it as it was smoothed.
-        let reference = if surface.own { smoothed.to_vec() } else { surface.start.clone() };
+        let reference = surface.start.clone();
         let mut tolerances: Vec<f64> = model.readings.iter().filter_map(|reading| reading.tolerance).collect();
         tolerances.sort_by(f64::total_cmp);
         let median = tolerances.get(tolerances.len() / 2).copied().unwrap_or(f64::INFINITY);

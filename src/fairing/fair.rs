@@ -1,13 +1,11 @@
-//! The whole job of fairing a surface: smooth, find what is noise in the signs, solve one convex program with the
-//! wishes, and take no pattern without its price.
+//! The whole job of fairing a surface: smooth, solve one convex program with the wishes, and take no inflections out of
+//! its lines without their price.
 //!
-//! 1. The weight: on a net of its own by generalised cross-validation, not below what the rounding of the table alone
-//!    asks for, and sigma from it; on the net of a fit by Mallows' criterion for the errors of the table.
+//! 1. The weight: of a field by its likelihood; on the net of the surface through the table by Mallows' criterion for the
+//!    errors of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
-//! 3. On a net of its own: the same with the signs of [`super::pattern`]: J_signs. price = (J_signs - J_free) /
-//!    sigma^2. Above [`FairSettings::price`] the lobe with the greatest sum of multiplier times raw violation gets its own sign back,
-//!    and the program is solved again. On the net of a fit, whose features are no noise: the lines of the table by
-//!    [`super::guard`].
+//! 3. The same with signs of curvature of the lines of the table: J_signs. price = (J_signs - J_free) / sigma^2 is at most
+//!    [`FairSettings::price`] for each line: of a field by `humps`, else by [`super::guard`].
 
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
@@ -19,7 +17,6 @@ use super::infeasible::Diagnosis;
 use super::least::TableLine;
 use super::model::Limit;
 use super::noise::{Differences, errors, taken};
-use super::pattern::{Pattern, SignForms, pattern, sign_forms};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::relinearise::{ON_TARGET, Settling};
 use super::rules::{guarded_lines, rule_limits, turned};
@@ -27,16 +24,10 @@ use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
 use crate::hull::HullError;
 use crate::numeric::SingularMatrix;
-use crate::qp::{ProblemError, RepeatedSolver, Settings, Status};
+use crate::qp::{ProblemError, Settings};
 
-/// Dearest pattern where nobody says another price, in units of sigma^2.
+/// Dearest signs where nobody says another price, in units of sigma^2.
 pub const PRICE: f64 = 12.0;
-
-/// The noise of all readings over that of the typical one from which the model does not follow the hull everywhere.
-pub const MISFIT: f64 = 1.75;
-
-/// Most programs of the price guard.
-const ROUNDS: usize = 8;
 
 /// How a surface is faired.
 #[derive(Debug, Clone)]
@@ -147,10 +138,6 @@ pub struct Faired {
     pub program: Program,
     /// Its answer.
     pub solved: Solved,
-    /// Forms whose signs are imposed.
-    pub forms: [SignForms; 2],
-    /// The pattern, when one was imposed.
-    pub patterns: Option<[Pattern; 2]>,
     /// Why the wishes cannot all be had; the net is then the best compromise, with the tolerances widened.
     pub diagnosis: Option<Diagnosis>,
     /// What to ask for instead where the wishes cannot all be had; the answer is none then.
@@ -210,7 +197,7 @@ impl Prepared {
         let (sigma, search) = match (settings.weight, settings.table_noise) {
             // The noise is that of the table, whatever the weight is.
             (Some(weight), noise) => {
-                let sigma = match noise.filter(|_| !surface.own) {
+                let sigma = match noise {
                     Some(noise) => taken(noise, settings.noises()),
                     None => {
                         let (best, _) = smoother.cross_validated()?;
@@ -219,7 +206,7 @@ impl Prepared {
                 };
                 (Some(sigma), (weight, Vec::new()))
             }
-            (None, Some(noise)) if !surface.own => {
+            (None, Some(noise)) => {
                 // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of
                 // the table. What is within the tolerance of a designer counts as the roughness of a drawing and gets
                 // no more room than he gives; the weight is that for errors, which the hull's own form is not.
@@ -265,7 +252,7 @@ impl Prepared {
         let errors = settings.errors(sigma);
         let found = Self { smoother, lambda, smoothed, likely: None, sigma, errors, trials, lines: Vec::new() };
         let mut graded = found.graded(surface, settings)?;
-        let guarded = settings.signs && !surface.own;
+        let guarded = settings.signs;
         let lines = settings.lines.iter().filter(|_| guarded);
         graded.lines = lines.map(|&line| TableLine::new(surface, line)).collect();
         Ok(graded)
@@ -304,10 +291,10 @@ impl Prepared {
 /// [`FairError`] when the question is none; that targets and limits cannot be met is the status of the answer.
 pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
     let prepared = Prepared::new(surface, settings)?;
-    fair_prepared(surface, settings, &prepared, &mut RepeatedSolver::new(&settings.solver))
+    fair_prepared(surface, settings, &prepared)
 }
 
-/// Fairs with a weight and a noise that are known; `solver` solves the programs with signs, one after the other.
+/// Fairs with a weight and a noise that are known.
 ///
 /// # Errors
 /// [`FairError`] when the question is none.
@@ -315,7 +302,6 @@ pub fn fair_prepared(
     surface: &mut FairSurface,
     settings: &FairSettings,
     prepared: &Prepared,
-    solver: &mut RepeatedSolver<'_>,
 ) -> Result<Faired, FairError> {
     let Prepared { smoother, smoothed, .. } = prepared;
     let (lambda, sigma) = (prepared.lambda, prepared.sigma);
@@ -335,7 +321,7 @@ pub fn fair_prepared(
         ..Wishes::default()
     };
     // The surface through the table swings past B/2 between offsets that stay: so does any other through them.
-    if surface.is_field || !surface.own && (settings.admits || surface.places.iter().any(|place| place.locked)) {
+    if surface.is_field || settings.admits || surface.places.iter().any(|place| place.locked) {
         admit(&mut wishes.breadths, &surface.start);
     }
     if surface.is_field {
@@ -343,15 +329,14 @@ pub fn fair_prepared(
         // What is no more than its errors below the centreplane is at the centreplane.
         wishes.breadths.iter_mut().for_each(|limit| limit.lower = limit.lower.max(-least));
     }
-    let forms = sign_forms(surface);
     let model = &surface.model.clone();
-    let (weighed, first) = ((smoother, lambda), (first.as_slice(), greatest));
+    let weighed = (smoother, lambda);
     let asked = (settings.constraints.as_slice(), settings.rooms.as_slice(), settings.others.as_slice());
-    let mut basic = Basic::new(surface, model, weighed, asked, &wishes, first, &settings.solver)?;
+    let mut basic = Basic::new(surface, model, weighed, asked, &wishes, greatest, &settings.solver)?;
     let carry = basic.carried(&wishes)?;
-    let (model, smoother, smoothed) = match &carry.carried {
-        Some(carried) => (&carried.model, &carried.smoother, &carried.smoothed),
-        None => (model, smoother, smoothed),
+    let (model, smoother) = match &carry.carried {
+        Some(carried) => (&carried.model, &carried.smoother),
+        None => (model, smoother),
     };
     basic.carry(model, smoother);
     let Answer { mut program, mut solved, mut diagnosis, mut instead, mut programs, mut iterations } =
@@ -377,37 +362,9 @@ pub fn fair_prepared(
             (program, solved, diagnosis, instead) = (answer.program, answer.solved, answer.diagnosis, answer.instead);
         }
     }
-    let (mut patterns, mut price) = (None, 0.0);
-    if settings.signs && diagnosis.is_none() && surface.own && solved.is_optimal() {
-        let free = solved.objective;
-        let raw = solved.net.clone();
-        let mut found = [0, 1].map(|k| pattern(&forms[k], smoother, smoothed, sigma));
-        for round in 0..ROUNDS {
-            let candidate = Program::new(model, smoother, lambda, &wishes, Some((&forms, &found)));
-            let answer = candidate.solve_after(smoother, lambda, solver)?;
-            programs += 1;
-            iterations += answer.solution.iterations;
-            let feasible = answer.solution.status != Status::Infeasible;
-            price = (answer.objective - free) / (sigma * sigma);
-            let done = feasible && price <= settings.price;
-            if !done && round + 1 < ROUNDS && release(&mut found, &forms, &candidate, &answer, &raw) {
-                continue;
-            }
-            if done {
-                (program, solved) = (candidate, answer);
-                patterns = Some(found);
-            }
-            break;
-        }
-        if patterns.is_none() {
-            price = 0.0;
-        }
-    }
-    // On a net of its own the pattern is all: asking its lines for their least inflections on top of it made S-shaped
-    // hulls with 40 mm of noise worse (12.0 for 11.5 mm, worst 15.6 for 13.9 mm, 12 sign changes for 8) and gained
-    // nothing elsewhere.
+    let mut price = 0.0;
     let mut guarded = None;
-    if settings.signs && diagnosis.is_none() && !surface.own && solved.is_optimal() {
+    if settings.signs && diagnosis.is_none() && solved.is_optimal() {
         let lines = &guarded_lines(&prepared.lines, &settings.rules);
         let of_field = || humps::Question {
             model,
@@ -479,8 +436,6 @@ pub fn fair_prepared(
         edf: prepared.smoothed.edf,
         program,
         solved,
-        forms,
-        patterns,
         price,
         guarded,
         smoother: smoother.clone(),
@@ -520,37 +475,4 @@ impl Faired {
     pub fn rows(&self, these: impl Fn(RowName) -> bool) -> impl Iterator<Item = usize> {
         self.program.names.iter().enumerate().filter(move |(_, name)| these(**name)).map(|(row, _)| row)
     }
-}
-
-/// Gives the dearest flipped lobe its own sign back; false when none is left.
-fn release(
-    patterns: &mut [Pattern; 2],
-    forms: &[SignForms; 2],
-    program: &Program,
-    answer: &Solved,
-    raw: &[f64],
-) -> bool {
-    let mut charge = [0, 1].map(|which: usize| vec![0.0; forms[which].rows.len()]);
-    for (name, z) in program.names.iter().zip(&answer.solution.multipliers) {
-        if let RowName::Sign(which, k) = *name {
-            let value = super::model::value(&forms[which].rows[k], raw);
-            let against = if f64::from(patterns[which].imposed[k]) * value < 0.0 { value.abs() } else { 0.0 };
-            charge[which][k] = z.abs() * against;
-        }
-    }
-    let mut dearest: Option<(f64, usize, usize)> = None;
-    for (which, pattern) in patterns.iter().enumerate() {
-        for (index, lobe) in pattern.flipped.iter().enumerate() {
-            let sum: f64 = lobe.iter().map(|&k| charge[which][k]).sum();
-            if sum > 0.0 && dearest.is_none_or(|(most, _, _)| sum > most) {
-                dearest = Some((sum, which, index));
-            }
-        }
-    }
-    let Some((_, which, index)) = dearest else { return false };
-    let pattern = &mut patterns[which];
-    for k in pattern.flipped.remove(index) {
-        pattern.imposed[k] = 0;
-    }
-    true
 }

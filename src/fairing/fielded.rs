@@ -6,7 +6,7 @@
 
 use super::constraint::{Constraint, Rule, breadths};
 use super::fair::{FairError, FairSettings, Prepared};
-use super::field::likelihood::{ALLOWED, Cell};
+use super::field::likelihood::ALLOWED;
 use super::field::observed::{DOUBTFUL, Observations};
 use super::field::points::Points;
 use super::field::rocker::Rocker;
@@ -36,6 +36,10 @@ const VOLUME: f64 = 0.02;
 
 /// The largest residual over the typical one, and over the breadth, beyond both of which a field does not follow its table.
 const FARTHEST: [f64; 2] = [10.0, 3e-3];
+
+/// Standardised residuals of offsets that contradict a field, over the typical one, and over the greatest.
+const CONTRADICTS: f64 = 5.0;
+const ALIKE: f64 = 2.0 / 3.0;
 
 /// Stations and waterlines to each side over which the noise is taken.
 const AROUND: usize = 2;
@@ -140,31 +144,26 @@ impl<'a> TableField<'a> {
         !self.has_pattern() && self.field.residuals.iter().all(|residual| residual.abs() <= farthest)
     }
 
-    /// Offsets that are too far off the field ([`FARTHEST`]), farther than any other within [`AROUND`] stations and
-    /// waterlines, with the half-breadths of the field there. None where the residuals go together: these are no errors of
-    /// single offsets.
+    /// Offsets that contradict the field, with its half-breadths there without them: standardised residuals r / sqrt(1 - h) of
+    /// [`CONTRADICTS`] typical ones, no less than [`ALIKE`] of the greatest. What is less may be pulled by these.
     pub(super) fn contradictions(&self) -> Vec<((usize, usize), f64)> {
-        if self.points.is_some() || self.field.correlation > CORRELATED {
-            return Vec::new();
-        }
-        let most = self.farthest();
-        let field = &self.field;
-        let height = |x: f64, z: f64| field.rocker.as_ref().map_or(Some(z), |rocker| rocker.relative(x, z));
-        let mut cells: Vec<((usize, usize), f64, f64)> = Vec::new();
-        for (k, station) in self.table.stations.iter().enumerate() {
-            let x = station.station.x;
-            for (j, &z) in self.table.waterlines.iter().enumerate() {
-                let Some(z) = height(x, z) else { continue };
-                let is_here = |cell: &Cell| (cell.x - x).abs() < 1e-9 && (cell.z - z).abs() < 1e-9;
-                let found = field.inexact.iter().zip(&field.residuals).find(|(cell, _)| is_here(cell));
-                cells.extend(found.map(|(cell, off)| ((k, j), off.abs(), cell.y + off * cell.scale)));
+        let Some((surface, likely)) = self.modelled() else { return Vec::new() };
+        let smoother = Smoother::new(&surface.model);
+        let Ok(smoothed) = smoother.at(likely.weight / smoother.unit) else { return Vec::new() };
+        let free = |k: usize| (1.0 - smoothed.leverages[k]).max(LEAST_FREEDOM);
+        let readings = surface.model.readings.iter().enumerate();
+        let sizes: Vec<f64> =
+            readings.map(|(k, r)| (r.weight / free(k)).sqrt() * smoothed.residuals[k].abs()).collect();
+        let greatest = sizes.iter().copied().fold(0.0, f64::max);
+        let typical = typical(sizes.iter().copied().filter(|size| *size > 0.0));
+        let least = (CONTRADICTS * typical).max(ALIKE * greatest).max(self.least);
+        let cell = |(k, size): (usize, &f64)| match surface.places[k] {
+            Place { origin: Origin::HalfBreadth { station, waterline }, locked: false, .. } if *size >= least => {
+                Some(((station, waterline), surface.model.readings[k].value + smoothed.residuals[k] / free(k)))
             }
-        }
-        let is_near = |a: (usize, usize), b: (usize, usize)| a.0.abs_diff(b.0) <= AROUND && a.1.abs_diff(b.1) <= AROUND;
-        let stands_out = |(at, off, _): &&((usize, usize), f64, f64)| {
-            *off > most && cells.iter().all(|(other, far, _)| !is_near(*at, *other) || far <= off)
+            _ => None,
         };
-        cells.iter().filter(stands_out).map(|(at, _, y)| (*at, *y)).collect()
+        sizes.iter().enumerate().filter_map(cell).collect()
     }
 
     /// The field as a surface to be faired, with its likelihood; none where it does not follow the table, or no longer does
@@ -173,7 +172,27 @@ impl<'a> TableField<'a> {
         if !self.follows() {
             return None;
         }
-        let Self { table, fitted, rules, marked, points, field, greatest, .. } = self;
+        let (surface, likely) = self.modelled()?;
+        // A locked offset that is not on the hull would not be kept.
+        let is_lost = |origin: &Origin| !surface.places.iter().any(|place| place.origin == *origin);
+        if locked(&self.marked).iter().any(is_lost) {
+            return None;
+        }
+        let surface = surface.within_limits(likely, self.rules)?;
+        if surface.farthest_off() > self.farthest() {
+            return None;
+        }
+        let own = Constraint::Displacement(0.0).value(&surface.hull);
+        let given = match &self.points {
+            Some(points) => points.volume(surface.hull.reference_height()),
+            None => Constraint::Displacement(0.0).value(self.fitted),
+        };
+        ((own - given).abs() <= VOLUME * given.abs()).then_some((surface, likely))
+    }
+
+    /// The field as a surface, with its likelihood; none where it makes no hull.
+    fn modelled(&self) -> Option<(FairSurface, Likely)> {
+        let Self { table, fitted, points, field, greatest, .. } = self;
         let breadth = fitted.particulars().breadth;
         let hull = hull_of(field, fitted).ok()?;
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
@@ -205,11 +224,6 @@ impl<'a> TableField<'a> {
             let shared = readings.iter_mut().zip(&places).filter(shares);
             shared.for_each(|(reading, place)| reading.shared = found.at([place.x, place.z]));
         }
-        // A locked offset that is not on the hull would not be kept.
-        let is_lost = |origin: &Origin| !places.iter().any(|place| place.origin == *origin);
-        if locked(marked).iter().any(is_lost) {
-            return None;
-        }
         let energy = field.bent.energy(&field.net, field.chosen.metric, field.chosen.density.as_ref());
         let likely = Likely { sigma: field.chosen.field.sigma, weight: 10f64.powf(field.chosen.exponent) };
         let scale = |x: f64, z: f64| field.steepness([x, z]).powf(field.power);
@@ -224,16 +238,7 @@ impl<'a> TableField<'a> {
         found.breaks = field.lines.clone();
         found.line_errors = field.line_errors.clone();
         found.keel = field.rocker.as_ref().map(|rocker| rocker.off);
-        let field = found.within_limits(likely, rules)?;
-        if field.farthest_off() > self.farthest() {
-            return None;
-        }
-        let own = Constraint::Displacement(0.0).value(&field.hull);
-        let given = match &points {
-            Some(points) => points.volume(field.hull.reference_height()),
-            None => Constraint::Displacement(0.0).value(fitted),
-        };
-        ((own - given).abs() <= VOLUME * given.abs()).then_some((field, likely))
+        Some((found, likely))
     }
 }
 

@@ -4,9 +4,9 @@
 //! on the grade: they are made once. All grades are done in the way that was found for the grade that was asked for.
 
 use super::changes::Watched;
-use super::job::{Holding, Job, JobError};
+use super::job::{Job, JobError};
 use super::outcome::{Outcome, Turns};
-use super::run::{Progress, Run, Way};
+use super::run::{Progress, Run};
 use super::start::Started;
 use super::strength::Fairness;
 use crate::hull::OffsetTable;
@@ -18,29 +18,12 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(super) struct Taken {
     /// The job of that way.
-    job: Job,
-    own: bool,
-    another: f64,
-    followed: Option<f64>,
+    pub(super) job: Job,
     /// What it started from.
-    started: Arc<Started>,
+    pub(super) started: Arc<Started>,
 }
 
 impl Taken {
-    pub(super) fn new(job: &Job, way: Way<'_>, started: Arc<Started>) -> Self {
-        let Way { own, another, followed, .. } = way;
-        Self { job: job.clone(), own, another, followed, started }
-    }
-
-    /// What `job` starts from. It depends on what is held where the net may be one of its own.
-    fn start_of(&self, job: &Job, table: &OffsetTable) -> Result<Arc<Started>, JobError> {
-        let given = |job: &Job| matches!(job.holding, Holding::Given(_));
-        if !self.own || self.started.surface.is_field || given(job) == given(&self.job) {
-            return Ok(Arc::clone(&self.started));
-        }
-        Ok(Arc::new(Started::new(job, table, self.own)?))
-    }
-
     /// A run of `job` that only lacks its grade; the least inflections of lines that are `known` are not sought again.
     fn run<'a>(
         &self,
@@ -48,8 +31,7 @@ impl Taken {
         table: &'a OffsetTable,
         known: &'a [Turns],
     ) -> Result<(Run<'a>, Watched), JobError> {
-        let way = Way { own: self.own, another: self.another, followed: self.followed, progress: &|_| () };
-        let (run, watched) = Run::new(job, table, way, self.start_of(job, table)?)?;
+        let (run, watched) = Run::new(job, table, Arc::clone(&self.started), &|_| ())?;
         Ok((run.beside(known), watched))
     }
 }

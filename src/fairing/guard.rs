@@ -27,11 +27,13 @@ use super::bends::{Line, kept as keep_signs};
 use super::choice::{charges, given_up, loosened, trial, worth_it};
 use super::least::TableLine;
 use super::model::{Limit, Model};
-use super::pattern::chi_square_limit;
 use super::program::{Program, Solved, Wishes};
 use super::smoothing::Smoother;
 use super::surface::FairSurface;
 use crate::qp::{ProblemError, Settings};
+
+/// Normal deviate of the 99.9 % point.
+const DEVIATE: f64 = 3.090_232_306;
 
 /// Most programs.
 const ROUNDS: usize = 12;
@@ -349,4 +351,11 @@ impl Question<'_> {
         guarded.iterations += solved.solution.iterations;
         Ok((program, solved))
     }
+}
+
+/// 99.9 % point of chi-square with k degrees of freedom (Wilson & Hilferty 1931).
+fn chi_square_limit(k: usize) -> f64 {
+    let k = k as f64;
+    let c = 2.0 / (9.0 * k);
+    k * (1.0 - c + DEVIATE * c.sqrt()).powi(3)
 }

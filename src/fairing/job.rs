@@ -1,5 +1,5 @@
 //! What is wished of a table of offsets, and why it may not be faired: smoothing, what is held, rules, tolerances. How
-//! it is done: `ways` and `run`; what it comes to: [`super::outcome`].
+//! it is done: `run`; what it comes to: [`super::outcome`].
 
 use super::constraint::{Constraint, Rule};
 use super::fair::FairError;
@@ -7,7 +7,6 @@ use super::lines::{LineCourse, LineKind, ProposedLine};
 use super::proposals::Accepted;
 use super::strength::Fairness;
 use super::surface::{FairSurface, Origin};
-pub use super::unbroken::RunsOn;
 use crate::hull::{FitError, Hull, HullError, OffsetTable};
 use crate::qp::Settings;
 
@@ -145,21 +144,12 @@ pub struct Tolerance {
 pub struct Job {
     /// How strongly the table is faired.
     pub fairness: Fairness,
-    /// Smoothing weight; none: by cross-validation on a net of its own, for the errors of the table on that of a fit.
+    /// Smoothing weight; none: that of the likelihood of a field, else that for the errors of the table.
     pub weight: Option<f64>,
     /// What is held.
     pub holding: Holding,
     /// Rules for lines and regions.
     pub rules: Vec<Rule>,
-    /// Whether the flat of side that the table shows is kept where no rule says what is flat; not on a net of its own,
-    /// which keeps straight parts straight.
-    pub keep_flat: bool,
-    /// Where the curvature goes on not to jump where that of the surface through the table does not, though the net would
-    /// let it.
-    pub runs_on: RunsOn,
-    /// Whether the surface through the table is another one with the knuckles that are declared in the job or taken, or the
-    /// same, which may break there.
-    pub refitted: bool,
     /// Which of the lines that are proposed are taken.
     pub accepted: Accepted,
     /// Lines across which slope or curvature break, that the table does not declare.
@@ -199,9 +189,6 @@ impl Default for Job {
             weight: None,
             holding: Holding::Table,
             rules: Vec::new(),
-            keep_flat: true,
-            runs_on: RunsOn::Everywhere,
-            refitted: true,
             accepted: Accepted::None,
             lines: Vec::new(),
             tolerance: Tolerance { table: None, stations: Vec::new(), waterlines: Vec::new(), cells: Vec::new() },

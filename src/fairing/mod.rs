@@ -3,7 +3,6 @@
 
 mod adapt;
 pub mod bends;
-pub mod breaks;
 mod carry;
 mod cells;
 mod changes;
@@ -15,7 +14,6 @@ mod determined;
 pub mod fair;
 pub mod field;
 mod fielded;
-mod flats;
 mod grades;
 pub mod guard;
 pub mod held;
@@ -33,7 +31,6 @@ mod move_metric;
 pub mod noise;
 pub mod oblique;
 pub mod outcome;
-pub mod pattern;
 pub mod program;
 pub mod proposals;
 pub mod record;
@@ -48,7 +45,6 @@ pub mod strength;
 pub mod surface;
 mod suspects;
 mod unbroken;
-mod ways;
 
 pub use lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
 pub use run::Progress;

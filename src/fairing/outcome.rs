@@ -8,7 +8,6 @@ use super::held::{Held, HeldRule};
 use super::inspect::{PolygonSigns, is_of_table, kind};
 use super::proposals::Proposal;
 use super::record::moves;
-use super::repeated::excess;
 use super::strength::{Fairness, far_above};
 use super::surface::Origin;
 use super::suspects::Suspect;
@@ -124,16 +123,13 @@ pub struct Outcome {
     pub fairness: Fairness,
     /// Order of the energy.
     pub order: usize,
-    /// Energy of the start net, which on a net of its own has the half-breadths of the surface through the table for
-    /// control values and is evener than that, and of the fair net.
+    /// Energy of the start net and of the fair net.
     pub energy: [f64; 2],
     /// The greatest jump of curvature of the fair hull across lines of its net where the surface through the table has
-    /// none and none is declared \[1/m\]; none on a net of its own.
+    /// none and none is declared \[1/m\]; none on a field.
     pub jump: Option<f64>,
     /// By how much the half-breadth passes the greatest of the table, or B/2, before and after \[m\].
     pub beyond: [f64; 2],
-    /// Whether the net is one of its own and not that of the surface through the table.
-    pub own: bool,
     /// Whether the net is that of a fair field.
     pub is_field: bool,
     /// Noise of the offsets where their neighbourhood is smooth \[m\]; what is taken of it is [`Faired::sigma`].
@@ -285,10 +281,5 @@ impl Outcome {
     #[must_use]
     pub fn all_inflections(&self) -> [usize; 2] {
         total(&self.turns)
-    }
-
-    /// Inflections more than before, all curves together that have more.
-    pub(super) fn excess(&self) -> usize {
-        excess(&self.turns)
     }
 }

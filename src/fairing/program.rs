@@ -6,7 +6,6 @@
 
 use super::determined::Determined;
 use super::model::{Limit, Model, Reduced, Row};
-use super::pattern::{Pattern, SignForms};
 use super::smoothing::Smoother;
 use crate::numeric::SymmetricBand;
 use crate::qp::{Certificate, Problem, ProblemError, RepeatedSolver, Settings, Solution, SparseRows, Status};
@@ -22,8 +21,8 @@ pub enum RowName {
     Constraint(usize),
     /// The tolerance of a reading: its index.
     Tolerance(usize),
-    /// A sign of curvature: which forms (0: waterlines, 1: across) and which of them.
-    Sign(usize, usize),
+    /// A sign of curvature of a curve: its index.
+    Sign(usize),
     /// A sign of curvature that a line of the table keeps: its index.
     Bend(usize),
     /// A limit of the half-breadth at a point of the surface: its index.
@@ -119,7 +118,7 @@ impl Program {
         smoother: &Smoother,
         lambda: f64,
         wishes: &Wishes,
-        signs: Option<(&[SignForms; 2], &[Pattern; 2])>,
+        signs: Option<(&[Row], &[i8])>,
     ) -> Self {
         let (normal, right) = smoother.normal(lambda);
         let n = right.len();
@@ -156,17 +155,14 @@ impl Program {
                 add(RowName::Tolerance(k), &reading.row, reading.value - band, reading.value + band, tolerance);
             }
         }
-        if let Some((forms, patterns)) = signs {
-            for (which, (forms, pattern)) in forms.iter().zip(patterns).enumerate() {
-                for (k, &sign) in pattern.imposed.iter().enumerate() {
-                    let limits = match sign {
-                        0 => continue,
-                        1.. => (0.0, f64::INFINITY),
-                        _ => (f64::NEG_INFINITY, 0.0),
-                    };
-                    add(RowName::Sign(which, k), &forms.rows[k], limits.0, limits.1, 0.0);
-                }
-            }
+        let signs = signs.into_iter().flat_map(|(rows, imposed)| rows.iter().zip(imposed));
+        for (k, (row, &sign)) in signs.enumerate() {
+            let limits = match sign {
+                0 => continue,
+                1.. => (0.0, f64::INFINITY),
+                _ => (f64::NEG_INFINITY, 0.0),
+            };
+            add(RowName::Sign(k), row, limits.0, limits.1, 0.0);
         }
         for (k, limit) in wishes.bends.iter().enumerate() {
             add(RowName::Bend(k), &limit.row, limit.lower, limit.upper, 0.0);

@@ -181,7 +181,7 @@ pub fn proposals(
     }
     // Departure, objective, and the weight of the energy itself, which is the same for all nets.
     let of = |hull: &Hull, weight: Option<f64>, breaks: &Breaks| -> Result<[f64; 3], FairError> {
-        let surface = FairSurface::new(table, hull, None, breaks)?;
+        let surface = FairSurface::new(table, hull, breaks);
         // Neither the start, which runs smoothly through what a line would break, nor weights of cells, which give way
         // there.
         let net = surface.hull.surface();

@@ -9,7 +9,6 @@ use super::oblique::oblique_limits;
 use super::outcome::Turns;
 use super::surface::FairSurface;
 use crate::hull::{Cut, Hull};
-use crate::qp::RepeatedSolver;
 
 /// Most times that it is done again.
 const REPEATS: usize = 6;
@@ -87,7 +86,7 @@ impl Repeated<'_> {
                 settings.oblique.extend(oblique_limits(&surface.hull, &surface.start, cut, seen));
                 oblique.push(cut);
             }
-            let faired = fair_prepared(surface, settings, prepared, &mut RepeatedSolver::new(&settings.solver))?;
+            let faired = fair_prepared(surface, settings, prepared)?;
             // Signs that nothing but far control values can keep make no hull.
             let Ok(after) = surface.hull_of(&faired.net) else { break };
             let lines = watched.turns(&after);

@@ -4,14 +4,10 @@ use super::bends::{Bend, Line, bends};
 use super::constraint::{Rule, inflections};
 use super::fair::FairError;
 use super::least::TableLine;
-use super::model::{Limit, Row};
+use super::model::Limit;
 use super::program::{Program, Solved};
 use super::surface::FairSurface;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
-
-/// Half-breadths that differ by less than this part of the breadth are the same.
-const SAME: f64 = 1e-9;
 
 /// Most rounds of lines that bend too often.
 const ROUNDS: usize = 4;
@@ -28,44 +24,7 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
             Err(why) => problems.push((k, format!("{}: {why}", rule.words()))),
         }
     }
-    let shown = rules.iter().position(|rule| matches!(rule, Rule::FlatShown { .. }));
-    if let Some(shown) = shown {
-        leave_to_fixed(&mut limits, shown, surface);
-    }
     if problems.is_empty() { Ok(limits) } else { Err(problems) }
-}
-
-/// Takes control values out of a flat that the table shows which are others at the start, and with which a line or an
-/// offset that stays could not: those that act on it beside others that are free. A row of offsets that stay gives as
-/// many values as the line through them has, and where a part of these is given besides, each of the others follows from
-/// its neighbours, with an error that grows from one to the next.
-fn leave_to_fixed(limits: &mut RuleLimits, shown: usize, surface: &FairSurface) {
-    let slack = SAME * surface.hull.particulars().breadth;
-    let of_flat = |(rule, limit): &&(usize, Limit)| *rule == shown && limit.row.len() == 1;
-    let mut flat: BTreeMap<usize, f64> =
-        limits.iter().filter(of_flat).map(|(_, limit)| (limit.row[0].0, limit.lower)).collect();
-    let fixed = limits.iter().filter(|(rule, limit)| *rule != shown && limit.lower >= limit.upper);
-    let fixed = fixed.map(|(_, limit)| (&limit.row, limit.lower));
-    let places = surface.places.iter().zip(&surface.model.readings);
-    let locked = places.filter(|(place, _)| place.locked).map(|(_, reading)| (&reading.row, reading.value));
-    let mut stays: Vec<(&Row, f64)> = fixed.chain(locked).collect();
-    loop {
-        let before = flat.len();
-        stays.retain(|(row, y)| {
-            // Those without weight there too: beside a line that stays outside of the flat the surface has to get back.
-            let on_flat: Option<f64> = row.iter().map(|(i, basis)| Some(basis * flat.get(i)?)).sum();
-            let is_flat = on_flat.is_some_and(|flat| (flat - y).abs() <= slack);
-            if !is_flat {
-                let other = |i: &usize, flat: f64| (surface.start[*i] - flat).abs() > slack;
-                flat.retain(|i, flat| !(row.iter().any(|(k, _)| k == i) && other(i, *flat)));
-            }
-            is_flat
-        });
-        if flat.len() == before {
-            break;
-        }
-    }
-    limits.retain(|(rule, limit)| *rule != shown || limit.row.iter().all(|(i, _)| flat.contains_key(i)));
 }
 
 /// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only

@@ -6,7 +6,6 @@ use super::changes::{Counted, Watched, changes, normal_moves, predicted, written
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, PRICE, Prepared, fair_prepared};
-use super::flats::shown_flat;
 use super::grades::Taken;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
@@ -34,6 +33,10 @@ use std::sync::Arc;
 /// Tolerance that a designer gives offsets lifted from a drawing: part of the breadth, or \[m\], whichever is more.
 const MOST_TOLERANCE: [f64; 2] = [1e-3, 0.015];
 
+/// A target that the surface through the table misses by less, over its scale, is no smooth move of that surface: errors of
+/// the table are as much.
+const ANOTHER: f64 = 2e-3;
+
 /// Noise over the quantum of the writing from which an undeclared line is likely.
 const ALARM: f64 = 3.0;
 
@@ -48,43 +51,67 @@ const LEAST_THROUGH: f64 = 1e-6;
 const MOST_WIDENING: f64 = 3.0;
 const WIDER: f64 = 1.1;
 
-/// On which net a job is done, and how far off a target may be, over its scale, before it is one smooth move.
-#[derive(Clone, Copy)]
-pub(super) struct Way<'t> {
-    /// Whether the net may be one of its own, where that follows the table.
-    pub(super) own: bool,
-    /// What a target may be off.
-    pub(super) another: f64,
-    /// The noise of the table \[m\] where a net of its own follows it, and cannot have what is wished: it is all errors.
-    pub(super) followed: Option<f64>,
-    /// Hears what is being done.
-    pub(super) progress: Progress<'t>,
-}
-
 /// Hears in a few words what is being done.
 pub type Progress<'t> = &'t (dyn Fn(&str) + Sync);
 
 impl Job {
-    /// Fairs a table in one way.
-    pub(super) fn run_on(&self, table: &OffsetTable, way: Way<'_>) -> Result<Outcome, JobError> {
-        self.run_from(table, way, Started::new(self, table, way.own)?)
+    /// Fairs a table.
+    ///
+    /// # Errors
+    /// [`JobError`] when the table makes no surface; targets that cannot be met are the status of the outcome.
+    pub fn run(&self, table: &OffsetTable) -> Result<Outcome, JobError> {
+        self.run_telling(table, &|_| ())
     }
 
-    /// The same, from a start.
-    pub(super) fn run_from(&self, table: &OffsetTable, way: Way<'_>, start: Started) -> Result<Outcome, JobError> {
-        let (run, watched) = Run::new(self, table, way, Arc::new(start))?;
+    /// Fairs a table and tells what is being done, which takes seconds for a large table or targets that cannot be met.
+    ///
+    /// # Errors
+    /// As [`Job::run`].
+    pub fn run_telling(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
+        let raw = self.fairness.is_raw().then(|| self.through());
+        let job = raw.as_ref().unwrap_or(self);
+        let outcome = job.run_once(table, progress)?;
+        job.or_without_the_field(table, progress, outcome)
+    }
+
+    fn run_once(&self, table: &OffsetTable, progress: Progress<'_>) -> Result<Outcome, JobError> {
+        let (run, watched) = Run::new(self, table, Arc::new(Started::new(self, table)?), progress)?;
         run.at(self.fairness)?.outcome(watched)
     }
 
-    /// The rules, and the flat that the table shows where no rule says what is flat.
-    fn rules(&self, table: &OffsetTable, surface: &FairSurface, left_out: &[(usize, usize)]) -> Vec<Rule> {
-        let mut rules = self.rules.clone();
-        let said = rules.iter().any(|rule| matches!(rule, Rule::FlatOfSide { .. }));
-        if self.keep_flat && !surface.own && !surface.is_field && !said {
-            let held = |rule: &Rule| rule.limits(surface).is_ok_and(|limits| !limits.is_empty());
-            rules.extend(shown_flat(table, left_out).filter(held));
+    /// A field whose tolerances have no room for the move to its targets bends for them. The net of the surface through the
+    /// table, which goes through the offsets as they are, may be nearer to them.
+    fn or_without_the_field(
+        &self,
+        table: &OffsetTable,
+        progress: Progress<'_>,
+        outcome: Outcome,
+    ) -> Result<Outcome, JobError> {
+        let bent = outcome.is_field && outcome.faired.carried.is_some_and(|factor| factor > 1.0);
+        if !bent || outcome.status != Status::Optimal || !outcome.is_no_fairer() {
+            return Ok(outcome);
         }
-        rules
+        progress("the field bends more often for its targets: again, on the net of the surface through the table");
+        let mut other = Self { field: false, ..self.clone() }.run_once(table, progress)?;
+        if other.status != Status::Optimal || other.changes_of_sign()[1] >= outcome.changes_of_sign()[1] {
+            return Ok(outcome);
+        }
+        other.notes.insert(
+            0,
+            "a field bends more often to meet the targets within the tolerances: the net of the surface through the table was \
+             faired"
+                .to_owned(),
+        );
+        Ok(other)
+    }
+
+    /// The job of the surface through the table: it has the displacement and the humps that it has.
+    pub(super) fn through(&self) -> Self {
+        let given = match &self.holding {
+            Holding::Table => Vec::new(),
+            Holding::Given(given) | Holding::Both { given, .. } => given.clone(),
+        };
+        Self { signs: false, holding: Holding::Given(given), ..self.clone() }
     }
 }
 
@@ -93,7 +120,7 @@ impl Job {
 pub(super) struct Run<'a> {
     job: &'a Job,
     table: &'a OffsetTable,
-    way: Way<'a>,
+    progress: Progress<'a>,
     started: Arc<Started>,
     fairness: Fairness,
     /// The lines of a run with the same tolerances, whose least inflections are known. With them prices are left out.
@@ -141,8 +168,8 @@ impl<'a> Run<'a> {
     pub(super) fn new(
         job: &'a Job,
         table: &'a OffsetTable,
-        way: Way<'a>,
         started: Arc<Started>,
+        progress: Progress<'a>,
     ) -> Result<(Self, Watched), JobError> {
         let Started {
             found,
@@ -153,21 +180,13 @@ impl<'a> Run<'a> {
             quantum,
             proposals,
             mut surface,
-            search,
             likely,
-            gap,
             excluded,
             watched,
         } = Started::clone(&started);
-        (way.progress)(&format!(
+        progress(&format!(
             "{}; {}",
-            if surface.is_field {
-                "a field follows the table"
-            } else if surface.own {
-                "an independent net follows the table"
-            } else {
-                "the net of the surface through the table"
-            },
+            if surface.is_field { "a field follows the table" } else { "the net of the surface through the table" },
             counted(surface.start.len(), "control value")
         ));
         let depth = before.particulars().depth;
@@ -187,20 +206,15 @@ impl<'a> Run<'a> {
         }
         let base = if surface.is_field { &surface.hull } else { &before };
         let asked = job.holding.constraints(base)?;
-        let another = if surface.is_field { ON_TARGET } else { way.another };
-        let wished = job.rules(table, &surface, &excluded);
-        // A net of its own has another volume between the offsets: the tolerances have room for the difference.
-        let apart = 6.0 * gap;
+        // The net of the surface through the table meets a target that is this near by its offsets.
+        let another = if surface.is_field { ON_TARGET } else { ANOTHER };
+        let wished = job.rules.clone();
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
-        // A net of its own is searched without them.
-        let left = (!surface.own && likely.is_none() && way.followed.is_none())
-            .then(|| left_by_differences(table, &excluded))
-            .flatten();
+        let left = likely.is_none().then(|| left_by_differences(table, &excluded)).flatten();
         let differences = left.map(|left| Differences { left, noise: found.noise });
         let readings = surface.model.readings.iter().map(|reading| reading.value);
         let greatest = readings.fold(0.5 * before.particulars().breadth, f64::max);
-        let known = way.followed.unwrap_or(found.noise);
         let roughness = (MOST_TOLERANCE[0] * before.particulars().breadth).max(MOST_TOLERANCE[1]) / 3.0;
         let mut settings = FairSettings {
             others: asked.iter().map(|c| c.missed(c.value(base), base) > another).collect(),
@@ -211,12 +225,12 @@ impl<'a> Run<'a> {
             through: None,
             weight: job.weight,
             // Whoever names a tolerance for the table says how noisy it is.
-            table_noise: Some(job.tolerance.table.map_or(known, |named| known.min(named / 3.0))),
+            table_noise: Some(job.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
             differences,
-            most_noise: way.followed.map_or(roughness, |followed| roughness.max(followed)),
+            most_noise: roughness,
             least_noise: quantum / 12f64.sqrt(),
             tolerance_levels: Some(3.0),
-            least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth).max(apart),
+            least_tolerance: (2.0 * quantum).max(LEAST_TOLERANCE * before.particulars().breadth),
             tolerances: job.tolerances(&surface),
             signs: job.signs,
             price: job.price.unwrap_or(PRICE),
@@ -232,13 +246,9 @@ impl<'a> Run<'a> {
             admits: job.tolerance.table.is_some_and(|named| excess_of_breadth(before.surface(), greatest) > named),
             solver: job.solver.clone(),
         };
-        let prepared = match (likely, search) {
-            (Some(likely), _) => Prepared::likely(&mut surface, &settings, likely)?,
-            (None, Some(search)) if job.weight.is_none() => {
-                let found = (search.smoothed.lambda, search.trials);
-                Prepared::searched(&mut surface, &settings, search.smoother, found, None)?
-            }
-            _ => Prepared::new(&mut surface, &settings)?,
+        let prepared = match likely {
+            Some(likely) => Prepared::likely(&mut surface, &settings, likely)?,
+            None => Prepared::new(&mut surface, &settings)?,
         };
         if surface.is_field && job.holding == Holding::Table {
             settings.rooms = prepared.twice_the_errors(&surface, &asked);
@@ -252,7 +262,7 @@ impl<'a> Run<'a> {
         let run = Self {
             job,
             table,
-            way,
+            progress,
             started,
             fairness: Fairness::default(),
             known: None,
@@ -297,9 +307,9 @@ impl<'a> Run<'a> {
     pub(super) fn outcome(mut self, watched: Watched) -> Result<Outcome, JobError> {
         let lines_before = watched.counted(self.settings.seen);
         self.settings.before = lines_before.changes_of_sign();
-        let Self { surface, settings, prepared, solver, .. } = &mut self;
-        let faired = fair_prepared(surface, settings, prepared, solver)?;
-        (self.way.progress)(&format!(
+        let Self { surface, settings, prepared, .. } = &mut self;
+        let faired = fair_prepared(surface, settings, prepared)?;
+        (self.progress)(&format!(
             "{} solved: {}",
             counted(faired.programs, "program"),
             match (&faired.instead, &faired.diagnosis) {
@@ -380,18 +390,17 @@ impl<'a> Run<'a> {
             faired,
             resolution: settings.seen,
             nearest: given.nearest,
-            own: surface.own,
             is_field: surface.is_field,
             table_noise: self.found.noise,
             line_errors: surface.line_errors,
             notes: self.notes,
-            taken: Taken::new(self.job, self.way, self.started),
+            taken: Taken { job: self.job.clone(), started: self.started },
         })
     }
 
     /// The program of the settings as they are.
     fn solve(&mut self) -> Result<Faired, JobError> {
-        Ok(fair_prepared(&mut self.surface, &self.settings, &self.prepared, &mut self.solver)?)
+        Ok(fair_prepared(&mut self.surface, &self.settings, &self.prepared)?)
     }
 
     /// Of several hundred offsets some are further off than three noise levels: where nobody named the tolerances, they
@@ -415,7 +424,7 @@ impl<'a> Run<'a> {
     fn without_rules(&mut self, mut faired: Faired, given: &mut Given) -> Result<Faired, JobError> {
         let mut kept: Vec<usize> = (0..self.wished.len()).collect();
         while let Some(Instead::WithoutRules(rules)) = &faired.instead {
-            (self.way.progress)(&format!("again without {}", counted(rules.len(), "rule")));
+            (self.progress)(&format!("again without {}", counted(rules.len(), "rule")));
             given.rules.extend(rules.iter().map(|&rule| kept[rule]));
             kept.retain(|rule| !given.rules.contains(rule));
             self.settings.rules = kept.iter().map(|&rule| self.wished[rule].clone()).collect();
@@ -438,7 +447,7 @@ impl<'a> Run<'a> {
         let plain = self.settings.clone();
         let mut best: Option<(Attempted, FairSettings)> = None;
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
-            (self.way.progress)("the nearest feasible targets");
+            (self.progress)("the nearest feasible targets");
             self.settings = FairSettings { constraints, ..plain.clone() };
             self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
@@ -472,8 +481,8 @@ impl<'a> Run<'a> {
             after => after?,
         };
         let Self { surface, settings, prepared, solver, before, wished, known, .. } = self;
-        if surface.own || surface.is_field {
-            // Nothing is repeated on a net of its own: the prices are final.
+        if surface.is_field {
+            // Nothing is repeated on a field: the prices are final.
             let (lines, held) = join(
                 || watched.turns(&after),
                 || held::constraints(surface, settings, &faired, [before, &after], (known.is_none(), solver)),
@@ -484,7 +493,7 @@ impl<'a> Run<'a> {
         let mut attempt = Attempt { faired, after, lines };
         if self.job.signs {
             let worse = excess(&attempt.lines);
-            (self.way.progress)(&format!(
+            (self.progress)(&format!(
                 "{} more than before on single lines; humps and hollows of the surface",
                 counted(worse, "inflection")
             ));
@@ -531,7 +540,6 @@ impl<'a> Run<'a> {
                 notes.push(note.to_owned());
             }
         };
-        surface.straight_parts().iter().for_each(|note| when(true, note));
         surface.lines_of_field().for_each(|note| when(true, &note));
         let points = self.table.point_count();
         let is_point = |place: &&Place| matches!(place.origin, Origin::Point { .. });
@@ -552,11 +560,6 @@ impl<'a> Run<'a> {
                  {start:.2} mm",
                 self.greatest
             ),
-        );
-        when(
-            !surface.own && !surface.is_field && job.rules.iter().any(|rule| rule.keeps_the_fit(&self.before)),
-            "a line that does not move, or a flat, keeps the net of the surface through the table, on which less is taken for noise \
-             than on an independent net",
         );
         let suspects = self.excluded.len();
         when(suspects > 0, &format!("{suspects} suspects were left out of the fairing"));

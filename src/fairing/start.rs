@@ -1,30 +1,20 @@
 //! From a table to the model that is faired: what is left out, the surface through the rest, accepted lines, the net.
 
 use super::changes::Watched;
-use super::constraint::{Constraint, Rule, edged, edges};
-use super::fair::{FairError, MISFIT};
+use super::constraint::{Rule, edged, edges};
 use super::fielded::{Likely, TableField};
-use super::flats::shown_flat;
-use super::job::{Holding, Job, JobError, LEAST_TOLERANCE};
-use super::lines::{LineCourse, LineKind, ProposedLine, proposed_lines};
+use super::job::{Job, JobError};
+use super::lines::{LineKind, ProposedLine, proposed_lines};
 use super::proposals::{Accepted, Proposal, add_lines, declared, has_line, proposals, with_line};
-use super::robust::gross_errors;
-use super::smoothing::{Smoothed, Smoother, Trial};
-use super::surface::{FairSurface, Origin, Place};
+use super::surface::FairSurface;
 use super::suspects::{Suspects, point_suspects, suspects};
 use super::unbroken::{Along, Breaks};
-use crate::hull::{self, Entry, FitMethod, Hull, HullError, OffsetTable};
+use crate::hull::{self, Entry, FitMethod, Hull, OffsetTable};
 use crate::numeric::join;
 use crate::units::counted;
 
-/// What a net of its own may leave the surface through the table by between offsets, over the breadth.
-const SWING: f64 = 0.05;
-
 /// Most offsets that contradict a field of all others, over their number.
 const CONTRADICTING: f64 = 0.02;
-
-/// A waterline or a station nearer to a proposed line than this \[m\] is the line.
-const SAME: f64 = 1e-9;
 
 /// A cell: (station, waterline).
 type Cell = (usize, usize);
@@ -45,13 +35,8 @@ pub(super) struct Started {
     pub(super) quantum: f64,
     pub(super) proposals: Vec<Proposal>,
     pub(super) surface: FairSurface,
-    /// The search for the weight, on a net of its own.
-    pub(super) search: Option<Search>,
     /// What the likelihood says, of a field.
     pub(super) likely: Option<Likely>,
-    /// Half the mean distance \[m\] of such a net from the surface through the table, of what their displaced volumes
-    /// differ by.
-    pub(super) gap: f64,
     /// Cells that are left out.
     pub(super) excluded: Vec<Cell>,
     /// The lines that are counted, on the surface before.
@@ -82,24 +67,19 @@ struct Modelled {
     notes: Vec<String>,
     proposals: Vec<Proposal>,
     /// The surface with accepted lines and edges of flats.
-    start: Hull,
-    breaks: Breaks,
     surface: FairSurface,
-    search: Option<Search>,
     watched: Watched,
 }
 
-/// What may be declared, the surface through the table with what is where that is another one, the same with edges of
-/// flats and the lines along which its curvature may jump, the net over it, and its weight where it is one of its own.
-type Surfaced = (Vec<Proposal>, Option<Hull>, (Hull, Breaks), FairSurface, Option<Search>);
+/// What may be declared, the surface through the table with what is where that is another one, and the net over it.
+type Surfaced = (Vec<Proposal>, Option<Hull>, FairSurface);
 
 /// A field with its likelihood, and where offsets are left out for it the table and the model without them.
 type FieldStart = ((FairSurface, Likely), Option<(Cleaned, Modelled)>);
 
 impl Started {
-    /// Leaves out what is certainly wrong: suspects of the table, and on a net of its own gross errors
-    /// ([`super::robust`]), where the net follows what is left; `own` says whether there may be one.
-    pub(super) fn new(job: &Job, table: &OffsetTable, own: bool) -> Result<Self, JobError> {
+    /// Leaves out what is certainly wrong: suspects of the table, and what contradicts the field of all others.
+    pub(super) fn new(job: &Job, table: &OffsetTable) -> Result<Self, JobError> {
         let mut found = suspects(table);
         let mut cleaned = Cleaned { clean: job.marked(table), charted: table.clone(), excluded: Vec::new() };
         let mut kept = Vec::new();
@@ -124,48 +104,18 @@ impl Started {
         }
         let quantum = table.form.quantum().unwrap_or(0.0);
         let noise = found.noise.max(quantum / 12f64.sqrt());
-        let as_field = own && job.suits_a_field(noise) && table.lines.is_empty();
-        let mut modelled = Modelled::new(job, &cleaned, &found, noise, own && !as_field)?;
+        let as_field = job.suits_a_field(noise) && table.lines.is_empty();
+        let mut modelled = Modelled::new(job, &cleaned, &found, noise)?;
         let mut likely = None;
-        if as_field {
-            match field_without_contradictions(job, (&cleaned, &modelled), &found, noise)? {
-                Some((field, without)) => {
-                    if let Some(without) = without {
-                        (cleaned, modelled) = without;
-                    }
-                    (modelled.surface, likely) = (field.0, Some(field.1));
-                }
-                None => modelled.net_again(job, &cleaned, &found, noise)?,
+        if as_field
+            && let Some((field, without)) = field_without_contradictions(job, (&cleaned, &modelled), &found, noise)?
+        {
+            if let Some(without) = without {
+                (cleaned, modelled) = without;
             }
+            (modelled.surface, likely) = (field.0, Some(field.1));
         }
-        if job.exclude_suspects && modelled.surface.own {
-            let mut without = cleaned.clone();
-            let wrong = modelled.gross_errors()?;
-            // What a net smooths away of a knuckle that nobody declared is no error.
-            let lines = if wrong.is_empty() { Vec::new() } else { proposed_lines(&cleaned.charted, &found) };
-            let right = |cell: Cell| job.holds(table, cell) || lines.iter().any(|line| breaks_at(line, table, cell));
-            for (cell, expected) in wrong.into_iter().filter(|(cell, _)| !right(*cell)) {
-                without.leave_out(cell, expected);
-            }
-            if without.excluded.len() > cleaned.excluded.len() {
-                let again = Modelled::new(job, &without, &found, noise, own)?;
-                if again.surface.own && again.follows(noise) {
-                    (modelled, cleaned) = (again, without);
-                }
-            }
-        }
-        let mut gap = 0.0;
-        if modelled.surface.own {
-            gap = modelled.gap()?;
-            // Offsets that tell the hull better than its displacement between them is known are not moved for the
-            // difference.
-            let dear = gap > noise && !matches!(job.holding, Holding::Given(_));
-            if dear || !modelled.follows(noise) || modelled.swings(&cleaned.clean) {
-                modelled.surface = FairSurface::new(&cleaned.clean, &modelled.start, None, &modelled.breaks)?;
-                (modelled.search, gap) = (None, 0.0);
-            }
-        }
-        let Modelled { before, notes: assumed, proposals, surface, search, watched, .. } = modelled;
+        let Modelled { before, notes: assumed, proposals, surface, watched } = modelled;
         let mut notes = Vec::new();
         for (station, waterline) in kept {
             let (name, z) = (table.stations[station].station.words(), table.waterlines[waterline]);
@@ -180,21 +130,7 @@ impl Started {
             ));
         }
         let excluded = cleaned.excluded;
-        Ok(Self {
-            found,
-            before,
-            notes,
-            assumed,
-            noise,
-            quantum,
-            proposals,
-            surface,
-            search,
-            likely,
-            gap,
-            excluded,
-            watched,
-        })
+        Ok(Self { found, before, notes, assumed, noise, quantum, proposals, surface, likely, excluded, watched })
     }
 }
 
@@ -230,7 +166,7 @@ fn field_without_contradictions(
         }
         let mut table = table.clone();
         wrong.into_iter().for_each(|(cell, expected)| table.leave_out(cell, expected));
-        let model = Modelled::new(job, &table, found, noise, false)?;
+        let model = Modelled::new(job, &table, found, noise)?;
         without = Some((table, model));
     }
 }
@@ -246,30 +182,14 @@ fn released(table: &OffsetTable, rules: &[Rule]) -> Option<OffsetTable> {
     (count > 0).then_some(free)
 }
 
-/// Whether a cell lies on a knuckle.
-fn breaks_at(line: &ProposedLine, table: &OffsetTable, (station, waterline): Cell) -> bool {
-    let [x, z] = [table.stations[station].station.x, table.waterlines[waterline]];
-    let (across, along) = if line.course == LineCourse::Waterline { (z, x) } else { (x, z) };
-    line.kind == LineKind::Knuckle
-        && (across - line.at).abs() <= SAME
-        && (line.reach[0]..=line.reach[1]).contains(&along)
-}
-
-impl Started {
-    /// The noise of the offsets \[m\] on a net of their own; none where none follows them.
-    pub(super) fn noise_of_its_own_net(&self) -> Option<f64> {
-        self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()))
-    }
-}
-
 impl Modelled {
-    fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64, own: bool) -> Result<Self, JobError> {
+    fn new(job: &Job, table: &Cleaned, found: &Suspects, noise: f64) -> Result<Self, JobError> {
         let Cleaned { clean, charted, .. } = table;
         let fitted = Hull::fit(charted, &FitMethod::Graded)?;
         let before = fitted.hull;
         let (mut watched, modelled) =
-            join(|| Watched::new(clean, &before), || Self::surface(job, table, found, (noise, own), &before));
-        let (proposals, refitted, (start, breaks), surface, search) = modelled?;
+            join(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
+        let (proposals, refitted, surface) = modelled?;
         // Without a line that the hull has, the surface through the table is another one between the offsets.
         let before = match refitted {
             Some(refitted) => {
@@ -278,27 +198,11 @@ impl Modelled {
             }
             None => before,
         };
-        Ok(Self { before, notes: fitted.notes, proposals, start, breaks, surface, search, watched })
+        Ok(Self { before, notes: fitted.notes, proposals, surface, watched })
     }
 
-    /// Takes a net of its own where the table may have one, over the same surface.
-    fn net_again(&mut self, job: &Job, table: &Cleaned, found: &Suspects, noise: f64) -> Result<(), JobError> {
-        let (proposals, _, (start, breaks), surface, search) =
-            Self::surface(job, table, found, (noise, true), &self.before)?;
-        (self.proposals, self.start, self.breaks, self.surface, self.search) =
-            (proposals, start, breaks, surface, search);
-        Ok(())
-    }
-
-    /// What may be declared, the surface through the table with what is where that is another one, the same with edges
-    /// of flats, and the net over it with its weight where that is its own.
-    fn surface(
-        job: &Job,
-        table: &Cleaned,
-        found: &Suspects,
-        (noise, own): (f64, bool),
-        before: &Hull,
-    ) -> Result<Surfaced, JobError> {
+    /// What may be declared, the surface through the table with what is where that is another one, and the net over it.
+    fn surface(job: &Job, table: &Cleaned, found: &Suspects, noise: f64, before: &Hull) -> Result<Surfaced, JobError> {
         let Cleaned { clean, charted, .. } = table;
         let mut list = proposed_lines(charted, found);
         list.retain(|line| !has_line(before, line));
@@ -311,8 +215,7 @@ impl Modelled {
         let named: Vec<ProposedLine> = job.lines.iter().filter(|line| !has_line(before, line)).copied().collect();
         let found = list.len();
         list.extend(&named);
-        let mut breaks = declared_breaks(charted, before, &table.excluded);
-        breaks.runs_on = job.runs_on;
+        let mut breaks = declared_breaks(charted, before);
         let mut proposals = proposals(clean, before, &list, noise, (&job.accepted, &breaks))?;
         for proposal in proposals.iter_mut().skip(found) {
             let ProposedLine { course, kind, at, .. } = proposal.line;
@@ -331,7 +234,7 @@ impl Modelled {
         });
         let declared = declared(&proposals, before, charted);
         let lined = OffsetTable { lines: charted.lines.iter().cloned().chain(declared).collect(), ..charted.clone() };
-        let more = job.refitted && lined.lines.len() > charted.lines.len();
+        let more = lined.lines.len() > charted.lines.len();
         let refitted = if more { Hull::fit(&lined, &FitMethod::Graded).ok().map(|fitted| fitted.hull) } else { None };
         let mut start = refitted.as_ref().unwrap_or(before).clone();
         for proposal in proposals.iter().filter(|proposal| proposal.accepted) {
@@ -345,86 +248,13 @@ impl Modelled {
                 start = edged(&start, &edges)?;
             }
         }
-        let own = own && !job.rules.iter().any(|rule| rule.keeps_the_fit(before));
-        let least = noise.max(LEAST_TOLERANCE * before.particulars().breadth);
-        let surface = FairSurface::new(clean, &start, own.then_some(least), &breaks)?;
-        let search = surface.own.then(|| Search::new(&surface)).transpose()?;
-        Ok((proposals, refitted, (start, breaks), surface, search))
-    }
-
-    /// Whether a net of its own swings between the offsets: in the middle of four of them it leaves the surface through
-    /// the table by more than [`SWING`] of the breadth. An error that is not left out does that where its neighbours
-    /// are.
-    fn swings(&self, table: &OffsetTable) -> bool {
-        let Some(search) = &self.search else { return false };
-        let Ok(own) = search.hull(&self.surface) else { return true };
-        let most = SWING * self.before.particulars().breadth;
-        let stations: Vec<f64> = table.stations.iter().map(|station| station.station.x).collect();
-        stations.windows(2).any(|x| {
-            table.waterlines.windows(2).any(|z| {
-                let (x, z) = (0.5 * (x[0] + x[1]), 0.5 * (z[0] + z[1]));
-                let both = own.half_breadth(x, z).zip(self.before.half_breadth(x, z));
-                both.is_some_and(|(own, before)| (own - before).abs() > most)
-            })
-        })
-    }
-
-    /// Whether a net of its own follows the table: the surface through the table breaks along no lines but those
-    /// declared (an error bends it as a feature of the hull does), and what remains is the noise of the table.
-    fn follows(&self, noise: f64) -> bool {
-        let least = LEAST_TOLERANCE * self.before.particulars().breadth;
-        let remains = self.search.as_ref().map(|search| search.smoothed.sigma(search.smoother.count()));
-        self.surface.simple && remains.is_some_and(|sigma| sigma <= MISFIT * noise.max(least))
-    }
-
-    /// Half the mean distance \[m\] of a smoothed net of its own from the surface through the table, of what their
-    /// displaced volumes differ by.
-    fn gap(&self) -> Result<f64, JobError> {
-        let Some(search) = &self.search else { return Ok(0.0) };
-        let own = search.hull(&self.surface)?;
-        let volume = Constraint::Displacement(0.0);
-        let p = self.before.particulars();
-        let apart = (volume.value(&own) - volume.value(&self.before)).abs();
-        Ok(apart / (2.0 * p.length_between_perpendiculars * self.before.reference_height()))
-    }
-
-    /// Cells that contradict all others on a net of its own, with the half-breadths \[m\] that these give.
-    fn gross_errors(&self) -> Result<Vec<(Cell, f64)>, FairError> {
-        let Some(search) = &self.search else { return Ok(Vec::new()) };
-        let found = gross_errors(&search.smoother, &search.smoothed)?.into_iter();
-        let cells = found.filter_map(|(k, more)| match self.surface.places[k] {
-            Place { origin: Origin::HalfBreadth { station, waterline }, locked: false, .. } => {
-                Some(((station, waterline), self.surface.model.readings[k].value + more))
-            }
-            _ => None,
-        });
-        Ok(cells.collect())
+        let surface = FairSurface::new(clean, &start, &breaks);
+        Ok((proposals, refitted, surface))
     }
 }
 
-/// The smoothing problem of the quintic net and the weight that cross-validation finds for it.
-#[derive(Debug, Clone)]
-pub(super) struct Search {
-    pub(super) smoother: Smoother,
-    pub(super) smoothed: Smoothed,
-    pub(super) trials: Vec<Trial>,
-}
-
-impl Search {
-    fn new(surface: &FairSurface) -> Result<Self, FairError> {
-        let smoother = Smoother::new(&surface.model);
-        let (lambda, trials) = smoother.cross_validated()?;
-        Ok(Self { smoothed: smoother.at(lambda)?, smoother, trials })
-    }
-
-    /// The hull of the smoothed net.
-    fn hull(&self, surface: &FairSurface) -> Result<Hull, HullError> {
-        surface.hull_of(&self.smoother.reduced.expand(&self.smoothed.free))
-    }
-}
-
-/// The lines that a table declares, and the flat of side that it shows.
-fn declared_breaks(table: &OffsetTable, hull: &Hull, left_out: &[Cell]) -> Breaks {
+/// The lines that a table declares.
+fn declared_breaks(table: &OffsetTable, hull: &Hull) -> Breaks {
     let (from, to) = hull.surface().v().domain();
     let mut breaks = Breaks::default();
     for line in &table.lines {
@@ -439,9 +269,6 @@ fn declared_breaks(table: &OffsetTable, hull: &Hull, left_out: &[Cell]) -> Break
         };
         let along = |[_, v]: [f64; 2]| Along { at: (v - from) / (to - from), reach: [first[0], last[0]] };
         breaks.of(kind)[1].extend(hull.parameters(middle[0], middle[2]).map(along));
-    }
-    if let Some(Rule::FlatShown { rectangles, .. }) = shown_flat(table, left_out) {
-        breaks.flats = rectangles;
     }
     breaks
 }

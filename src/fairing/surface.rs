@@ -1,22 +1,11 @@
 //! The hull as a model to be faired: which net, which readings, which energy.
 //!
-//! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. A hull with
-//! plumb ends over a rectangle gets a quintic net of its own, about one control value for 1.25 offsets along the ship,
-//! with lines of the net where straight parts begin ([`super::breaks`]); all others keep the cubic net of their fit, in
-//! which profiles, knuckles and flats are lines of the net already, and an energy that spares what bends sharply
-//! (`adapt`).
-//!
-//! On a net of its own the energy of order n = 4 is that over the unit square of the parameters,
-//!
-//! ```text
-//! E = sum_a C(n, a) w_u^(n-a) w_v^a int int (d^n y / du^(n-a) dv^a)^2 du dv,   w_u = 0.6, w_v = 1/w_u,
-//! ```
-//!
-//! exact by Gram matrices, broken at knots where the surface is (knuckles, tangent lines): nothing is charged across
-//! them. On the net of a fit it is that of true curvature with the metric of the fit ([`super::metric`], `adapt`).
+//! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. Over a field the
+//! net is that of its hull (`fielded`). Otherwise it is the cubic net of the surface through the table, in which
+//! profiles, knuckles and flats are lines of the net already, with the energy of true curvature in the metric of that
+//! surface ([`super::metric`]), which spares what bends sharply (`adapt`).
 
 use super::adapt::Spared;
-use super::breaks::{Break, Course, Lines, STIFF};
 use super::cells::Cells;
 use super::field::breaks::FoundBreak;
 use super::field::line_errors::FoundErrors;
@@ -24,9 +13,8 @@ use super::field::observed::DOUBTFUL;
 use super::metric::{self, Metric};
 use super::model::{Model, Reading, value};
 use super::unbroken::{Breaks, Unbroken};
-use crate::hull::{Entry, Hull, HullError, LineKind, OffsetTable};
-use crate::numeric::SymmetricBand;
-use crate::spline::{BsplineCurve, BsplineSurface, Gram, KnotVector, add_product};
+use crate::hull::{Entry, Hull, HullError, OffsetTable};
+use crate::spline::{BsplineCurve, BsplineSurface};
 pub use crate::spline::{basis_row, energy};
 
 /// Half-breadths below this part of B are on the centreplane.
@@ -36,18 +24,8 @@ const CENTREPLANE: f64 = 1e-9;
 /// of published tables, and ends that are open have 2e-3 and more.
 const ENDS: f64 = 1e-5;
 
-/// Control values along the ship for an offset, on the quintic net.
-const DENSITY: [f64; 2] = [0.8, 0.9];
-
-/// Declared lines nearer to each other than this part of the length or the height are no lines of one net; at the edges
-/// they are the edges.
-const BESIDE: f64 = 1e-3;
-
 /// w_u, the weight of bending along the ship; w_v is its inverse.
 pub(super) const ANISOTROPY: f64 = 0.6;
-
-/// Order of the energy on a net of its own that has the degree for it.
-const OWN_ORDER: usize = 4;
 
 /// Where a reading comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,14 +113,6 @@ pub struct FairSurface {
     unbroken: Option<Unbroken>,
     /// Order of the energy.
     pub order: usize,
-    /// Whether the net is one of its own, not that of the fit.
-    pub own: bool,
-    /// Whether the fit that a net of its own replaces breaks along no lines but those declared.
-    pub simple: bool,
-    /// Breaks and straight parts along the ship and up, on a net of its own.
-    pub courses: [Course; 2],
-    /// Whether the chart is the rectangle itself: x linear in u and z linear in v.
-    pub plain: bool,
     /// Whether the net is that of a fair field.
     pub is_field: bool,
     /// Waterlines across which a field breaks.
@@ -151,141 +121,6 @@ pub struct FairSurface {
     pub line_errors: Option<FoundErrors>,
     /// How far the keel line of a field with rocker is from its heights at most \[m\].
     pub keel: Option<f64>,
-}
-
-/// What straight parts ask of a net: [`STIFF`] times the square of the second derivative over them, in the size of one
-/// reading.
-fn straightness(surface: &BsplineSurface<3>, courses: &[Course; 2]) -> Option<SymmetricBand> {
-    let knots = [surface.u(), surface.v()];
-    let [rows, columns] = surface.shape();
-    let width = knots[0].degree().min(rows - 1) * columns + knots[1].degree().min(columns - 1);
-    let mut all = SymmetricBand::zeros(rows * columns, width);
-    let plain = knots.map(|knots| Gram::new(knots, knots, [0, 0]));
-    for k in 0..2 {
-        for part in courses[k].stiffness(knots[k]).into_iter().flatten() {
-            let grams = if k == 0 { [&part, &plain[1]] } else { [&plain[0], &part] };
-            add_product(&mut all, grams, 1.0, knots);
-        }
-    }
-    let trace = all.trace();
-    (trace > 0.0).then(|| SymmetricBand::zeros(rows * columns, width).plus(STIFF / trace, &all))
-}
-
-/// Whether the chart is a rectangle: level, plumb ends, z and x linear in the parameters.
-fn is_plain(hull: &Hull) -> bool {
-    let surface = hull.surface();
-    let linear = |knots: &KnotVector, values: &[f64]| {
-        let sites = knots.greville();
-        let ((a, b), (p, q)) = (knots.domain(), (values[0], values[values.len() - 1]));
-        let slack = 1e-9 * (q - p).abs();
-        sites.iter().zip(values).all(|(t, value)| (p + (q - p) * (t - a) / (b - a) - value).abs() <= slack)
-    };
-    let [rows, columns] = surface.shape();
-    let z: Vec<f64> = (0..columns).map(|j| surface.point(0, j)[2]).collect();
-    hull.is_level()
-        && linear(surface.v(), &z)
-        && (0..columns).all(|j| linear(surface.u(), &(0..rows).map(|i| surface.point(i, j)[0]).collect::<Vec<_>>()))
-}
-
-/// Whether a level hull has plumb ends and simple knots: it stands over a rectangle and has no lines along which it
-/// breaks.
-fn is_rectangular(hull: &Hull) -> bool {
-    let surface = hull.surface();
-    let [rows, columns] = surface.shape();
-    let length = surface.point(rows - 1, 0)[0] - surface.point(0, 0)[0];
-    let plumb =
-        |i: usize| (0..columns).all(|j| (surface.point(i, j)[0] - surface.point(i, 0)[0]).abs() <= 1e-9 * length);
-    hull.is_level() && plumb(0) && plumb(rows - 1)
-}
-
-/// Whether no knot of a fit is multiple beyond those of as many declared lines: it has no other features of its own.
-fn is_simple(knots: &KnotVector, lines: usize) -> bool {
-    let breaks = knots.breakpoints();
-    breaks[1..breaks.len() - 1].iter().filter(|&&t| knots.multiplicity(t) > 1).count() <= lines
-}
-
-/// The offsets of a table over the rectangle of its fit, as lines that run forward (waterlines) and up (stations), with
-/// the breaks that the table declares; none where the hull does not stand over a rectangle or a declared line is
-/// neither level nor plumb.
-struct OverRectangle {
-    lines: [Lines; 2],
-    given: [Vec<Break>; 2],
-    /// The fit has no features but those.
-    simple: bool,
-}
-
-impl OverRectangle {
-    fn new(table: &OffsetTable, fitted: &Hull) -> Option<Self> {
-        if !is_rectangular(fitted) {
-            return None;
-        }
-        let [rows, columns] = fitted.surface().shape();
-        let (aft, fore) = (fitted.surface().point(0, 0)[0], fitted.surface().point(rows - 1, columns - 1)[0]);
-        let part = |value: f64, from: f64, to: f64| ((value - from) / (to - from)).clamp(0.0, 1.0);
-        let along: Vec<f64> = table.stations.iter().map(|station| part(station.station.x, aft, fore)).collect();
-        let up: Vec<f64> = table.waterlines.iter().map(|&z| part(z, fitted.bottom(), fitted.top())).collect();
-        if [&along, &up].iter().any(|sites| sites.len() < 4 || sites.windows(2).any(|w| w[1] <= w[0])) {
-            return None;
-        }
-        let value = |station: usize, waterline: usize| {
-            table.stations[station].half_breadths[waterline].value().unwrap_or(f64::NAN)
-        };
-        let spans = |sites: &[f64], density: f64| {
-            let count = ((sites.len() as f64 * density).ceil() as usize).clamp(6.min(sites.len()), sites.len());
-            count - 5.min(count - 1)
-        };
-        let mut given = [Vec::new(), Vec::new()];
-        for line in &table.lines {
-            let smooth = match line.kind {
-                LineKind::Knuckle => 0,
-                LineKind::Tangent => 1,
-            };
-            let spread = |axis: usize| {
-                let values = line.points.iter().map(|p| p[axis]);
-                let (low, high) =
-                    (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
-                (high - low, 0.5 * (low + high))
-            };
-            let (long, high) = (spread(0), spread(2));
-            if high.0 <= 1e-6 * (fitted.top() - fitted.bottom()) {
-                given[1].push(Break { at: part(high.1, fitted.bottom(), fitted.top()), smooth });
-            } else if long.0 <= 1e-6 * (fore - aft) {
-                given[0].push(Break { at: part(long.1, aft, fore), smooth });
-            } else {
-                return None;
-            }
-        }
-        for list in &mut given {
-            list.retain(|b| (BESIDE..=1.0 - BESIDE).contains(&b.at));
-            list.sort_by(|a, b| a.at.total_cmp(&b.at));
-            if list.windows(2).any(|w| w[1].at - w[0].at < BESIDE) {
-                return None;
-            }
-        }
-        let net = [fitted.surface().u(), fitted.surface().v()];
-        let simple = (0..2).all(|k| is_simple(net[k], given[k].len()));
-        let forward = (0..up.len()).map(|w| (0..along.len()).map(|s| value(s, w)).collect()).collect();
-        let upward = (0..along.len()).map(|s| (0..up.len()).map(|w| value(s, w)).collect()).collect();
-        let lines = [
-            Lines { spans: spans(&along, DENSITY[0]), sites: along, values: forward },
-            Lines { spans: spans(&up, DENSITY[1]), sites: up, values: upward },
-        ];
-        Some(Self { lines, given, simple })
-    }
-}
-
-/// A net of given knots over the rectangle of a hull, through the same deck; half-breadths 0.
-fn rectangle(hull: &Hull, [u, v]: [KnotVector; 2]) -> Result<Hull, HullError> {
-    let surface = hull.surface();
-    let [rows, columns] = surface.shape();
-    let (aft, fore) = (surface.point(0, 0)[0], surface.point(rows - 1, columns - 1)[0]);
-    let mut points = Vec::with_capacity(u.basis_count() * v.basis_count());
-    for s in u.greville() {
-        for t in v.greville() {
-            points.push([aft + (fore - aft) * s, 0.0, hull.bottom() + (hull.top() - hull.bottom()) * t]);
-        }
-    }
-    Hull::new(hull.name(), *hull.particulars(), BsplineSurface::new(u, v, points)?, hull.deck().clone())
 }
 
 /// The same hull with other half-breadths.
@@ -306,31 +141,14 @@ impl FairSurface {
         self.model.readings.iter_mut().for_each(|reading| reading.tolerance = reading.tolerance.map(|t| t * factor));
     }
 
-    /// From a fit of the table to a model of it; `own` asks for a quintic net of its own, where the hull stands over a
-    /// rectangle. The curvature may jump at `breaks` though it does not in the fit.
-    ///
-    /// # Errors
-    /// [`HullError`] when the net makes no hull.
-    pub fn new(table: &OffsetTable, fitted: &Hull, own: Option<f64>, breaks: &Breaks) -> Result<Self, HullError> {
-        let over = own.and_then(|noise| OverRectangle::new(table, fitted).map(|over| (over, noise)));
-        let smooth = over.is_some();
-        let mut courses = [Course::default(), Course::default()];
-        let mut hull = if let Some((OverRectangle { lines, given, .. }, noise)) = &over {
-            courses = [0, 1].map(|k| lines[k].course(&given[k], *noise));
-            let knots = |k: usize| courses[k].knots(&lines[k].sites, lines[k].spans);
-            rectangle(fitted, [knots(0)?, knots(1)?])?
-        } else {
-            fitted.clone()
-        };
-        if smooth {
-            hull = with_half_breadths(&hull, &greville_values(fitted, &hull))?;
-        }
-        let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
+    /// From the surface through a table to a model of it, whose curvature may jump at `breaks` though it does not there.
+    #[must_use]
+    pub fn new(table: &OffsetTable, fitted: &Hull, breaks: &Breaks) -> Self {
+        let hull = fitted.clone();
         let surface = hull.surface();
-        let degree = surface.u().degree().max(surface.v().degree());
-        let order = if smooth { OWN_ORDER.min(degree) } else { metric::ORDER };
+        let start: Vec<f64> = surface.points().iter().map(|p| p[1]).collect();
         let (mut readings, places) = readings(table, &hull);
-        let known = known(fitted, &hull, smooth);
+        let known = known(&hull);
         for reading in &mut readings {
             // A reading of known control values alone says nothing.
             let free =
@@ -339,58 +157,31 @@ impl FairSurface {
                 reading.weight = 0.0;
             }
         }
-        let (u, v) = (surface.u(), surface.v());
-        let plain = is_plain(&hull);
-        let mut straight = straightness(surface, &courses);
-        let (unbroken, energy) = if smooth {
-            (None, energy(u, v, order, ANISOTROPY))
-        } else {
-            let metric = if hull.is_level() { Metric::new } else { Metric::parametric }(surface);
-            let cells = Cells::new(surface);
-            let unbroken = Unbroken::new(&cells, &metric, breaks);
-            let energy = Spared::new(&cells, &metric, &unbroken).energy(&cells, &metric);
-            straight = unbroken.form(&cells, &metric);
-            (Some(unbroken), energy)
+        let metric = if hull.is_level() { Metric::new } else { Metric::parametric }(surface);
+        let cells = Cells::new(surface);
+        let unbroken = Unbroken::new(&cells, &metric, breaks);
+        let model = Model {
+            energy: Spared::new(&cells, &metric, &unbroken).energy(&cells, &metric),
+            readings,
+            known,
+            straight: unbroken.form(&cells, &metric),
+            start: Some(start.clone()),
+            carried: None,
+            stationary: None,
         };
-        Ok(Self {
-            model: Model {
-                energy,
-                readings,
-                known,
-                straight,
-                start: (!smooth).then(|| start.clone()),
-                carried: None,
-                stationary: None,
-            },
-            courses,
-            places,
-            start,
-            unbroken,
-            order,
-            plain,
-            own: smooth,
-            is_field: false,
-            breaks: Vec::new(),
-            line_errors: None,
-            keel: None,
-            simple: over.is_none_or(|(over, _)| over.simple),
-            hull,
-        })
+        let of_fit = Self::over(hull, model, places, start);
+        Self { unbroken: Some(unbroken), order: metric::ORDER, is_field: false, ..of_fit }
     }
 
     /// A field over the chart of its hull.
     pub(super) fn over(hull: Hull, model: Model, places: Vec<Place>, start: Vec<f64>) -> Self {
         Self {
-            plain: is_plain(&hull),
             hull,
             model,
             places,
             start,
             unbroken: None,
             order: super::field::net::ORDER,
-            own: false,
-            simple: true,
-            courses: [Course::default(), Course::default()],
             is_field: true,
             breaks: Vec::new(),
             line_errors: None,
@@ -436,24 +227,8 @@ impl FairSurface {
         keel.into_iter().chain(breaks).chain(line_errors)
     }
 
-    /// Straight parts that were found and are kept straight, in words.
-    #[must_use]
-    pub fn straight_parts(&self) -> Vec<String> {
-        let surface = self.hull.surface();
-        let [rows, columns] = surface.shape();
-        let (aft, fore) = (surface.point(0, 0)[0], surface.point(rows - 1, columns - 1)[0]);
-        let spans = [(aft, fore, "waterlines", "x"), (self.hull.bottom(), self.hull.top(), "stations", "z")];
-        let parts = self.courses.iter().zip(spans).flat_map(|(course, (from, to, lines, axis))| {
-            course.straight.iter().map(move |part| {
-                let [a, b] = part.map(|t| from + (to - from) * t);
-                format!("all {lines} are straight from {axis} = {a:.2} to {b:.2} m within the noise and stay so")
-            })
-        });
-        parts.collect()
-    }
-
     /// The greatest jump of curvature of a hull on this net across lines of it where the surface through the table has
-    /// none \[1/m\]; none where there are no such lines, on a net of its own as well.
+    /// none \[1/m\]; none where there are no such lines.
     pub(super) fn greatest_jump(&self, hull: &Hull) -> Option<f64> {
         self.unbroken.as_ref()?.greatest(hull.surface())
     }
@@ -465,12 +240,6 @@ impl FairSurface {
     pub fn hull_of(&self, y: &[f64]) -> Result<Hull, HullError> {
         with_half_breadths(&self.hull, y)
     }
-}
-
-/// Half-breadths of `fitted` at the Greville points of another net over the same rectangle: control values to second
-/// order.
-fn greville_values(fitted: &Hull, hull: &Hull) -> Vec<f64> {
-    hull.surface().points().iter().map(|p| fitted.half_breadth(p[0], p[2]).unwrap_or(0.0)).collect()
 }
 
 /// Every given half-breadth, deck at side and point of a section that lies on the surface.
@@ -575,29 +344,17 @@ impl<'a> StationLine<'a> {
     }
 }
 
-/// Control values that do not move: on a net of the fit those at stem, stern and keel that lie on the centreplane, where
-/// they lie; on a net of its own (`own`) stem, stern or keel where all of it lies on the centreplane in the fit.
-fn known(fitted: &Hull, hull: &Hull, own: bool) -> Vec<Option<f64>> {
+/// Control values of the surface through a table that do not move: those at stem, stern and keel that lie on the
+/// centreplane, where they lie.
+fn known(hull: &Hull) -> Vec<Option<f64>> {
     let [rows, columns] = hull.surface().shape();
-    let [fit_rows, fit_columns] = fitted.surface().shape();
     let breadth = hull.particulars().breadth;
     let closed = |i: usize, j: usize, part: f64| {
-        let y = fitted.surface().point(i, j)[1];
+        let y = hull.surface().point(i, j)[1];
         (y.abs() <= part * breadth).then_some(y)
     };
-    // On a net of its own an edge is on the centreplane or it is not.
-    let whole_row = |i: usize| (0..fit_columns).all(|j| closed(i, j, ENDS).is_some());
-    let whole_column = |j: usize| (0..fit_rows).all(|i| closed(i, j, CENTREPLANE).is_some());
-    let (aft, fore, keel) = (whole_row(0), whole_row(fit_rows - 1), whole_column(0));
     let value = |i: usize, j: usize| {
-        let [at_aft, at_fore, at_keel] = [i == 0, i + 1 == rows, j == 0];
-        if own {
-            ((at_aft && aft) || (at_fore && fore) || (at_keel && keel)).then_some(0.0)
-        } else if at_aft || at_fore {
-            closed(i, j, ENDS)
-        } else {
-            closed(i, j, CENTREPLANE).filter(|_| at_keel)
-        }
+        if i == 0 || i + 1 == rows { closed(i, j, ENDS) } else { closed(i, j, CENTREPLANE).filter(|_| j == 0) }
     };
     (0..rows * columns).map(|k| value(k / columns, k % columns)).collect()
 }

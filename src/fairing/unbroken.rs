@@ -12,9 +12,7 @@
 //! ```
 //!
 //! is asked for beside the offsets whatever the smoothing is, [`STIFF`] times one reading: there is nothing to be
-//! smoothed there. Lines that are declared may break. So may those beside a flat of side, and in the end all of them, where
-//! else lines bend more often, or the energy rises (`ways.rs`): where a bilge runs into a flat with continuous curvature,
-//! 0 <= y <= B/2 and the offsets may leave none (a tanker: energy 4.6 times that of the fit).
+//! smoothed there. Lines that are declared may break.
 //! (Charged in the energy instead, its weight is shared with all that bends: of jumps with 0.036 1/m
 //! of root mean square at a waterline of the Series 60 0.043 was left, with a charge of 1e3 0.010, and the weight that is
 //! searched for goes with the charge.)
@@ -31,12 +29,14 @@
 //! span beyond its end. (The surface through the table rings beyond that end, by 2 degrees on a coaster: left as it is
 //! where it has a corner already, the fair one had 41.)
 
-use super::breaks::STIFF;
 use super::cells::{Cells, Combination, Crossing, Fold, Jump, Place, Row, add_square, both};
 use super::lines::LineKind;
 use super::metric::{Folded, Jumped, Metric};
 use crate::numeric::SymmetricBand;
 use crate::spline::BsplineSurface;
+
+/// What is asked for beside the offsets, in the size of one reading.
+const STIFF: f64 = 1e4;
 
 /// Departure in a span below which a start does not break, over its greatest half-breadth.
 const NIL: f64 = 1e-9;
@@ -49,18 +49,6 @@ pub(super) const AT_KNOT: f64 = 1e-6;
 
 /// Slack of the region of a flat \[m\].
 const SLACK: f64 = 1e-6;
-
-/// Where the curvature of a fair hull runs on as that of the surface through the table does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RunsOn {
-    /// Everywhere but at lines that are declared.
-    #[default]
-    Everywhere,
-    /// And not beside the flat of side that the table shows.
-    ButFlats,
-    /// Nowhere: jumps are charged only.
-    Nowhere,
-}
 
 /// A line along which curvature or slope may jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,10 +77,6 @@ pub struct Breaks {
     pub(super) tangents: [Vec<Along>; 2],
     /// The same along which the slope may break.
     pub(super) knuckles: [Vec<Along>; 2],
-    /// Flats of side that the table shows: from and to in x and in z \[m\].
-    pub(super) flats: Vec<[[f64; 2]; 2]>,
-    /// Elsewhere.
-    pub(super) runs_on: RunsOn,
 }
 
 impl Breaks {
@@ -124,13 +108,6 @@ impl Breaks {
         let beside = |line: &&Along| line.reach[0] <= high + SLACK && low <= line.reach[1] + SLACK;
         if here.iter().any(beside) { Knuckle::Fades } else { Knuckle::Ended }
     }
-
-    /// Whether any of these points lies in a flat.
-    fn flat(&self, points: &[[f64; 3]]) -> bool {
-        let within = |[from, to]: [f64; 2], value: f64| (from - SLACK..=to + SLACK).contains(&value);
-        let on = |[x, z]: &[[f64; 2]; 2]| points.iter().any(|point| within(*x, point[0]) && within(*z, point[2]));
-        self.flats.iter().any(on)
-    }
 }
 
 /// From and to of a span of a line of the net, in x along the ship, in z up a station, by its points \[m\].
@@ -157,13 +134,11 @@ type Spans = [Vec<Vec<bool>>; 2];
 pub(super) struct Unbroken {
     /// Those that stay so.
     spans: Spans,
-    /// Those that are, whether they stay so or not, but for lines that are declared.
+    /// Those that are, by the exact metric.
     own: Spans,
     /// Spans of lines across which the slope could jump, where it does not, and the same of their curvature.
     turns: Spans,
     curvatures: Spans,
-    /// The latter whether they stay so or not.
-    own_curvatures: Spans,
 }
 
 impl Unbroken {
@@ -188,16 +163,11 @@ impl Unbroken {
             lines.collect::<Vec<_>>()
         });
         // By the metric in which jumps are charged it may depart by more than by the exact one.
-        let stays = |way: usize, above: usize, e: usize| match breaks.runs_on {
-            RunsOn::Nowhere => false,
-            RunsOn::ButFlats => !breaks.flat(&cells.corners(way, above, e)),
-            RunsOn::Everywhere => true,
-        };
         let mut spans = own.clone();
         for (way, lines) in spans.iter_mut().enumerate() {
             for (jump, line) in cells.jumps(way).iter().zip(lines) {
                 for (e, held) in line.iter_mut().enumerate() {
-                    *held = *held && stays(way, jump.above, e) && smooth(metric, way, jump, e);
+                    *held = *held && smooth(metric, way, jump, e);
                 }
             }
         }
@@ -225,8 +195,8 @@ impl Unbroken {
             Knuckle::Ended => true,
             Knuckle::None => folded(way, fold, e, NO_CORNER, &|folded, sides| value(&folded.turn, sides)),
         });
-        let mut own_curvatures = turns.clone();
-        for (way, lines) in own_curvatures.iter_mut().enumerate() {
+        let mut curvatures = turns.clone();
+        for (way, lines) in curvatures.iter_mut().enumerate() {
             for (fold, line) in cells.folds(way).iter().zip(lines) {
                 for (e, held) in line.iter_mut().enumerate().filter(|(_, held)| **held) {
                     let bow = |folded: &Folded, sides: &[Place<'_>; 2]| {
@@ -237,13 +207,7 @@ impl Unbroken {
                 }
             }
         }
-        let mut curvatures = own_curvatures.clone();
-        for (way, lines) in curvatures.iter_mut().enumerate() {
-            for (fold, line) in cells.folds(way).iter().zip(lines) {
-                line.iter_mut().enumerate().for_each(|(e, held)| *held = *held && stays(way, fold.above, e));
-            }
-        }
-        Self { spans, own, turns, curvatures, own_curvatures }
+        Self { spans, own, turns, curvatures }
     }
 
     /// Whether span e of a line is unbroken.
@@ -279,7 +243,7 @@ impl Unbroken {
         each(&self.own, &Cells::new(surface), &Metric::new(surface), |at, jumped| {
             most = Some(at.value(jumped.factors).abs().max(most.unwrap_or(0.0)));
         });
-        each_fold(&self.own_curvatures, &Cells::new(surface), |sides, folded| {
+        each_fold(&self.curvatures, &Cells::new(surface), |sides, folded| {
             most = Some(value(&folded.curvature, sides).abs().max(most.unwrap_or(0.0)));
         });
         most
@@ -422,17 +386,11 @@ mod tests {
     }
 
     #[test]
-    fn declared_lines_and_flats_may_break() {
+    fn declared_lines_may_break() {
         let smooth = surface(cube);
         let along =
             |reach: [f64; 2]| Breaks { tangents: [vec![], vec![Along { at: 0.5, reach }]], ..Breaks::default() };
         assert!(form(&unbroken(&smooth, &along([0.0, 100.0])), &smooth).is_none());
         assert_eq!(unbroken(&smooth, &along([30.0, 50.0])).spans[1], vec![vec![true, false, true, true]]);
-        // Beside the span from v = 1 to 1.5, z = 5 to 7.5 m, of the first quarter of the length.
-        let beside = |flat| Breaks { flats: vec![flat], runs_on: RunsOn::ButFlats, ..Breaks::default() };
-        let flat = beside([[0.0, 20.0], [7.0, 10.0]]);
-        assert_eq!(unbroken(&smooth, &flat).spans[1], vec![vec![false, true, true, true]]);
-        let far = beside([[0.0, 20.0], [8.0, 10.0]]);
-        assert_eq!(unbroken(&smooth, &far).spans[1], vec![vec![true; 4]]);
     }
 }

@@ -6,7 +6,7 @@ use super::fair_refused::line_name;
 use super::page::{fixed, fixed_sign, wrapped};
 use super::verdict::more_than;
 use crate::exchange::priced;
-use crate::fairing::constraint::{Constraint, Rule};
+use crate::fairing::constraint::Constraint;
 use crate::fairing::held::Held;
 use crate::fairing::inspect::PolygonSigns;
 use crate::fairing::outcome::{Outcome, Turns};
@@ -186,7 +186,7 @@ pub(super) fn hydrostatics(outputs: &FairOutputs, page: &mut String) {
         page.push_str(&wrapped(line, 2));
     }
     for held in &outputs.outcome.rules {
-        let words = held.rule.words() + &stays(&held.rule, &outputs.outcome);
+        let words = held.rule.words();
         let binds = match held.binding {
             _ if held.given_up => "GIVEN UP, it is infeasible with the other targets".to_owned(),
             0 => "does not bind".to_owned(),
@@ -255,25 +255,4 @@ fn far_above_the_least(outcome: &Outcome) -> String {
         names.join(", ")
     );
     wrapped(&line, 2)
-}
-
-/// A move that nobody sees [m].
-const STAYS: f64 = 1e-6;
-
-/// How many offsets of a flat that the table shows stay: it is held a cell inside of its outermost offsets.
-fn stays(rule: &Rule, outcome: &Outcome) -> String {
-    let Rule::FlatShown { half_breadth, .. } = rule else { return String::new() };
-    let on_it = outcome.changes.iter().filter(|change| !change.suspect && (change.before - half_breadth).abs() < STAYS);
-    let moves: Vec<f64> = on_it.map(|change| (change.after - change.before).abs()).collect();
-    let edge: Vec<f64> = moves.iter().copied().filter(|size| *size > STAYS).collect();
-    if edge.is_empty() {
-        return String::new();
-    }
-    format!(
-        ", of {} offsets at that half-breadth {} within it stay, {} at its edges move by {} mm at most",
-        moves.len(),
-        moves.len() - edge.len(),
-        edge.len(),
-        millimetres(edge.iter().copied().fold(0.0, f64::max))
-    )
 }

@@ -199,14 +199,7 @@ pub fn fair_page(job: &FairJob, outputs: &FairOutputs, folder: &str) -> String {
         certificate.max_violation.max(0.0),
         outcome.order,
         if energy >= 1e-3 { format!("{energy:.4}") } else { format!("{energy:.1e}") },
-        // Its own net takes the half-breadths of that surface for control values, which evens them out.
-        if outcome.is_field {
-            "of the likeliest field"
-        } else if outcome.own {
-            "of its net laid evenly through the surface before"
-        } else {
-            "before"
-        },
+        if outcome.is_field { "of the likeliest field" } else { "before" },
         outcome.fairness,
         faired.lambda,
         end_of_search(faired.lambda, &faired.trials),

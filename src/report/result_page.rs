@@ -273,7 +273,6 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> 
     };
     let mut table =
         Table::new(&[&["line", "at [m]", "before", "after", "least"], pieces, &["asked", "price"]].concat(), 1);
-    let of_net = fairing["signs"]["imposed"].as_u64().is_some_and(|rows| rows > 0);
     for (kind, key) in
         [("waterline", "waterlines"), ("station", "stations"), ("buttock", "buttocks"), ("diagonal", "diagonals")]
     {
@@ -296,7 +295,6 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> 
                 (Some(most), _) => format!("at most {most}"),
                 (None, "buttock" | "diagonal") => "not used".to_owned(),
                 _ if line.get("released_at").is_some() => "let go".to_owned(),
-                _ if of_net => "signs of the net".to_owned(),
                 _ => "nothing".to_owned(),
             };
             let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {

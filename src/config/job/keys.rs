@@ -127,13 +127,6 @@ pub const JOB_KEYS: &[Key] = &[
         &[],
         "Flats of bottom, \"stations 8 to 12\": their edge stays where the surface through the table has it.",
     ),
-    key(
-        "flat",
-        "keep",
-        Kind::Switch,
-        &[],
-        "Whether the flat of side that the table shows is kept: offsets at its greatest half-breadth, their outermost aside. Default: true.",
-    ),
     shape(
         "rising",
         "Parts of lines on which the half-breadth rises, forward along a waterline and upward along a station.",
@@ -204,7 +197,7 @@ pub const JOB_KEYS: &[Key] = &[
 pub(in crate::config) const RENAMED: [(&str, &str); 1] = [("signs.price", "inflections.cost")];
 
 /// Keys that were removed, under all their names, and the key that serves instead.
-pub(in crate::config) const REMOVED: [(&str, &str); 7] = [
+pub(in crate::config) const REMOVED: [(&str, &str); 8] = [
     ("energy.order", "fairness"),
     ("energy.anisotropy", "fairness"),
     ("energy.true_curvature", "fairness"),
@@ -212,4 +205,5 @@ pub(in crate::config) const REMOVED: [(&str, &str); 7] = [
     ("energy.bending", "fairness"),
     ("inflections.remove", "fairness"),
     ("signs.impose", "fairness"),
+    ("flat.keep", "flat.side"),
 ];

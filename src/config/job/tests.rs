@@ -33,7 +33,7 @@ fn everything_is_read() {
                 [tolerance]\ntable = \"3 mm\"\nstations = { \"9 1/2\" = \"1 mm\", \"0 m\" = 0.002 }\n[tolerance.cells]\n\"10@2 m\" = \"1/8 in\"\n\
                 [lock]\ncells = [\"0@4\"]\nstations = [10]\nwaterlines = \"2 m\"\n\
                 [hold]\nDisplacement = \"4100 t\"\nLCB = \"+1 %\"\nKB = \"table\"\nCm = \"free\"\nLCF = \"41 m AP\"\nsection_areas = [[50, 12.5], [60, 11, 0.5]]\n\
-                [suspects]\nexclude = false\n[flat]\nkeep = false\n[inflections]\ncost = 2.5";
+                [suspects]\nexclude = false\n[inflections]\ncost = 2.5";
     let file = read_job("j.toml", text).unwrap();
     assert_eq!((file.table.as_deref(), file.stated.draught), (Some("a.csv"), Some(4.0)));
     let job = file.for_table(&table(), 100.0).unwrap();
@@ -43,7 +43,7 @@ fn everything_is_read() {
     assert_eq!(job.tolerance.cells, [(2, 1, 0.003_175)]);
     // The cell, the last station where it has offsets, the waterline at 2 m.
     assert_eq!(job.locked, [(0, 1), (0, 2), (1, 1), (2, 1), (2, 2)]);
-    assert!(!job.exclude_suspects && !job.keep_flat && job.price == Some(2.5));
+    assert!(!job.exclude_suspects && job.price == Some(2.5));
     let Holding::Both { own, given } = job.holding else { panic!("own and given") };
     assert_eq!(own, [Constraint::HeightOfBuoyancy(0.0)]);
     let expected = [
@@ -75,11 +75,10 @@ fn a_key_that_was_renamed_is_read_by_its_old_name() {
 
 #[test]
 fn a_key_that_was_removed_is_refused_with_what_serves() {
-    for (removed, _) in keys::REMOVED {
+    for (removed, serves) in keys::REMOVED {
         let (table, name) = removed.split_once('.').unwrap();
         let said = messages(&format!("fairness = 3\n[{table}]\n{name} = 3"));
-        let expected =
-            format!("E121 j.toml:3:1 {removed} was removed. Give fairness instead: How strongly the table is faired");
+        let expected = format!("E121 j.toml:3:1 {removed} was removed. Give {serves} instead: ");
         assert!(said.len() == 1 && said[0].starts_with(&expected), "{said:?}");
     }
     assert_eq!(read_option("--job", "Energy.Order", "3").unwrap_err()[0].code, "E121");

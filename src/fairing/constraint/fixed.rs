@@ -39,13 +39,9 @@ pub(super) fn is_closed(line: &FixedLine, hull: &Hull) -> bool {
     edge(line, net.shape()).is_some_and(|edge| edge.into_iter().all(|i| net.points()[i][1].abs() <= most))
 }
 
-/// Each control value once; on a net of its own, which has only edges on the centreplane to keep, 0.
+/// Each control value once.
 fn values(surface: &FairSurface, indices: impl IntoIterator<Item = usize>) -> Vec<Limit> {
-    let one = |i: usize| match held(vec![(i, 1.0)], &surface.start) {
-        limit if surface.own => Limit { lower: 0.0, upper: 0.0, ..limit },
-        limit => limit,
-    };
-    indices.into_iter().map(one).collect()
+    indices.into_iter().map(|i| held(vec![(i, 1.0)], &surface.start)).collect()
 }
 
 pub(super) fn limits(surface: &FairSurface, line: &FixedLine) -> Result<Vec<Limit>, String> {

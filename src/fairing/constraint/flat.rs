@@ -50,36 +50,6 @@ pub fn edged(hull: &Hull, edges: &[ProposedLine]) -> Result<Hull, HullError> {
     Ok(edged)
 }
 
-/// Rows that keep the control values which act on cells of the knots in the flat, all neighbours of which lie in it as
-/// well, at its half-breadth.
-pub(super) fn shown(surface: &FairSurface, half_breadth: f64, rectangles: &[[[f64; 2]; 2]]) -> Vec<Limit> {
-    let net = surface.hull.surface();
-    let columns = net.shape()[1];
-    let (p, q) = (net.u().degree(), net.v().degree());
-    let (us, vs) = (net.u().spans(), net.v().spans());
-    let inside = |u: f64, v: f64| {
-        let [x, _, z] = net.eval(u, v);
-        rectangles.iter().any(|[along, up]| within(*along, x) && within(*up, z))
-    };
-    let flat = |i: usize, j: usize| {
-        let (a, b) = (net.u().knots()[i], net.u().knots()[i + 1]);
-        let (c, d) = (net.v().knots()[j], net.v().knots()[j + 1]);
-        [(a, c), (a, d), (b, c), (b, d), (0.5 * (a + b), 0.5 * (c + d))].iter().all(|&(u, v)| inside(u, v))
-    };
-    let flats: Vec<Vec<bool>> = us.iter().map(|&i| vs.iter().map(|&j| flat(i, j)).collect()).collect();
-    let around = |k: usize, count: usize| k.saturating_sub(1)..(k + 2).min(count);
-    let deep = |k: usize, l: usize| around(k, us.len()).all(|m| around(l, vs.len()).all(|n| flats[m][n]));
-    let mut held: BTreeSet<usize> = BTreeSet::new();
-    for (k, &i) in us.iter().enumerate() {
-        for (l, &j) in vs.iter().enumerate() {
-            if deep(k, l) {
-                held.extend((i - p..=i).flat_map(|row| (j - q..=j).map(move |column| row * columns + column)));
-            }
-        }
-    }
-    held.into_iter().map(|k| Limit { row: vec![(k, 1.0)], lower: half_breadth, upper: half_breadth }).collect()
-}
-
 pub(super) fn side(surface: &FairSurface, x: [f64; 2], z: [f64; 2]) -> Result<Vec<Limit>, String> {
     let net = surface.hull.surface();
     let greatest = 0.5 * surface.hull.particulars().breadth;

@@ -66,15 +66,6 @@ pub enum Rule {
         /// From and to, above the base line \[m\].
         z: [f64; 2],
     },
-    /// The flat of side that the table shows: its greatest half-breadth within rectangles, but for their edges.
-    FlatShown {
-        /// The half-breadth \[m\].
-        half_breadth: f64,
-        /// How many offsets of the table lie in it.
-        offsets: usize,
-        /// From and to along x, from and to along z, each between neighbouring stations and waterlines \[m\].
-        rectangles: Vec<[[f64; 2]; 2]>,
-    },
     /// The edge of the flat of bottom stays where it is over a range of x \[m\].
     FlatOfBottom {
         /// From and to, forward of AP \[m\].
@@ -144,7 +135,6 @@ impl Rule {
             Self::Fixed(_) => "fixed_line",
             Self::Tangent(..) => "tangent",
             Self::FlatOfSide { .. } => "flat_of_side",
-            Self::FlatShown { .. } => "flat_of_side_shown",
             Self::FlatOfBottom { .. } => "flat_of_bottom",
             Self::Monotone { rising: true, .. } => "rising",
             Self::Monotone { .. } => "falling",
@@ -181,9 +171,6 @@ impl Rule {
             }
             Self::FlatOfSide { x, z } => {
                 format!("the flat of side from x = {:.3} to {:.3} m, z = {:.3} to {:.3} m", x[0], x[1], z[0], z[1])
-            }
-            Self::FlatShown { half_breadth, offsets, .. } => {
-                format!("the flat of side that the table shows ({offsets} offsets at {half_breadth:.3} m)")
             }
             Self::FlatOfBottom { x } => format!("the flat of bottom from x = {:.3} to {:.3} m", x[0], x[1]),
             Self::Monotone { line, over, rising } => {
@@ -238,7 +225,6 @@ impl Rule {
             Self::Fixed(line) => fixed::limits(surface, line),
             Self::Tangent(place, angle) => tangent::limits(surface, *place, *angle),
             Self::FlatOfSide { x, z } => flat::side(surface, *x, *z),
-            Self::FlatShown { half_breadth, rectangles, .. } => Ok(flat::shown(surface, *half_breadth, rectangles)),
             Self::FlatOfBottom { x } => flat::bottom(surface, *x),
             Self::Monotone { line, over, rising } => monotone::limits(surface, *line, *over, *rising),
             Self::Curvature { line, over, convex } => curvature::limits(surface, *line, *over, *convex),

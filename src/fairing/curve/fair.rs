@@ -2,8 +2,7 @@
 
 use super::super::infeasible::least_widening;
 use super::super::inflections::{Bands, BandsError, Inflections, minimum_inflections};
-use super::super::model::{Model, value};
-use super::super::pattern::{Pattern, SignForms};
+use super::super::model::{Model, Row, value};
 use super::super::program::{Between, Program, RowName, Solved, Wishes};
 use super::super::smoothing::{Smoothed, Smoother, Trial};
 use super::given::{CurveError, CurvePoint, CurveSettings, InflectionWish};
@@ -33,7 +32,7 @@ pub(super) const SLACK: f64 = 1e-6;
 pub(super) struct Job<'a> {
     pub(super) settings: &'a CurveSettings,
     pub(super) space: CurveSpace,
-    forms: [SignForms; 2],
+    forms: Vec<Row>,
     pub(super) model: Model,
     pub(super) smoother: Smoother,
     lambda: f64,
@@ -49,15 +48,13 @@ struct Patterned {
 }
 
 impl Job<'_> {
-    pub(super) fn program(&self, wishes: &Wishes, pattern: Option<&Pattern>) -> Program {
-        let none = Pattern { signs: Vec::new(), imposed: Vec::new(), flipped: Vec::new() };
-        let patterns = pattern.map(|pattern| [pattern.clone(), none]);
-        let signs = patterns.as_ref().map(|patterns| (&self.forms, patterns));
+    pub(super) fn program(&self, wishes: &Wishes, imposed: Option<&[i8]>) -> Program {
+        let signs = imposed.map(|imposed| (self.forms.as_slice(), imposed));
         Program::new(&self.model, &self.smoother, self.lambda, wishes, signs)
     }
 
-    pub(super) fn solve(&mut self, wishes: &Wishes, pattern: Option<&Pattern>) -> Result<Solved, CurveError> {
-        let program = self.program(wishes, pattern);
+    pub(super) fn solve(&mut self, wishes: &Wishes, imposed: Option<&[i8]>) -> Result<Solved, CurveError> {
+        let program = self.program(wishes, imposed);
         let solved = program.solve(&self.smoother, self.lambda, &self.settings.solver)?;
         self.programs += 1;
         self.iterations += solved.solution.iterations;
@@ -69,7 +66,7 @@ impl Job<'_> {
     fn pattern(&mut self, z: &[f64], starts: &[usize], counts: &[usize]) -> Result<Option<Patterned>, CurveError> {
         let Some(signs) = Signs::best(z, starts, counts) else { return Ok(None) };
         let wishes = self.wishes.clone();
-        let solved = self.solve(&wishes, Some(&signs.pattern(z)))?;
+        let solved = self.solve(&wishes, Some(&signs.imposed(z)))?;
         let mut best = Patterned { signs, solved };
         let value = |solved: &Solved| if solved.is_optimal() { solved.objective } else { f64::INFINITY };
         let budget = self.programs + MOVES;
@@ -80,7 +77,7 @@ impl Job<'_> {
                 for which in 0..count {
                     for by in [-1, 1, -2, 2] {
                         let Some(signs) = best.signs.moved(stretch, which, by) else { continue };
-                        let solved = self.solve(&wishes, Some(&signs.pattern(z)))?;
+                        let solved = self.solve(&wishes, Some(&signs.imposed(z)))?;
                         if value(&solved) < value(&best.solved) * (1.0 - FALL) {
                             best = Patterned { signs, solved };
                             better = true;
@@ -121,7 +118,7 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
     let space = CurveSpace::new(points, settings.order)?;
     let model = space.model(points, &vec![None; points.len()], space.energy(None));
     let smoother = Smoother::new(&model);
-    let forms = [space.forms(), SignForms { along_u: false, shape: [0, 0], rows: Vec::new() }];
+    let forms = space.forms();
     let mut job = Job {
         settings,
         space,
@@ -156,10 +153,10 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
 
     let (reference, sites) = kept_near(&mut job, points, &tolerances, &smoothed)?;
     let Within { free, mut status, diagnosis, nearest, mut contradictory } = job.within(&wished, &sites, &reference)?;
-    let z = scores(&job.forms[0], &job.smoother, &smoothed, &free.net);
+    let z = scores(&job.forms, &job.smoother, &smoothed, &free.net);
     let mut choice = choose(&mut job, &z, &starts, &least, &free, sigma)?;
     let (mut solved, mut pattern) = match choice.taken.take() {
-        Some(taken) => (taken.solved, Some(taken.signs.pattern(&z))),
+        Some(taken) => (taken.solved, Some(taken.signs.imposed(&z))),
         None => (free.clone(), None),
     };
     if choice.widening > 1.0 {
@@ -174,7 +171,7 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
             let kept = (job.model.energy.clone(), job.smoother.clone(), job.lambda);
             let curve = job.space.curve(&solved.net)?;
             job.remeasure(&curve);
-            let mut next = job.solve(&wishes, pattern.as_ref())?;
+            let mut next = job.solve(&wishes, pattern.as_deref())?;
             // What kept to its number of changes by itself may not do so with another metric.
             let often = |(s, count): (usize, &usize)| changes(&job, &next, starts[s], starts[s + 1]) > *count;
             if pattern.is_none()
@@ -182,7 +179,7 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
                 && let Some(found) = job.pattern(&z, &starts, &choice.counts)?
             {
                 choice.price = ((found.solved.objective - next.objective) / (sigma * sigma)).max(0.0);
-                pattern = Some(found.signs.pattern(&z));
+                pattern = Some(found.signs.imposed(&z));
                 next = found.solved;
             }
             let now = if next.is_optimal() { job.exact(&next.net)? } else { f64::INFINITY };
@@ -198,7 +195,7 @@ pub fn fair_curve(points: &[CurvePoint], settings: &CurveSettings) -> Result<Fai
         status = FairStatus::Limit;
     }
     let curve = job.space.curve(&solved.net)?;
-    let lines = priced(&mut job, &wished, &solved, pattern.as_ref(), &batten)?;
+    let lines = priced(&mut job, &wished, &solved, pattern.as_deref(), &batten)?;
     let moves = moved(points, &curve, &tolerances, job.wishes.widening);
     let through = job.space.exact_energy(&interpolant(&job, points, &read)?);
     Ok(FairCurve {
@@ -338,7 +335,7 @@ fn priced(
     job: &mut Job,
     wished: &[Wished],
     solved: &Solved,
-    pattern: Option<&Pattern>,
+    pattern: Option<&[i8]>,
     batten: &BsplineCurve<1>,
 ) -> Result<Vec<CurveLine>, CurveError> {
     let curve = job.space.curve(&solved.net)?;
@@ -467,7 +464,7 @@ fn widen(job: &mut Job, z: &[f64], starts: &[usize], counts: &[usize], choice: &
     let factor_of = |job: &mut Job, signs: &Signs| {
         let plain = Wishes { widening: 1.0, ..job.wishes.clone() };
         job.programs += 1;
-        least_widening(&job.program(&plain, Some(&signs.pattern(z))), &job.settings.solver, |_, _| None)
+        least_widening(&job.program(&plain, Some(&signs.imposed(z))), &job.settings.solver, |_, _| None)
     };
     let Some(mut factor) = factor_of(job, &best)? else {
         choice.widening = f64::INFINITY;
@@ -491,14 +488,14 @@ fn widen(job: &mut Job, z: &[f64], starts: &[usize], counts: &[usize], choice: &
     choice.widening = factor.max(1.0 + SLACK);
     job.wishes.widening = factor * (1.0 + 1e-4);
     let wishes = job.wishes.clone();
-    let solved = job.solve(&wishes, Some(&best.pattern(z)))?;
+    let solved = job.solve(&wishes, Some(&best.imposed(z)))?;
     choice.taken = Some(Patterned { signs: best, solved });
     Ok(())
 }
 
 /// Changes of sign of the forms of a stretch, flat ones passed over.
 fn changes(job: &Job, free: &Solved, from: usize, to: usize) -> usize {
-    let values: Vec<f64> = job.forms[0].rows[from..to].iter().map(|row| value(row, &free.net)).collect();
+    let values: Vec<f64> = job.forms[from..to].iter().map(|row| value(row, &free.net)).collect();
     let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let seen: Vec<f64> = values.into_iter().filter(|v| v.abs() > 1e-9 * largest).collect();
     seen.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count()

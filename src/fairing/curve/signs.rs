@@ -1,6 +1,6 @@
 //! Patterns of signs along one curve: where a given number of changes suits the unconstrained curve best.
 
-use super::super::pattern::{Pattern, SignForms};
+use super::super::model::Row;
 use super::super::smoothing::{Smoothed, Smoother};
 
 /// For each stretch between knuckles the sign at its beginning and the forms before which it changes.
@@ -17,10 +17,9 @@ pub(super) struct Signs {
 }
 
 /// The forms of a smoothed curve over their standard deviations (sigma = 1).
-pub(super) fn scores(forms: &SignForms, smoother: &Smoother, smoothed: &Smoothed, net: &[f64]) -> Vec<f64> {
+pub(super) fn scores(forms: &[Row], smoother: &Smoother, smoothed: &Smoothed, net: &[f64]) -> Vec<f64> {
     let inverse = smoothed.factor.inverse_band();
     forms
-        .rows
         .iter()
         .map(|form| {
             let (row, _) = smoother.reduced.row(form);
@@ -95,20 +94,18 @@ impl Signs {
         (inside && list.windows(2).all(|pair| pair[0] < pair[1])).then_some(next)
     }
 
-    /// The pattern for the program: at each change the form before it or after it, the one with the smaller score, is
+    /// The signs for the program, -1 or 1 and 0 where it is free: at each change the form before it or after it, the one with the smaller score, is
     /// free if its run keeps another.
-    pub(super) fn pattern(&self, scores: &[f64]) -> Pattern {
-        let mut signs = vec![0_i8; scores.len()];
-        let mut imposed = signs.clone();
+    pub(super) fn imposed(&self, scores: &[f64]) -> Vec<i8> {
+        let mut imposed = vec![0_i8; scores.len()];
         for (stretch, changes) in self.changes.iter().enumerate() {
             let (from, to) = (self.starts[stretch], self.starts[stretch + 1]);
             let mut sign = self.first[stretch];
-            for i in from..to {
+            for (i, place) in (from..to).zip(&mut imposed[from..to]) {
                 if changes.contains(&i) {
                     sign = -sign;
                 }
-                signs[i] = sign;
-                imposed[i] = sign;
+                *place = sign;
             }
             let ends: Vec<usize> = [from].into_iter().chain(changes.iter().copied()).chain([to]).collect();
             for (m, &change) in changes.iter().enumerate() {
@@ -120,7 +117,7 @@ impl Signs {
                 }
             }
         }
-        Pattern { signs, imposed, flipped: Vec::new() }
+        imposed
     }
 }
 
@@ -137,7 +134,7 @@ mod tests {
         assert!((cost - (9.0 + 4.0 + 16.0 + 0.04)).abs() < 1e-12);
         assert_eq!(runs(&scores[..2], 2), None);
         let signs = Signs::best(&scores, &[0, 8], &[1]).unwrap();
-        assert_eq!(signs.pattern(&scores).imposed, [1, 1, 1, 1, 0, -1, -1, -1]);
+        assert_eq!(signs.imposed(&scores), [1, 1, 1, 1, 0, -1, -1, -1]);
         assert_eq!(signs.moved(0, 0, -3).unwrap().changes, [[1]]);
         assert_eq!(signs.moved(0, 0, -4), None);
     }

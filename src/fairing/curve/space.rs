@@ -15,7 +15,6 @@
 
 use super::super::inflections::{CurvatureRow, curvature_rows};
 use super::super::model::{Model, Reading, Row};
-use super::super::pattern::SignForms;
 use super::given::{CurveError, CurvePoint, CurveSettings};
 use crate::numeric::{SymmetricBand, gauss_legendre};
 use crate::spline::{BsplineCurve, KnotVector};
@@ -179,12 +178,12 @@ impl CurveSpace {
     }
 
     /// The coefficients of y'' as forms over the control values, of size 1.
-    pub(super) fn forms(&self) -> SignForms {
+    pub(super) fn forms(&self) -> Vec<Row> {
         let rows = self.bends.iter().map(|bend| {
             let size = bend.weights.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
             bend.weights.iter().enumerate().map(|(k, w)| (bend.first + k, w / size)).collect()
         });
-        SignForms { along_u: true, shape: [self.bends.len(), 1], rows: rows.collect() }
+        rows.collect()
     }
 
     /// int x^power y dx as a row.
