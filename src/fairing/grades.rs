@@ -1,7 +1,7 @@
 //! One table at several grades of fairness.
 //!
 //! The surface through the table, the field or net that follows it, its noise and the search for the weight do not depend
-//! on the grade: they are made once. All grades are done in the way that was found for the grade that was asked for.
+//! on the grade: they are made once.
 
 use super::changes::Watched;
 use super::job::{Job, JobError};
@@ -14,10 +14,10 @@ use crate::numeric::join;
 use crate::units::counted;
 use std::sync::Arc;
 
-/// The way in which a job was done.
+/// What an outcome came from.
 #[derive(Debug, Clone)]
 pub(super) struct Taken {
-    /// The job of that way.
+    /// The job.
     pub(super) job: Job,
     /// What it started from.
     pub(super) started: Arc<Started>,
@@ -37,8 +37,8 @@ impl Taken {
 }
 
 impl Job {
-    /// The table at each of `grades`, in the way in which `asked`, the outcome of [`Job::run`] for this job and table, was
-    /// come to; `asked` itself at its own grade. What is held and the rules have no prices at the other grades.
+    /// The table at each of `grades`, from what `asked` came from, the outcome of [`Job::run`] for this job and table; `asked`
+    /// itself at its own grade. What is held and the rules have no prices at the other grades.
     ///
     /// # Errors
     /// As [`Job::run`].

@@ -66,13 +66,14 @@ struct Modelled {
     before: Hull,
     notes: Vec<String>,
     proposals: Vec<Proposal>,
-    /// The surface with accepted lines and edges of flats.
-    surface: FairSurface,
+    /// The surface with accepted lines and edges of flats, and the lines along which its curvature may jump.
+    start: (Hull, Breaks),
     watched: Watched,
 }
 
-/// What may be declared, the surface through the table with what is where that is another one, and the net over it.
-type Surfaced = (Vec<Proposal>, Option<Hull>, FairSurface);
+/// What may be declared, the surface through the table with what is where that is another one, and the same with accepted
+/// lines and edges of flats.
+type Surfaced = (Vec<Proposal>, Option<Hull>, (Hull, Breaks));
 
 /// A field with its likelihood, and where offsets are left out for it the table and the model without them.
 type FieldStart = ((FairSurface, Likely), Option<(Cleaned, Modelled)>);
@@ -106,16 +107,20 @@ impl Started {
         let noise = found.noise.max(quantum / 12f64.sqrt());
         let as_field = job.suits_a_field(noise) && table.lines.is_empty();
         let mut modelled = Modelled::new(job, &cleaned, &found, noise)?;
-        let mut likely = None;
-        if as_field
-            && let Some((field, without)) = field_without_contradictions(job, (&cleaned, &modelled), &found, noise)?
-        {
-            if let Some(without) = without {
-                (cleaned, modelled) = without;
+        let field = match as_field {
+            true => field_without_contradictions(job, (&cleaned, &modelled), &found, noise)?,
+            false => None,
+        };
+        let (surface, likely) = match field {
+            Some(((surface, likely), without)) => {
+                if let Some(without) = without {
+                    (cleaned, modelled) = without;
+                }
+                (surface, Some(likely))
             }
-            (modelled.surface, likely) = (field.0, Some(field.1));
-        }
-        let Modelled { before, notes: assumed, proposals, surface, watched } = modelled;
+            None => (FairSurface::new(&cleaned.clean, &modelled.start.0, &modelled.start.1), None),
+        };
+        let Modelled { before, notes: assumed, proposals, watched, .. } = modelled;
         let mut notes = Vec::new();
         for (station, waterline) in kept {
             let (name, z) = (table.stations[station].station.words(), table.waterlines[waterline]);
@@ -189,7 +194,7 @@ impl Modelled {
         let before = fitted.hull;
         let (mut watched, modelled) =
             join(|| Watched::new(clean, &before), || Self::surface(job, table, found, noise, &before));
-        let (proposals, refitted, surface) = modelled?;
+        let (proposals, refitted, start) = modelled?;
         // Without a line that the hull has, the surface through the table is another one between the offsets.
         let before = match refitted {
             Some(refitted) => {
@@ -198,10 +203,11 @@ impl Modelled {
             }
             None => before,
         };
-        Ok(Self { before, notes: fitted.notes, proposals, surface, watched })
+        Ok(Self { before, notes: fitted.notes, proposals, start, watched })
     }
 
-    /// What may be declared, the surface through the table with what is where that is another one, and the net over it.
+    /// What may be declared, the surface through the table with what is where that is another one, and the same with accepted
+    /// lines and edges of flats.
     fn surface(job: &Job, table: &Cleaned, found: &Suspects, noise: f64, before: &Hull) -> Result<Surfaced, JobError> {
         let Cleaned { clean, charted, .. } = table;
         let mut list = proposed_lines(charted, found);
@@ -248,8 +254,7 @@ impl Modelled {
                 start = edged(&start, &edges)?;
             }
         }
-        let surface = FairSurface::new(clean, &start, &breaks);
-        Ok((proposals, refitted, surface))
+        Ok((proposals, refitted, (start, breaks)))
     }
 }
 
