@@ -144,6 +144,11 @@ impl<'a> TableField<'a> {
         !self.has_pattern() && self.field.residuals.iter().all(|residual| residual.abs() <= farthest)
     }
 
+    /// Whether control values swing between the offsets ([`BEYOND`]).
+    fn swings(&self, net: &[f64]) -> bool {
+        net.iter().any(|y| y.abs() > BEYOND * self.greatest)
+    }
+
     /// Offsets that contradict the field, with its half-breadths there without them: standardised residuals r / sqrt(1 - h) of
     /// [`CONTRADICTS`] typical ones, no less than [`ALIKE`] of the greatest. What is less may be pulled by these.
     pub(super) fn contradictions(&self) -> Vec<((usize, usize), f64)> {
@@ -179,7 +184,7 @@ impl<'a> TableField<'a> {
             return None;
         }
         let surface = surface.within_limits(likely, self.rules)?;
-        if surface.farthest_off() > self.farthest() {
+        if surface.farthest_off() > self.farthest() || self.swings(&surface.start) {
             return None;
         }
         let own = Constraint::Displacement(0.0).value(&surface.hull);
@@ -192,11 +197,11 @@ impl<'a> TableField<'a> {
 
     /// The field as a surface, with its likelihood; none where it makes no hull.
     fn modelled(&self) -> Option<(FairSurface, Likely)> {
-        let Self { table, fitted, points, field, greatest, .. } = self;
+        let Self { table, fitted, points, field, .. } = self;
         let breadth = fitted.particulars().breadth;
         let hull = hull_of(field, fitted).ok()?;
         let start: Vec<f64> = hull.surface().points().iter().map(|p| p[1]).collect();
-        if start.iter().any(|y| y.abs() > BEYOND * greatest) {
+        if self.swings(&start) {
             return None;
         }
         let known: Vec<Option<f64>> = (0..start.len()).map(|k| field.bent.is_closed(k).then_some(0.0)).collect();
