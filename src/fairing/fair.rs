@@ -1,5 +1,5 @@
-//! The whole job of fairing a surface: smooth, solve one convex program with the wishes, and take no inflections out of
-//! its lines without their price.
+//! The whole job of fairing a surface: smooth, solve one convex program with targets and limits, and take no inflections
+//! out of its lines without their price.
 //!
 //! 1. The weight: of a field by its likelihood; on the net of the surface through the table by Mallows' criterion for the
 //!    errors of the table.
@@ -46,8 +46,8 @@ pub struct FairSettings {
     pub through: Option<f64>,
     /// Smoothing weight; none: that of the search.
     pub weight: Option<f64>,
-    /// Noise of the table where its neighbourhood is smooth \[m\], where it is known.
-    pub table_noise: Option<f64>,
+    /// Noise of the table where its neighbourhood is smooth \[m\].
+    pub table_noise: f64,
     /// What differences leave of the table in which the hull's form is least, where it is known and the net is that of a
     /// fit.
     pub differences: Option<Differences>,
@@ -194,32 +194,18 @@ impl Prepared {
     /// [`FairError`] when the readings leave a control value open.
     pub fn new(surface: &mut FairSurface, settings: &FairSettings) -> Result<Self, FairError> {
         let smoother = Smoother::new(&surface.model);
-        let (sigma, search) = match (settings.weight, settings.table_noise) {
-            // The noise is that of the table, whatever the weight is.
-            (Some(weight), noise) => {
-                let sigma = match noise {
-                    Some(noise) => taken(noise, settings.noises()),
-                    None => {
-                        let (best, _) = smoother.cross_validated()?;
-                        smoother.at(best)?.sigma(smoother.count()).max(settings.least_noise).max(1e-12)
-                    }
-                };
-                (Some(sigma), (weight, Vec::new()))
-            }
-            (None, Some(noise)) => {
-                // Features that the offsets do not resolve rule the criterion on the net of a fit: the noise is that of
-                // the table. What is within the tolerance of a designer counts as the roughness of a drawing and gets
-                // no more room than he gives; the weight is that for errors, which the hull's own form is not.
-                let sigma = taken(noise, settings.noises());
-                (Some(sigma), smoother.for_noise(settings.errors(sigma))?)
-            }
-            _ => (None, smoother.cross_validated()?),
+        // Features that the offsets do not resolve rule cross-validation on this net: the noise is that of the table,
+        // whatever the weight is. What is within the tolerance of a designer counts as the roughness of a drawing and gets
+        // no more room than he gives. The weight is that for errors, which the hull's own form is not.
+        let sigma = taken(settings.table_noise, settings.noises());
+        let search = match settings.weight {
+            Some(weight) => (weight, Vec::new()),
+            None => smoother.for_noise(settings.errors(sigma))?,
         };
         Self::searched(surface, settings, smoother, search, sigma)
     }
 
-    /// The same from a smoothing problem whose weight is known, with the search that found it; without a noise that is
-    /// known, the weight rises until what is smoothed out is no less than the rounding of the table.
+    /// The same from a smoothing problem whose weight is known, with the search that found it, and the noise \[m\].
     ///
     /// # Errors
     /// [`FairError`] when the readings leave a control value open.
@@ -227,18 +213,10 @@ impl Prepared {
         surface: &mut FairSurface,
         settings: &FairSettings,
         smoother: Smoother,
-        (mut lambda, trials): (f64, Vec<Trial>),
-        sigma: Option<f64>,
+        (lambda, trials): (f64, Vec<Trial>),
+        sigma: f64,
     ) -> Result<Self, FairError> {
-        let count = smoother.count();
-        let mut smoothed = smoother.at(lambda)?;
-        if sigma.is_none() && settings.weight.is_none() {
-            while smoothed.sigma(count) < settings.least_noise && lambda < 1e3 {
-                lambda *= 2.0;
-                smoothed = smoother.at(lambda)?;
-            }
-        }
-        let sigma = sigma.unwrap_or_else(|| smoothed.sigma(count).max(1e-12));
+        let smoothed = smoother.at(lambda)?;
         let local = surface.is_field.then(|| local_noise(surface, &smoothed, sigma));
         for (k, (reading, place)) in surface.model.readings.iter_mut().zip(&surface.places).enumerate() {
             // A reading of known control values alone weighs nothing; it has the tolerance of the others.
@@ -252,9 +230,9 @@ impl Prepared {
         let errors = settings.errors(sigma);
         let found = Self { smoother, lambda, smoothed, likely: None, sigma, errors, trials, lines: Vec::new() };
         let mut graded = found.graded(surface, settings)?;
-        let guarded = settings.signs;
-        let lines = settings.lines.iter().filter(|_| guarded);
-        graded.lines = lines.map(|&line| TableLine::new(surface, line)).collect();
+        if settings.signs {
+            graded.lines = settings.lines.iter().map(|&line| TableLine::new(surface, line)).collect();
+        }
         Ok(graded)
     }
 
@@ -283,15 +261,6 @@ impl Prepared {
         }
         Ok(self)
     }
-}
-
-/// Fairs.
-///
-/// # Errors
-/// [`FairError`] when the question is none; that targets and limits cannot be met is the status of the answer.
-pub fn fair(surface: &mut FairSurface, settings: &FairSettings) -> Result<Faired, FairError> {
-    let prepared = Prepared::new(surface, settings)?;
-    fair_prepared(surface, settings, &prepared)
 }
 
 /// Fairs with a weight and a noise that are known.

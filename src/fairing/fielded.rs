@@ -406,7 +406,7 @@ impl Prepared {
         let smoother = Smoother::new(&surface.model);
         let lambda = settings.weight.unwrap_or(likely.weight / smoother.unit);
         let trials = (-TRIALS..=TRIALS).filter_map(|power| smoother.trial(lambda * 10f64.powi(power))).collect();
-        Self::searched(surface, settings, smoother, (lambda, trials), Some(likely.sigma))
+        Self::searched(surface, settings, smoother, (lambda, trials), likely.sigma)
     }
 
     /// Two standard errors of linear quantities of a field, each in its unit: 2 sigma sqrt(l'N^-1 l) for the row l of a

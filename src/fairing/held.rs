@@ -108,16 +108,15 @@ pub(super) fn constraints(
     settings: &FairSettings,
     faired: &Faired,
     [before, after]: [&Hull; 2],
-    (priced, solver): (bool, &mut RepeatedSolver<'_>),
+    priced: bool,
 ) -> Vec<Held> {
     let (model, count) = (&surface.model, settings.constraints.len());
-    let prices = if !priced {
-        vec![f64::NAN; count]
-    } else if surface.is_field {
-        // A price that takes long is not worth waiting for.
-        faired.prices_of_constraints(model, count, &mut RepeatedSolver::new(&trial(&settings.solver)))
+    let prices = if priced {
+        // A price of a field that takes long is not worth waiting for.
+        let solver = if surface.is_field { trial(&settings.solver) } else { settings.solver.clone() };
+        faired.prices_of_constraints(model, count, &mut RepeatedSolver::new(&solver))
     } else {
-        faired.prices_of_constraints(model, count, solver)
+        vec![f64::NAN; count]
     };
     let list = settings.constraints.iter().zip(prices).enumerate();
     list.map(|(k, (&constraint, price))| {

@@ -274,20 +274,7 @@ impl Program {
     /// # Errors
     /// [`ProblemError`] when the numbers make no problem.
     pub fn solve(&self, smoother: &Smoother, lambda: f64, settings: &Settings) -> Result<Solved, ProblemError> {
-        self.solve_after(smoother, lambda, &mut RepeatedSolver::new(settings))
-    }
-
-    /// The same after the program that `solver` solved last.
-    ///
-    /// # Errors
-    /// [`ProblemError`] when the numbers make no problem.
-    pub fn solve_after(
-        &self,
-        smoother: &Smoother,
-        lambda: f64,
-        solver: &mut RepeatedSolver<'_>,
-    ) -> Result<Solved, ProblemError> {
-        let solution = solver.solve(&self.problem)?;
+        let solution = RepeatedSolver::new(settings).solve(&self.problem)?;
         let certificate = self.problem.certificate(&solution.x, &solution.multipliers, 0.0);
         let net = smoother.reduced.expand(&solution.x);
         let objective = smoother.objective(lambda, &solution.x);

@@ -1,7 +1,7 @@
 //! Readings that are left out: the test value that each has where it takes part, and where it does not.
 //!
-//! With sigma^2 = RSS / (m - edf) of those that take part a reading has t = r / (sigma sqrt(1 - h)) where it takes part and
-//! t = r / (sigma sqrt(1 + q)), q = a N^-1 a', where it does not. The typical size of residuals is 1.4826 times their median
+//! The readings that take part give sigma^2 = RSS / (m - edf). One of these has t = r / (sigma sqrt(1 - h)). One that does not
+//! take part has t = r / (sigma sqrt(1 + q)), q = a N^-1 a'. The typical size of residuals is 1.4826 times their median
 //! (Huber 1981, chapter 7).
 
 use super::smoothing::{Smoothed, Smoother};

@@ -26,7 +26,7 @@ use super::surface::{FairSurface, Origin, Place};
 use super::suspects::Suspects;
 use crate::hull::{Hull, OffsetTable};
 use crate::numeric::join;
-use crate::qp::{RepeatedSolver, Status};
+use crate::qp::Status;
 use crate::units::counted;
 use std::sync::Arc;
 
@@ -138,12 +138,10 @@ pub(super) struct Run<'a> {
     quantum: f64,
     /// Greatest half-breadth of the table, or B/2 \[m\].
     greatest: f64,
-    /// What is to be held, and the rules, before anything gives way.
+    /// What is to be held before anything gives way.
     asked: Vec<Constraint>,
-    wished: Vec<Rule>,
     settings: FairSettings,
     prepared: Prepared,
-    solver: RepeatedSolver<'a>,
     /// The first notes, and what the surface through the table had to assume, which comes last.
     notes: Vec<String>,
     assumed: Vec<String>,
@@ -208,7 +206,6 @@ impl<'a> Run<'a> {
         let asked = job.holding.constraints(base)?;
         // The net of the surface through the table meets a target that is this near by its offsets.
         let another = if surface.is_field { ON_TARGET } else { ANOTHER };
-        let wished = job.rules.clone();
         let stations = table.stations.iter().map(|station| Line::Station(station.station.x));
         let waterlines = Watched::waterlines(table, &before).into_iter().map(Line::Waterline);
         let left = likely.is_none().then(|| left_by_differences(table, &excluded)).flatten();
@@ -220,12 +217,12 @@ impl<'a> Run<'a> {
             others: asked.iter().map(|c| c.missed(c.value(base), base) > another).collect(),
             constraints: asked.clone(),
             rooms: vec![0.0; asked.len()],
-            rules: wished.clone(),
+            rules: job.rules.clone(),
             strength: 1.0,
             through: None,
             weight: job.weight,
             // Whoever names a tolerance for the table says how noisy it is.
-            table_noise: Some(job.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0))),
+            table_noise: job.tolerance.table.map_or(found.noise, |named| found.noise.min(named / 3.0)),
             differences,
             most_noise: roughness,
             least_noise: quantum / 12f64.sqrt(),
@@ -258,7 +255,6 @@ impl<'a> Run<'a> {
         } else {
             resolution(Some(quantum), prepared.sigma)
         };
-        let solver = RepeatedSolver::new(&job.solver);
         let run = Self {
             job,
             table,
@@ -275,10 +271,8 @@ impl<'a> Run<'a> {
             quantum,
             greatest,
             asked,
-            wished,
             settings,
             prepared,
-            solver,
             notes,
             assumed,
         };
@@ -332,14 +326,13 @@ impl<'a> Run<'a> {
         let Attempt { mut faired, after, mut lines } = attempt;
         self.least(&mut lines, &faired);
         let held = held.unwrap_or_else(|| {
-            let solver = (self.known.is_none(), &mut self.solver);
-            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], solver)
+            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], self.known.is_none())
         });
         let asked = self.asked.iter().zip(held);
         let held: Vec<Held> = asked.map(|(&constraint, held)| Held { constraint, ..held }).collect();
         let mut rules = held::rules(&self.surface, &self.settings, &faired, self.known.is_none());
         for &rule in &given.rules {
-            rules.insert(rule, HeldRule::given_up(&self.wished[rule], &self.surface, &after));
+            rules.insert(rule, HeldRule::given_up(&self.job.rules[rule], &self.surface, &after));
         }
         faired.diagnosis = given.refused.or(faired.diagnosis);
         faired.carried = carried;
@@ -422,14 +415,13 @@ impl<'a> Run<'a> {
 
     /// The program without the rules that have to give way.
     fn without_rules(&mut self, mut faired: Faired, given: &mut Given) -> Result<Faired, JobError> {
-        let mut kept: Vec<usize> = (0..self.wished.len()).collect();
+        let mut kept: Vec<usize> = (0..self.job.rules.len()).collect();
         while let Some(Instead::WithoutRules(rules)) = &faired.instead {
             (self.progress)(&format!("again without {}", counted(rules.len(), "rule")));
             given.rules.extend(rules.iter().map(|&rule| kept[rule]));
             kept.retain(|rule| !given.rules.contains(rule));
-            self.settings.rules = kept.iter().map(|&rule| self.wished[rule].clone()).collect();
+            self.settings.rules = kept.iter().map(|&rule| self.job.rules[rule].clone()).collect();
             given.refused = given.refused.take().or(faired.diagnosis.take());
-            self.solver = RepeatedSolver::new(&self.job.solver);
             faired = self.solve()?.after(&faired);
         }
         given.rules.sort_unstable();
@@ -449,7 +441,6 @@ impl<'a> Run<'a> {
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
             (self.progress)("the nearest feasible targets");
             self.settings = FairSettings { constraints, ..plain.clone() };
-            self.solver = RepeatedSolver::new(&self.job.solver);
             let again = self.solve()?;
             if !again.solved.is_optimal() && best.is_some() {
                 continue;
@@ -480,12 +471,12 @@ impl<'a> Run<'a> {
             }
             after => after?,
         };
-        let Self { surface, settings, prepared, solver, before, wished, known, .. } = self;
+        let Self { surface, settings, prepared, before, known, .. } = self;
         if surface.is_field {
             // Nothing is repeated on a field: the prices are final.
             let (lines, held) = join(
                 || watched.turns(&after),
-                || held::constraints(surface, settings, &faired, [before, &after], (known.is_none(), solver)),
+                || held::constraints(surface, settings, &faired, [before, &after], known.is_none()),
             );
             return Ok((Attempt { faired, after, lines }, Some(held)));
         }
@@ -499,7 +490,7 @@ impl<'a> Run<'a> {
             ));
             let seen = settings.seen;
             // What a rule says of the inflections of a line stands over the guard of them.
-            let ruled: Vec<Line> = wished.iter().filter_map(Rule::counted_line).collect();
+            let ruled: Vec<Line> = self.job.rules.iter().filter_map(Rule::counted_line).collect();
             let repeated = Repeated { surface, settings, prepared, watched };
             attempt = repeated.until_none_is_worse(attempt, seen, |line| !ruled.contains(line))?;
             let lines = &guarded_lines(&prepared.lines, &settings.rules);

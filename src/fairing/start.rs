@@ -107,10 +107,8 @@ impl Started {
         let noise = found.noise.max(quantum / 12f64.sqrt());
         let as_field = job.suits_a_field(noise) && table.lines.is_empty();
         let mut modelled = Modelled::new(job, &cleaned, &found, noise)?;
-        let field = match as_field {
-            true => field_without_contradictions(job, (&cleaned, &modelled), &found, noise)?,
-            false => None,
-        };
+        let field =
+            if as_field { field_without_contradictions(job, (&cleaned, &modelled), &found, noise)? } else { None };
         let (surface, likely) = match field {
             Some(((surface, likely), without)) => {
                 if let Some(without) = without {

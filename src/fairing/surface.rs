@@ -1,9 +1,9 @@
 //! The hull as a model to be faired: which net, which readings, which energy.
 //!
 //! The chart x(u, v), z(u, v) of the start hull stays; the half-breadths y of its net are the unknowns. Over a field the
-//! net is that of its hull (`fielded`). Otherwise it is the cubic net of the surface through the table, in which
-//! profiles, knuckles and flats are lines of the net already, with the energy of true curvature in the metric of that
-//! surface ([`super::metric`]), which spares what bends sharply (`adapt`).
+//! net is that of its hull (`fielded`). Otherwise it is the cubic net of the surface through
+//! the table, in which profiles, knuckles and flats are lines of the net already. Its energy is that of true curvature in the
+//! metric of that surface ([`super::metric`]), and spares what bends sharply (`adapt`).
 
 use super::adapt::Spared;
 use super::cells::Cells;

@@ -9,7 +9,6 @@ use super::super::bends::Line;
 use super::super::model::{Limit, Row, value};
 use super::super::surface::{FairSurface, basis_row};
 use super::rule::FixedLine;
-use crate::hull::Hull;
 
 /// A line whose points differ by less than this part of the domain in v is a line of the net.
 const SAME: f64 = 1e-6;
@@ -20,9 +19,6 @@ pub(super) fn held(row: Row, start: &[f64]) -> Limit {
     Limit { row, lower: y, upper: y }
 }
 
-/// An edge whose control values are within this part of the breadth of 0 lies on the centreplane.
-const CLOSED: f64 = 1e-9;
-
 /// Control values of an edge of a net, by their numbers; none of other lines.
 fn edge(line: &FixedLine, [rows, columns]: [usize; 2]) -> Option<Vec<usize>> {
     match line {
@@ -31,12 +27,6 @@ fn edge(line: &FixedLine, [rows, columns]: [usize; 2]) -> Option<Vec<usize>> {
         FixedLine::Keel => Some((0..rows).map(|i| i * columns).collect()),
         _ => None,
     }
-}
-
-/// Whether a line is an edge of the surface that lies on the centreplane.
-pub(super) fn is_closed(line: &FixedLine, hull: &Hull) -> bool {
-    let (net, most) = (hull.surface(), CLOSED * hull.particulars().breadth);
-    edge(line, net.shape()).is_some_and(|edge| edge.into_iter().all(|i| net.points()[i][1].abs() <= most))
 }
 
 /// Each control value once.

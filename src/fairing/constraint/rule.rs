@@ -4,7 +4,6 @@ use super::super::bends::{Bend, Line, bend, inside, moving};
 use super::super::model::Limit;
 use super::super::surface::FairSurface;
 use super::{curvature, fixed, flat, monotone, tangent};
-use crate::hull::Hull;
 
 /// A line that stays where the surface through the table has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,17 +186,6 @@ impl Rule {
                 };
                 format!("the {} {count}", ranged(line, *over))
             }
-        }
-    }
-
-    /// Whether the rule speaks of what the surface through the table has, so that the net of the fit has to be kept: flats,
-    /// and lines that do not move, but for edges on the centreplane, which any net can keep there.
-    #[must_use]
-    pub fn keeps_the_fit(&self, fitted: &Hull) -> bool {
-        match self {
-            Self::Fixed(line) => !fixed::is_closed(line, fitted),
-            Self::FlatOfSide { .. } | Self::FlatOfBottom { .. } => true,
-            _ => false,
         }
     }
 

@@ -94,8 +94,8 @@ impl Signs {
         (inside && list.windows(2).all(|pair| pair[0] < pair[1])).then_some(next)
     }
 
-    /// The signs for the program, -1 or 1 and 0 where it is free: at each change the form before it or after it, the one with the smaller score, is
-    /// free if its run keeps another.
+    /// The signs for the program: -1 or 1, and 0 where it is free. Free is at each change the form before it or after it, the
+    /// one with the smaller score, if its run keeps another.
     pub(super) fn imposed(&self, scores: &[f64]) -> Vec<i8> {
         let mut imposed = vec![0_i8; scores.len()];
         for (stretch, changes) in self.changes.iter().enumerate() {
