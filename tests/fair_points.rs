@@ -99,6 +99,8 @@ fn keels_of_sections_are_no_half_breadths() {
         let outcome = Job::default().run(&table_of(carried(format!("tests/data/{name}/sections.csv")))).unwrap();
         let [before, after] = outcome.changes_of_sign();
         assert!(outcome.is_field && after <= before * 6 / 10, "{name}: {before} > {after}");
+        let is_named = outcome.notes.iter().any(|note| note.contains("off the fair hull: at station 0.5"));
+        assert_eq!(is_named, name == "s175", "{name}: {:?}", outcome.notes);
     }
 }
 

@@ -6,6 +6,7 @@ use super::changes::{Counted, Watched, changes, normal_moves, predicted, written
 use super::compromise::{Instead, within_reach};
 use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, PRICE, Prepared, fair_prepared};
+use super::field::points::is_on_centreplane;
 use super::grades::Taken;
 use super::held::{self, Held, HeldRule};
 use super::infeasible::{Diagnosis, Ends};
@@ -338,6 +339,8 @@ impl<'a> Run<'a> {
         faired.carried = carried;
         let beyond = [&self.before, &after].map(|hull| excess_of_breadth(hull.surface(), self.greatest));
         self.tell(&faired, &held, &lines, beyond);
+        let keels = self.keels_off(&after);
+        self.notes.extend(keels);
         let mut changes = changes(self.table, &self.surface, &after, &self.excluded);
         for change in &mut changes {
             let deck = matches!(change.origin, Origin::Deck { .. });
@@ -520,6 +523,25 @@ impl<'a> Run<'a> {
         let half = lines.len() / 2;
         let (some, others) = lines.split_at_mut(half);
         join(|| some.iter_mut().for_each(least), || others.iter_mut().for_each(least));
+    }
+
+    /// Where sections that are given as points end on the centreplane and the fair hull is wider than an offset may move, in
+    /// words.
+    fn keels_off(&self, after: &Hull) -> Option<String> {
+        let stations = self.table.stations.iter().filter(|_| self.surface.is_field);
+        let points = stations.flat_map(|s| s.outlines.iter().flatten().map(move |point| (&s.station, point)));
+        let keels = points.filter(|(_, point)| is_on_centreplane(point.y, self.greatest));
+        let off =
+            keels.filter_map(|(station, point)| Some((after.half_breadth(station.x, point.z)?, station, point.z)));
+        let off: Vec<_> =
+            off.filter(|(y, ..)| *y > self.settings.least_tolerance.max(3.0 * self.prepared.sigma)).collect();
+        let (y, station, z) = off.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(format!(
+            "{} on the centreplane {} off the fair hull: at {} it has a half-breadth of {y:.3} m where the section ends, at z = {z:.3} m",
+            counted(off.len(), "point"),
+            if off.len() == 1 { "is" } else { "are" },
+            station.words()
+        ))
     }
 
     /// The notes, what bends more often before all else: whoever reads no further should know it.

@@ -9,7 +9,7 @@ use super::fairing_combs::FairingCombs;
 use super::fairing_sections::whole_curves;
 use super::label::LabelPlacer;
 use super::scale::{drawing_scale, figures};
-use super::sheet::LETTERS;
+use super::sheet::{LETTERS, in_lines, wide};
 use super::view::{OUTLINE, THREAD};
 use super::{FigureInputs, caption, outline};
 use crate::fairing::inspect::Comb;
@@ -224,6 +224,9 @@ pub(super) const BEYOND: &str = "dashed: beyond the outermost offsets, extrapola
 /// Least length of a line beyond its offsets that is distinguished, as a part of that of all offsets.
 const BEYOND_LEAST: f64 = 2e-3;
 
+/// Room at each side of the words below a drawing, where AFT and FORWARD may stand \[mm\].
+const BESIDE_KEY: f64 = 30.0;
+
 /// The same pen for the part of a line beyond the outermost offsets.
 pub(super) const fn guessed(pen: Pen) -> Pen {
     pen.dashed(&[1.3, 0.9])
@@ -427,17 +430,16 @@ pub(super) fn title(canvas: &mut Canvas, plan: &Plan<'_>, drawn: &Drawn) {
     if let Some(left) = left_out_words(drawn.left.each_ref().map(Vec::len)) {
         canvas.text([0.5 * plan.room[0], 21.3], &left, &words);
     }
-    canvas.text(
-        [0.5 * plan.room[0], plan.room[1] - 12.5],
-        &format!(
-            "{}    {}    rings: inflections of bends {} or more off their chord{}",
-            station_words(plan.record),
-            plan.heights,
-            plan.record.lines.notation.small(plan.record.resolution),
-            if drawn.beyond { format!("    {BEYOND}") } else { String::new() }
-        ),
-        &words,
+    let rings = format!(
+        "rings: inflections of bends {} or more off their chord",
+        plan.record.lines.notation.small(plan.record.resolution)
     );
+    let stations = station_words(plan.record);
+    let key = [stations.as_str(), plan.heights, &rings].into_iter().chain(drawn.beyond.then_some(BEYOND));
+    let lines = in_lines(key, "    ", |line| wide(line, LETTERS) <= plan.room[0] - 2.0 * BESIDE_KEY);
+    for (above, line) in lines.iter().rev().enumerate() {
+        canvas.text([0.5 * plan.room[0], plan.room[1] - 12.5 - 4.6 * above as f64], line, &words);
+    }
     let y = plan.room[1] - 6.0;
     let style = TextStyle::new(LETTERS, Anchor::Start);
     let mut x = 10.0;

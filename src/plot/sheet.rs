@@ -178,12 +178,21 @@ pub(super) fn numbered_over(sheet: Sheet, titles: &Titles<'_>) -> Svg {
 
 /// Words in lines that fit.
 pub(super) fn wrapped(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
+    in_lines(text.split_whitespace(), " ", fits)
+}
+
+/// Parts of a text in lines that fit, with a gap between those on one line.
+pub(super) fn in_lines<'a>(
+    parts: impl IntoIterator<Item = &'a str>,
+    gap: &str,
+    fits: impl Fn(&str) -> bool,
+) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        let longer = lines.last().map(|line| format!("{line} {word}")).filter(|line| fits(line));
+    for part in parts {
+        let longer = lines.last().map(|line| format!("{line}{gap}{part}")).filter(|line| fits(line));
         match (longer, lines.last_mut()) {
             (Some(longer), Some(line)) => *line = longer,
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(part.to_owned()),
         }
     }
     lines
@@ -197,6 +206,7 @@ mod tests {
     fn words_are_wrapped_where_they_do_not_fit() {
         let lines = wrapped("one two  three four", |line| line.len() <= 9);
         assert_eq!(lines, ["one two", "three", "four"]);
+        assert_eq!(in_lines(["one two", "three", "four"], "  ", |line| line.len() <= 14), ["one two  three", "four"]);
     }
 
     #[test]

@@ -31,6 +31,12 @@ pub struct Points {
     pub levels: OffsetTable,
 }
 
+/// Whether a point of a section is on the centreplane, beside the greatest half-breadth: a keel, and no half-breadth.
+#[must_use]
+pub fn is_on_centreplane(y: f64, greatest: f64) -> bool {
+    y <= CENTREPLANE * greatest
+}
+
 impl Points {
     /// Those of a table that has no offsets; none where there are too few. Where the hull goes on beyond the first or the
     /// last section, to `ends` at most \[m\], there are empty sections.
@@ -38,8 +44,7 @@ impl Points {
     pub fn new(table: &OffsetTable, ends: [f64; 2]) -> Option<Self> {
         let greatest = table.stations.iter().flat_map(|s| s.outlines.iter().flatten()).map(|p| p.y).fold(0.0, f64::max);
         let mut sides = side_points(table);
-        // A keel is where a section ends, and no half-breadth.
-        sides.retain(|&[s, o, p]| table.stations[s].outlines[o][p].y > CENTREPLANE * greatest);
+        sides.retain(|&[s, o, p]| !is_on_centreplane(table.stations[s].outlines[o][p].y, greatest));
         let all = table.stations.iter().flat_map(|station| station.outlines.iter().flatten());
         let [bottom, top] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.z), b.max(p.z)]);
         let height = top - bottom;
@@ -62,7 +67,7 @@ impl Points {
             let on_lowest = points().filter(|p| p.z - lowest.z <= SAME * height);
             let [least, most] = on_lowest.fold([f64::INFINITY, 0.0], |[a, b], p| [p.y.min(a), p.y.max(b)]);
             // A section that does not reach the centreplane has no keel.
-            if least <= CENTREPLANE * greatest || lowest.z - bottom <= LOWEST * height {
+            if is_on_centreplane(least, greatest) || lowest.z - bottom <= LOWEST * height {
                 found.keel_height = Some(lowest.z);
                 found.flat_of_bottom = Some(most);
             }
