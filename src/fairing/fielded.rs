@@ -112,8 +112,7 @@ impl<'a> TableField<'a> {
         }
         if !is_level {
             let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
-            let rocker = Rocker::new(levels, least, seen.extent[0])?;
-            seen = seen.over_keel(levels, rocker)?;
+            seen = seen.over_keel(levels, Rocker::new(levels, least)?);
         }
         let shape = [levels.stations.len(), levels.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 2 || seen.readings.len() < 16 {
@@ -338,7 +337,10 @@ pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
 /// The hull of a field.
 fn hull_of(field: &ChartedField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
-    let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), field.control_points()?)?;
+    let places = field.places()?;
+    let values = bent.half_breadths(&field.field)?;
+    let points: Vec<[f64; 3]> = places.into_iter().zip(values).map(|([x, z], y)| [x, y, z]).collect();
+    let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
     let deck = deck(fitted.deck(), extent(&surface, 0), extent(&surface, 2))?;
     Hull::new(fitted.name(), *fitted.particulars(), surface, deck)
 }

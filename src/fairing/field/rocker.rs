@@ -27,12 +27,6 @@ const JUMP: f64 = 0.03;
 /// Heights above the keel line below this part of the depth there are on the keel.
 const ON_KEEL: f64 = 1e-3;
 
-/// Least part of the heights of a keel that lie on one line, where it jumps.
-const RUN: f64 = 0.5;
-
-/// Scale of the errors of heights with which a keel line goes on beyond its run.
-const BEYOND: f64 = 10.0;
-
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CLOSED: f64 = 1e-6;
 
@@ -47,12 +41,10 @@ pub struct Rocker {
     keel: BsplineCurve<1>,
     /// z0 and z1 \[m\].
     pub height: [f64; 2],
-    /// x of the ends of the keel line \[m\].
+    /// x of the ends of the hull \[m\].
     pub length: [f64; 2],
-    /// Whether the hull closes there; none where the keel line ends before the hull, at a stem or below a counter.
-    pub closed: [Option<bool>; 2],
-    /// x between which heights of the keel are on its line \[m\].
-    pub run: [f64; 2],
+    /// Whether it closes there.
+    pub closed: [bool; 2],
     /// How far a height of the keel is from its line at most \[m\].
     pub off: f64,
 }
@@ -67,14 +59,13 @@ struct Height {
 }
 
 impl Rocker {
-    /// That of a table whose keel heights lie on one line from end to end, or on one that ends where they jump: below a
-    /// counter, or at a stem. `least` \[m\] is the least error of a height, `extent` \[m\] has the ends of the hull. None
-    /// where fewer than half of the heights are on a line, or the keel is level.
+    /// That of a table whose keel heights lie on one line from end to end; `least` \[m\] is the least error of a height.
+    /// None where they do not, or the keel is level.
     #[must_use]
-    pub fn new(table: &OffsetTable, least: f64, extent: [f64; 2]) -> Option<Self> {
+    pub fn new(table: &OffsetTable, least: f64) -> Option<Self> {
         let top = table.waterlines.last().copied()?;
         let mut heights: Vec<Height> = Vec::new();
-        let mut breadths: Vec<f64> = Vec::new();
+        let mut breadths: Vec<[f64; 2]> = Vec::new();
         for station in &table.stations {
             let x = station.station.x;
             let offsets = station.half_breadths.iter().filter_map(|cell| cell.value());
@@ -85,48 +76,32 @@ impl Rocker {
                 None if breadth <= 0.0 => continue,
                 _ => return None,
             }
-            breadths.push(breadth);
+            breadths.push([x, breadth]);
         }
-        let [bottom, highest] = range(&heights);
+        let bottom = heights.iter().map(|height| height.z).fold(f64::INFINITY, f64::min);
+        let highest = heights.iter().map(|height| height.z).fold(f64::NEG_INFINITY, f64::max);
         if heights.len() < FEWEST || highest - bottom <= LEVEL * (top - bottom) {
             return None;
         }
-        let greatest = breadths.iter().copied().fold(0.0, f64::max);
-        let last = heights.len() - 1;
-        let outermost = |k: usize| Outermost { x: heights[k].x, keel: heights[k].z, top, breadth: breadths[k] };
+        let greatest = breadths.iter().map(|[_, y]| *y).fold(0.0, f64::max);
+        let last = breadths.len() - 1;
+        let mut closed = [0, last].map(|k| breadths[k][1] <= CLOSED * greatest);
+        let outermost = |k: usize| Outermost { x: heights[k].x, keel: heights[k].z, top, breadth: breadths[k][1] };
         let tips = [[0, 1], [last, last - 1]].map(|[end, before]| carried_on(outermost(before), outermost(end)));
-        let least_run = FEWEST.max((RUN * heights.len() as f64).ceil() as usize);
-        let mut run = 0..heights.len();
-        while run.len() >= least_run {
-            let own = &heights[run.clone()];
-            let (mut line, mut closed) = (own.to_vec(), [None; 2]);
-            for (side, end) in [0, last].into_iter().enumerate() {
-                let place = |line: &[Height]| if side == 0 { 0 } else { line.len() };
-                if !run.contains(&end) {
-                    let beyond = Height { x: extent[side], z: straight_on(own, side, extent[side]), scale: BEYOND };
-                    line.insert(place(&line), beyond);
-                    continue;
-                }
-                let tip = tips[side].filter(|_| breadths[end] > CLOSED * greatest);
-                if let Some([x, _]) = tip {
-                    line.insert(place(&line), Height { x, z: top, scale: EXACT });
-                }
-                closed[side] = Some(tip.is_some() || breadths[end] <= CLOSED * greatest);
+        for (side, tip) in tips.into_iter().enumerate() {
+            if closed[side] {
+                continue;
             }
-            let keel = keel_line(&line, least)?;
-            let [bottom, _] = range(own);
-            let off = line.iter().filter(|height| height.scale < BEYOND);
-            let off = off.map(|height| (keel.eval(height.x)[0] - height.z).abs()).fold(0.0, f64::max);
-            if off <= JUMP * (top - bottom) {
-                let (length, run) = ([line[0].x, line[line.len() - 1].x], [own[0].x, own[own.len() - 1].x]);
-                return Some(Self { keel, height: [bottom, top], length, closed, run, off });
+            if let Some([x, _]) = tip {
+                let tip = Height { x, z: top, scale: EXACT };
+                heights.insert(if side == 0 { 0 } else { heights.len() }, tip);
+                closed[side] = true;
             }
-            // The longer part to one side of the steepest step.
-            let step = |k: &usize| (heights[k + 1].z - heights[*k].z).abs();
-            let at = (run.start..run.end - 1).max_by(|a, b| step(a).total_cmp(&step(b)))? + 1;
-            run = if at - run.start > run.end - at { run.start..at } else { at..run.end };
         }
-        None
+        let length = [heights[0].x, heights[heights.len() - 1].x];
+        let keel = keel_line(&heights, least)?;
+        let off = heights.iter().map(|height| (keel.eval(height.x)[0] - height.z).abs()).fold(0.0, f64::max);
+        (off <= JUMP * (top - bottom)).then_some(Self { keel, height: [bottom, top], length, closed, off })
     }
 
     /// Height of the keel at x \[m\].
@@ -160,18 +135,6 @@ impl Rocker {
         let (height, depth) = (top - bottom, (top - keel).max(f64::MIN_POSITIVE));
         [-height * slope * (top - z) / (depth * depth), height / depth]
     }
-}
-
-/// The least and the greatest of heights \[m\].
-fn range(heights: &[Height]) -> [f64; 2] {
-    heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], height| [a.min(height.z), b.max(height.z)])
-}
-
-/// z at x \[m\] on the straight line through the outermost height of a side and the third one from there.
-fn straight_on(heights: &[Height], side: usize, x: f64) -> f64 {
-    let last = heights.len() - 1;
-    let [end, before] = if side == 0 { [0, 2] } else { [last, last - 2] }.map(|k| heights[k]);
-    end.z + (end.z - before.z) / (end.x - before.x) * (x - end.x)
 }
 
 /// The quintic spline of greatest restricted likelihood through heights of rising x.
@@ -249,9 +212,9 @@ mod tests {
         };
         let stations = (-9..=9).step_by(2).map(station).collect();
         let table = OffsetTable { stations, waterlines: vec![1.0, 3.2], ..OffsetTable::default() };
-        let found = Rocker::new(&table, 1e-6, [-9.0, 9.0]).unwrap();
+        let found = Rocker::new(&table, 1e-6).unwrap();
         let tip = 9.0 + 2.0 * 0.365 / 1.12;
-        assert_eq!(found.closed, [Some(true); 2]);
+        assert_eq!(found.closed, [true; 2]);
         assert!((found.length[0] + tip).abs() < 1e-9 && (found.length[1] - tip).abs() < 1e-9, "{:?}", found.length);
     }
 
