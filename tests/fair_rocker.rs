@@ -1,4 +1,4 @@
-//! Hulls whose keel line has rocker: yachts, tugs.
+//! Hulls whose keel line has rocker or rake: yachts, tugs, trawlers.
 
 use loftsman::fairing::job::Job;
 use loftsman::fairing::outcome::Change;
@@ -16,6 +16,8 @@ struct Truth {
     rise: f64,
     /// x of the lowest point over the length.
     lowest: f64,
+    /// Whether the keel is raked in place of it, and ends at a stern post below a counter, and at a raked stem.
+    is_raked: bool,
     /// Exponents of the waterlines and of the sections.
     powers: [f64; 3],
 }
@@ -31,12 +33,24 @@ impl Truth {
             depth,
             rise: depth * random.random_range(0.3..0.9),
             lowest: random.random_range(0.45..0.55),
+            is_raked: false,
             powers: random_form(random),
         }
     }
 
+    /// z of the keel line \[m\].
     fn keel(&self, x: f64) -> f64 {
-        self.rise * (2.0 * (x / self.length - self.lowest)).powi(2)
+        let part = x / self.length;
+        if self.is_raked { 0.3 * self.rise * part } else { self.rise * (2.0 * (part - self.lowest)).powi(2) }
+    }
+
+    /// Ends of the waterline at a part of the height above the keel, over the length.
+    fn ends(&self, part: f64) -> [f64; 2] {
+        if !self.is_raked {
+            return [0.0, 1.0];
+        }
+        let s = ((part - 0.35) / 0.45).clamp(0.0, 1.0);
+        [0.08 * (1.0 - s * s * (3.0 - 2.0 * s)), 0.93 + 0.07 * part]
     }
 
     fn half_breadth(&self, x: f64, z: f64) -> f64 {
@@ -45,7 +59,23 @@ impl Truth {
             return 0.0;
         }
         let below = (self.depth - z) / (self.depth - keel);
-        0.5 * self.breadth * half_breadth_of_form(self.powers, x / self.length, below)
+        let [aft, forward] = self.ends(1.0 - below);
+        let part = (x / self.length - aft) / (forward - aft);
+        if !(0.0..=1.0).contains(&part) {
+            return 0.0;
+        }
+        0.5 * self.breadth * half_breadth_of_form(self.powers, part, below)
+    }
+
+    /// z of the lowest point of a station \[m\]: on the keel line, the counter or the stem.
+    fn lowest_point(&self, x: f64) -> f64 {
+        let is_hull = |part: f64| {
+            let [aft, forward] = self.ends(part);
+            (aft..=forward).contains(&(x / self.length))
+        };
+        let steps = (0..=4000).map(|k| f64::from(k) / 4000.0);
+        let part = steps.into_iter().find(|&part| is_hull(part)).unwrap_or(1.0);
+        self.keel(x) + part * (self.depth - self.keel(x))
     }
 
     /// With errors of this standard deviation \[m\]. What is narrower than 20 mm is left blank.
@@ -60,7 +90,7 @@ impl Truth {
             if y > 0.02 { (y + noise * errors[errors.len() - 1]).max(1e-3) } else { 0.0 }
         });
         for station in &mut table.stations {
-            station.keel_height = Some(self.keel(station.station.x));
+            station.keel_height = Some(self.lowest_point(station.station.x));
             for cell in &mut station.half_breadths {
                 if cell.value().is_some_and(|y| y <= 0.0) {
                     cell.entry = Entry::Absent;
@@ -71,15 +101,13 @@ impl Truth {
     }
 }
 
-/// The fair hull is nearer to the truth than the table is, it has fewer pieces of curvature and no more changes of sign: on
-/// all but one of 26 tables. That one ends plumb before its keel line meets the upper edge. The field that ends there would
-/// leave its offsets, and is refused.
-#[test]
-fn hulls_with_rocker_come_nearer_to_their_truth() {
+/// Of tables with and without more noise from this truth, those on which the fair hull is no field, not nearer to the truth
+/// than the table is, or no fairer than the surface through it.
+fn worse(seeds: std::ops::Range<u64>, truth: fn(&mut StdRng) -> Truth) -> Vec<String> {
     let mut worse = Vec::new();
-    for seed in 0..13 {
+    for seed in seeds {
         let random = &mut StdRng::seed_from_u64(seed);
-        let truth = Truth::new(random);
+        let truth = truth(random);
         for noise in [5e-4, 4e-3] {
             let table = truth.table(noise, random);
             let outcome = Job::default().run(&table).unwrap();
@@ -100,5 +128,21 @@ fn hulls_with_rocker_come_nearer_to_their_truth() {
             }
         }
     }
+    worse
+}
+
+/// The fair hull is nearer to the truth than the table is, it has fewer pieces of curvature and no more changes of sign: on
+/// all but one of 26 tables. That one ends plumb before its keel line meets the upper edge. The field that ends there would
+/// leave its offsets, and is refused.
+#[test]
+fn hulls_with_rocker_come_nearer_to_their_truth() {
+    let worse = worse(0..13, Truth::new);
     assert!(worse.len() <= 1, "{}", worse.join("\n"));
+}
+
+/// The same of raked keels that end below a counter.
+#[test]
+fn hulls_with_a_raked_keel_and_a_counter_come_nearer_to_their_truth() {
+    let worse = worse(0..8, |random| Truth { is_raked: true, ..Truth::new(random) });
+    assert!(worse.is_empty(), "{}", worse.join("\n"));
 }

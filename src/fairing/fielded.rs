@@ -17,7 +17,7 @@ use super::program::{Program, Wishes};
 use super::robust::typical;
 use super::smoothing::{Smoothed, Smoother};
 use super::surface::{FairSurface, Origin, Place, basis_row, readings};
-use crate::hull::{Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines};
+use crate::hull::{Functional, Hull, HullError, OffsetTable, StationOffsets, has_rocker, only_outlines};
 use crate::qp::Settings;
 use crate::spline::{BsplineCurve, BsplineSurface, KnotVector};
 use std::collections::BTreeSet;
@@ -79,6 +79,8 @@ pub(super) struct TableField<'a> {
     /// Points of sections, where the table has these.
     points: Option<Points>,
     field: ChartedField,
+    /// Below it the table says nothing of the volume: the lowest waterline with breadth \[m\].
+    lowest: f64,
     /// The greatest half-breadth of the table \[m\].
     greatest: f64,
     /// What residuals say nothing of the fit below: the noise of the table, or its last digit \[m\].
@@ -112,7 +114,8 @@ impl<'a> TableField<'a> {
         }
         if !is_level {
             let least = noise.max(LEAST_KEEL * fitted.particulars().depth);
-            seen = seen.over_keel(levels, Rocker::new(levels, least)?);
+            let rocker = Rocker::new(levels, least, seen.extent[0])?;
+            seen = seen.over_keel(levels, rocker)?;
         }
         let shape = [levels.stations.len(), levels.waterlines.len()];
         if shape.iter().any(|&n| n < 4) || seen.waterlines.len() < 2 || seen.readings.len() < 16 {
@@ -122,7 +125,10 @@ impl<'a> TableField<'a> {
         let field = ChartedField::new(&seen, shape, quantum).ok()?;
         let least = quantum.max(noise);
         let greatest = seen.readings.iter().fold(0.0f64, |most, cell| most.max(cell.y));
-        Some(Self { table, fitted, rules, marked, points, field, greatest, least })
+        // With a keel, or points of sections, it is all said.
+        let all = !is_level || points.is_some() || table.stations.iter().any(|station| station.keel_height.is_some());
+        let lowest = if all { f64::NEG_INFINITY } else { seen.waterlines[0].heights[0] };
+        Some(Self { table, fitted, rules, marked, points, field, lowest, greatest, least })
     }
 
     /// What a residual is too large beyond \[m\] ([`FARTHEST`]).
@@ -187,10 +193,14 @@ impl<'a> TableField<'a> {
         if surface.farthest_off() > self.farthest() || self.swings(&surface.start) {
             return None;
         }
-        let own = Constraint::Displacement(0.0).value(&surface.hull);
-        let given = match &self.points {
-            Some(points) => points.volume(surface.hull.reference_height()),
-            None => Constraint::Displacement(0.0).value(self.fitted),
+        let top = surface.hull.reference_height();
+        let above = |hull: &Hull| {
+            let below = if self.lowest < top { Functional::Volume.value(hull, self.lowest) } else { 0.0 };
+            Functional::Volume.value(hull, top) - below
+        };
+        let (own, given) = match &self.points {
+            Some(points) => (above(&surface.hull), points.volume(top)),
+            None => (above(&surface.hull), above(self.fitted)),
         };
         ((own - given).abs() <= VOLUME * given.abs()).then_some((surface, likely))
     }
@@ -337,10 +347,7 @@ pub(super) fn below_centreplane(sigma: f64, hull: &Hull) -> f64 {
 /// The hull of a field.
 fn hull_of(field: &ChartedField, fitted: &Hull) -> Result<Hull, HullError> {
     let bent = &field.bent;
-    let places = field.places()?;
-    let values = bent.half_breadths(&field.field)?;
-    let points: Vec<[f64; 3]> = places.into_iter().zip(values).map(|([x, z], y)| [x, y, z]).collect();
-    let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), points)?;
+    let surface = BsplineSurface::new(bent.knots[0].clone(), bent.knots[1].clone(), field.control_points()?)?;
     let deck = deck(fitted.deck(), extent(&surface, 0), extent(&surface, 2))?;
     Hull::new(fitted.name(), *fitted.particulars(), surface, deck)
 }

@@ -7,9 +7,13 @@ use super::page::WIDTH;
 use crate::exchange::status_word;
 use crate::fairing::constraint::Constraint;
 use crate::fairing::field::line_errors::FoundErrors;
+use crate::fairing::held::Held;
 use crate::fairing::outcome::{Change, Outcome};
 use crate::qp::Status;
 use crate::units::counted;
+
+/// Change of a quantity over its scale up to which it is kept.
+const KEPT: f64 = 1e-3;
 
 /// Suspects that are named.
 const NAMED: usize = 3;
@@ -32,13 +36,15 @@ pub(super) fn headline(outcome: &Outcome) -> String {
         (Constraint::CentreOfVolume { .. }, Some(z)) => format!("centre of volume below z = {z:.3} m"),
         (other, _) => other.words(),
     };
-    let kept: Vec<String> =
-        outcome.held.iter().filter(|held| held.is_had()).map(|held| words(&held.constraint)).collect();
-    let kept = match kept.as_slice() {
+    let had: Vec<&Held> = outcome.held.iter().filter(|held| held.is_had()).collect();
+    let stays = |held: &&Held| (held.after - held.before).abs() <= KEPT * held.scale;
+    let kept = if had.iter().all(stays) { "kept" } else { "on target" };
+    let names: Vec<String> = had.iter().map(|held| words(&held.constraint)).collect();
+    let kept = match names.as_slice() {
         [] => String::new(),
-        [one] => format!(", {one} kept"),
-        [first @ .., last] if first.len() < MOST_AREAS => format!(", {} and {last} kept", first.join(", ")),
-        many => format!(", {} targets kept", many.len()),
+        [one] => format!(", {one} {kept}"),
+        [first @ .., last] if first.len() < MOST_AREAS => format!(", {} and {last} {kept}", first.join(", ")),
+        many => format!(", {} quantities {kept}", many.len()),
     };
     format!(
         "{verdict}: {before} > {after} changes of sign{}, {pieces} > {pieces_after} monotone pieces, moves {moves} mm RMS{kept}.",

@@ -64,8 +64,8 @@ impl End {
 /// A waterline of the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waterline {
-    /// Height \[m\].
-    pub z: f64,
+    /// Height at its ends \[m\]: above a keel with rocker they differ.
+    pub heights: [f64; 2],
     /// Its ends.
     pub ends: [End; 2],
     /// The outermost x at which the hull surely has breadth.
@@ -225,17 +225,18 @@ impl Observations {
     /// The zeros that may belong to the hull: keels above the base, and ends of waterlines.
     #[must_use]
     pub fn zeros(&self) -> Vec<Zero> {
-        let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();
+        // Above a keel with rocker heights of a waterline at neighbouring stations are not quite the same.
         let breadth = |x: f64, z: f64| {
-            let cell = self.readings.iter().find(|cell| same(cell.x, x) && same(cell.z, z));
-            cell.map_or(0.0, |cell| cell.y)
+            let at = self.readings.iter().filter(|cell| cell.x.total_cmp(&x).is_eq());
+            let nearest = at.min_by(|a, b| (a.z - z).abs().total_cmp(&(b.z - z).abs()));
+            nearest.map_or(0.0, |cell| cell.y)
         };
-        let end = |line: &Waterline, end: End| {
+        let end = |(end, z): (End, f64)| {
             let End::Zero { last, at, shared } = end else { return None };
             let kind = if shared { ZeroKind::SharedEnd } else { ZeroKind::End };
-            Some(Zero { cell: closing(at, line.z), beside: breadth(last, line.z), kind })
+            Some(Zero { cell: closing(at, z), beside: breadth(last, z), kind })
         };
-        let ends = self.waterlines.iter().flat_map(|line| line.ends.map(|e| end(line, e))).flatten();
+        let ends = self.waterlines.iter().flat_map(|line| line.ends.into_iter().zip(line.heights)).filter_map(end);
         self.keels.iter().copied().chain(ends).collect()
     }
 
@@ -244,8 +245,7 @@ impl Observations {
         self.readings.extend(agreeing.iter().map(|zero| zero.cell));
         self.keels.clear();
         for line in &mut self.waterlines {
-            let z = line.z;
-            for end in &mut line.ends {
+            for (end, z) in line.ends.iter_mut().zip(line.heights) {
                 let End::Zero { last, at, .. } = *end else { continue };
                 let cell = closing(at, z);
                 let closes = agreeing.iter().any(|zero| zero.kind != ZeroKind::Keel && zero.cell == cell);
@@ -255,53 +255,68 @@ impl Observations {
     }
 
     /// The same of a field over heights relative to a keel with rocker: offsets above the keel, whose end is the
-    /// keel line itself. The hull ends at the ends of this line, plumb.
+    /// keel line itself. The hull ends at the ends of this line, plumb. Where the line ends before the hull, waterlines above
+    /// it end as the table says. None where an offset is below the line.
     #[must_use]
-    pub fn over_keel(self, table: &OffsetTable, rocker: Rocker) -> Self {
+    pub fn over_keel(self, table: &OffsetTable, rocker: Rocker) -> Option<Self> {
         let level = self;
         let relative = |cell: &Cell| Some(Cell { z: rocker.relative(cell.x, cell.z)?, ..*cell });
         let [bottom, top] = rocker.height;
-        let mut readings: Vec<Cell> = level.readings.iter().filter(|cell| cell.y > 0.0).filter_map(relative).collect();
+        let has_keel = |x: f64| (rocker.run[0]..=rocker.run[1]).contains(&x);
+        let with_breadth = level.readings.iter().filter(|cell| cell.y > 0.0);
+        let mut readings: Vec<Cell> = with_breadth.clone().filter_map(relative).collect();
+        if with_breadth.filter(|cell| !has_keel(cell.x)).any(|cell| relative(cell).is_none()) {
+            return None;
+        }
         let bounds = level.bounds.iter().filter_map(relative).collect();
+        let above = |keel: &Zero| Some(Zero { cell: relative(&keel.cell)?, ..*keel });
+        let keels = level.keels.iter().filter(|keel| !has_keel(keel.cell.x)).filter_map(above).collect();
         let mut inside: Vec<[f64; 2]> =
             level.inside.iter().map(|&[x, z]| [x, rocker.relative(x, z).unwrap_or(bottom)]).collect();
+        let mut keel_closed = true;
         for station in &table.stations {
             let x = station.station.x;
+            if station.keel_height.is_none() || !has_keel(x) {
+                continue;
+            }
             let offsets = readings.iter().filter(|cell| (cell.x - x).abs() < 1e-9);
             let lowest = offsets.map(|cell| cell.z).fold(f64::INFINITY, f64::min);
             inside.extend(between(x, [bottom, lowest], 2).filter(|_| lowest.is_finite()));
+            let y = station.flat_of_bottom.unwrap_or(0.0);
+            keel_closed &= y <= 0.0;
+            readings.push(Cell { x, z: bottom, y, scale: if y > 0.0 { 1.0 } else { EXACT } });
         }
-        let mut keel_closed = true;
-        for station in &table.stations {
-            if station.keel_height.is_some() {
-                let (x, y) = (station.station.x, station.flat_of_bottom.unwrap_or(0.0));
-                keel_closed &= y <= 0.0;
-                readings.push(Cell { x, z: bottom, y, scale: if y > 0.0 { 1.0 } else { EXACT } });
-            }
-        }
-        let ends = [0, 1].map(|side| {
-            let x = rocker.length[side];
-            if rocker.closed[side] { End::Closed(x) } else { End::Cut(x) }
-        });
         let lines = table.waterlines.len().max(2);
-        for side in (0..2).filter(|&side| rocker.closed[side]) {
+        let plumb = |side: usize| {
+            let x = rocker.length[side];
+            rocker.closed[side].map(|closed| if closed { End::Closed(x) } else { End::Cut(x) })
+        };
+        for side in (0..2).filter(|&side| rocker.closed[side] == Some(true)) {
             let x = rocker.length[side];
             let places = (0..lines).map(|k| bottom + (top - bottom) * k as f64 / (lines - 1) as f64);
             readings.extend(places.map(|z| Cell { x, z, y: 0.0, scale: EXACT }));
         }
-        let waterlines = rocker.height.map(|z| Waterline { z, ends, inner: rocker.length }).to_vec();
+        // At a plumb end heights are all the same.
+        let waterline = |line: &Waterline| {
+            let mut found = *line;
+            for side in 0..2 {
+                match plumb(side) {
+                    Some(end) => (found.ends[side], found.inner[side]) = (end, rocker.length[side]),
+                    None => found.heights[side] = rocker.relative(line.ends[side].outermost(), line.heights[side])?,
+                }
+            }
+            Some(found)
+        };
+        let waterlines: Vec<Waterline> = level.waterlines.iter().filter_map(waterline).collect();
+        let closed = |(end, z): (End, f64), side: usize| match end {
+            End::Closed(at) if rocker.closed[side].is_none() => Some(closing(at, z)),
+            _ => None,
+        };
+        let ends = |line: &Waterline| [0, 1].map(|side| closed((line.ends[side], line.heights[side]), side));
+        readings.extend(waterlines.iter().flat_map(ends).flatten());
         let extent = [rocker.length, rocker.height];
-        Self {
-            readings,
-            inside,
-            keels: Vec::new(),
-            bounds,
-            waterlines,
-            extent,
-            keel_closed,
-            has_points: level.has_points,
-            rocker: Some(rocker),
-        }
+        let (has_points, rocker) = (level.has_points, Some(rocker));
+        Some(Self { readings, inside, keels, bounds, waterlines, extent, keel_closed, has_points, rocker })
     }
 
     fn waterline(&mut self, line: &Line<'_>, lowest: f64) {
@@ -342,7 +357,7 @@ impl Observations {
             inner[side] = line.station(if side == 0 { first } else { last }).station.x;
             ends[side] = self.end(line, side, k, outward(k));
         }
-        self.waterlines.push(Waterline { z, ends, inner });
+        self.waterlines.push(Waterline { heights: [z; 2], ends, inner });
     }
 
     fn end(&mut self, line: &Line<'_>, side: usize, k: usize, next: Option<usize>) -> End {

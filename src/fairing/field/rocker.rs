@@ -27,6 +27,12 @@ const JUMP: f64 = 0.03;
 /// Heights above the keel line below this part of the depth there are on the keel.
 const ON_KEEL: f64 = 1e-3;
 
+/// Least part of the heights of a keel that lie on one line, where it jumps.
+const RUN: f64 = 0.5;
+
+/// Scale of the errors of heights with which a keel line goes on beyond its run.
+const BEYOND: f64 = 10.0;
+
 /// Half-breadths below this part of the greatest are on the centreplane.
 const CLOSED: f64 = 1e-6;
 
@@ -41,10 +47,12 @@ pub struct Rocker {
     keel: BsplineCurve<1>,
     /// z0 and z1 \[m\].
     pub height: [f64; 2],
-    /// x of the ends of the hull \[m\].
+    /// x of the ends of the keel line \[m\].
     pub length: [f64; 2],
-    /// Whether it closes there.
-    pub closed: [bool; 2],
+    /// Whether the hull closes there; none where the keel line ends before the hull, at a stem or below a counter.
+    pub closed: [Option<bool>; 2],
+    /// x between which heights of the keel are on its line \[m\].
+    pub run: [f64; 2],
     /// How far a height of the keel is from its line at most \[m\].
     pub off: f64,
 }
@@ -59,13 +67,14 @@ struct Height {
 }
 
 impl Rocker {
-    /// That of a table whose keel heights lie on one line from end to end; `least` \[m\] is the least error of a height.
-    /// None where they do not, or the keel is level.
+    /// That of a table whose keel heights lie on one line from end to end, or on one that ends where they jump: below a
+    /// counter, or at a stem. `least` \[m\] is the least error of a height, `extent` \[m\] has the ends of the hull. None
+    /// where fewer than half of the heights are on a line, or the keel is level.
     #[must_use]
-    pub fn new(table: &OffsetTable, least: f64) -> Option<Self> {
+    pub fn new(table: &OffsetTable, least: f64, extent: [f64; 2]) -> Option<Self> {
         let top = table.waterlines.last().copied()?;
         let mut heights: Vec<Height> = Vec::new();
-        let mut breadths: Vec<[f64; 2]> = Vec::new();
+        let mut breadths: Vec<f64> = Vec::new();
         for station in &table.stations {
             let x = station.station.x;
             let offsets = station.half_breadths.iter().filter_map(|cell| cell.value());
@@ -76,32 +85,46 @@ impl Rocker {
                 None if breadth <= 0.0 => continue,
                 _ => return None,
             }
-            breadths.push([x, breadth]);
+            breadths.push(breadth);
         }
-        let bottom = heights.iter().map(|height| height.z).fold(f64::INFINITY, f64::min);
-        let highest = heights.iter().map(|height| height.z).fold(f64::NEG_INFINITY, f64::max);
+        let [bottom, highest] = range(&heights);
         if heights.len() < FEWEST || highest - bottom <= LEVEL * (top - bottom) {
             return None;
         }
-        let greatest = breadths.iter().map(|[_, y]| *y).fold(0.0, f64::max);
-        let last = breadths.len() - 1;
-        let mut closed = [0, last].map(|k| breadths[k][1] <= CLOSED * greatest);
-        let outermost = |k: usize| Outermost { x: heights[k].x, keel: heights[k].z, top, breadth: breadths[k][1] };
+        let greatest = breadths.iter().copied().fold(0.0, f64::max);
+        let last = heights.len() - 1;
+        let outermost = |k: usize| Outermost { x: heights[k].x, keel: heights[k].z, top, breadth: breadths[k] };
         let tips = [[0, 1], [last, last - 1]].map(|[end, before]| carried_on(outermost(before), outermost(end)));
-        for (side, tip) in tips.into_iter().enumerate() {
-            if closed[side] {
-                continue;
+        let least_run = FEWEST.max((RUN * heights.len() as f64).ceil() as usize);
+        let mut run = 0..heights.len();
+        while run.len() >= least_run {
+            let own = &heights[run.clone()];
+            // Whether the hull closes at a side, and where the keel line goes on to.
+            let ends = [0, 1].map(|side| {
+                let end = [0, last][side];
+                if !run.contains(&end) {
+                    let x = extent[side];
+                    return (None, Some(Height { x, z: straight_on(own, side, x), scale: BEYOND }));
+                }
+                let is_closed = breadths[end] <= CLOSED * greatest;
+                let tip = tips[side].filter(|_| !is_closed).map(|[x, _]| Height { x, z: top, scale: EXACT });
+                (Some(is_closed || tip.is_some()), tip)
+            });
+            let line: Vec<Height> = ends[0].1.into_iter().chain(own.iter().copied()).chain(ends[1].1).collect();
+            let keel = keel_line(&line, least)?;
+            let [bottom, _] = range(own);
+            let off = line.iter().filter(|height| height.scale < BEYOND);
+            let off = off.map(|height| (keel.eval(height.x)[0] - height.z).abs()).fold(0.0, f64::max);
+            if off <= JUMP * (top - bottom) {
+                let (length, run) = ([line[0].x, line[line.len() - 1].x], [own[0].x, own[own.len() - 1].x]);
+                return Some(Self { keel, height: [bottom, top], length, closed: ends.map(|end| end.0), run, off });
             }
-            if let Some([x, _]) = tip {
-                let tip = Height { x, z: top, scale: EXACT };
-                heights.insert(if side == 0 { 0 } else { heights.len() }, tip);
-                closed[side] = true;
-            }
+            // The longer part to one side of the steepest step.
+            let step = |k: &usize| (heights[k + 1].z - heights[*k].z).abs();
+            let at = (run.start..run.end - 1).max_by(|a, b| step(a).total_cmp(&step(b)))? + 1;
+            run = if at - run.start > run.end - at { run.start..at } else { at..run.end };
         }
-        let length = [heights[0].x, heights[heights.len() - 1].x];
-        let keel = keel_line(&heights, least)?;
-        let off = heights.iter().map(|height| (keel.eval(height.x)[0] - height.z).abs()).fold(0.0, f64::max);
-        (off <= JUMP * (top - bottom)).then_some(Self { keel, height: [bottom, top], length, closed, off })
+        None
     }
 
     /// Height of the keel at x \[m\].
@@ -135,6 +158,18 @@ impl Rocker {
         let (height, depth) = (top - bottom, (top - keel).max(f64::MIN_POSITIVE));
         [-height * slope * (top - z) / (depth * depth), height / depth]
     }
+}
+
+/// The least and the greatest of heights \[m\].
+fn range(heights: &[Height]) -> [f64; 2] {
+    heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], height| [a.min(height.z), b.max(height.z)])
+}
+
+/// z at x \[m\] on the straight line through the outermost height of a side and the third one from there.
+fn straight_on(heights: &[Height], side: usize, x: f64) -> f64 {
+    let last = heights.len() - 1;
+    let [end, before] = if side == 0 { [0, 2] } else { [last, last - 2] }.map(|k| heights[k]);
+    end.z + (end.z - before.z) / (end.x - before.x) * (x - end.x)
 }
 
 /// The quintic spline of greatest restricted likelihood through heights of rising x.
@@ -212,9 +247,9 @@ mod tests {
         };
         let stations = (-9..=9).step_by(2).map(station).collect();
         let table = OffsetTable { stations, waterlines: vec![1.0, 3.2], ..OffsetTable::default() };
-        let found = Rocker::new(&table, 1e-6).unwrap();
+        let found = Rocker::new(&table, 1e-6, [-9.0, 9.0]).unwrap();
         let tip = 9.0 + 2.0 * 0.365 / 1.12;
-        assert_eq!(found.closed, [true; 2]);
+        assert_eq!(found.closed, [Some(true); 2]);
         assert!((found.length[0] + tip).abs() < 1e-9 && (found.length[1] - tip).abs() < 1e-9, "{:?}", found.length);
     }
 

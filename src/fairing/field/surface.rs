@@ -6,13 +6,13 @@ use super::breaks::FoundBreak;
 use super::chart::{Chart, Shape};
 use super::choice::{Chosen, Energies};
 use super::likeliest::{Likeliest, likeliest};
-use super::likelihood::{Cell, Observed, Readings, Smoothed, smoothed};
+use super::likelihood::{ALLOWED, Cell, Observed, Readings, Smoothed, smoothed};
 use super::line_errors::{FoundErrors, LineErrors, SAME};
 use super::net::{Break, CLOSE, DEGREE, Metric, Net};
 use super::observed::{EXACT, End, Observations, Zero, ZeroKind};
 use super::region::{Bend, Field, steepness};
 use super::rocker::Rocker;
-use crate::spline::{Collocation, KnotVector, SplineError};
+use crate::spline::{KnotVector, SplineError};
 use std::f64::consts::PI;
 
 /// Heights a span at which the kind of an end is looked at.
@@ -32,6 +32,9 @@ const BESIDE: f64 = 1e-6;
 
 /// What the net of a hull may miss its field by between its knots, over the noise and over the greatest half-breadth.
 const MISSED: [f64; 2] = [0.05, 5e-5];
+
+/// How often a span along v is halved at most where an end has too few knots.
+const HALVINGS: usize = 2;
 
 /// Rounds in which the side above the deck is kept from closing, and a waterline made to close.
 const ROUNDS: usize = 4;
@@ -133,7 +136,8 @@ impl ChartedField {
             field = Field::new(chosen.chart, &net, &chosen.field.values)?;
         }
         let most = (MISSED[0] * chosen.field.sigma).max(MISSED[1] * greatest);
-        let bent = bent(&net, &field, seen, most)?;
+        let below = (ALLOWED[0] * chosen.field.sigma).max(ALLOWED[1] * 2.0 * greatest);
+        let bent = bent(&net, &field, seen, [most, below])?;
         let line_errors = readings.common.as_ref().map(|lines| lines.found(&chosen.field.common, gain));
         let of_line = |cell: &Cell| {
             let found = line_errors.as_ref().filter(|_| cell.y > 0.0);
@@ -158,26 +162,24 @@ impl ChartedField {
         steepness(slopes(&self.field, self.rocker.as_ref(), [x, height]))
     }
 
-    /// x and z of the control points of its hull \[m\].
+    /// The control points of its hull \[m\].
     ///
     /// # Errors
     /// [`SplineError`] when the knots do not determine them.
-    pub fn places(&self) -> Result<Vec<[f64; 2]>, SplineError> {
-        let mut places = self.bent.places()?;
-        let columns = self.bent.shape()[1];
-        // z = k + (z1 - k) (zeta - z0) / H is a product of splines in u and in v.
+    pub fn control_points(&self) -> Result<Vec<[f64; 3]>, SplineError> {
+        let bent = &self.bent;
+        let mut places = bent.places()?;
         if let Some(rocker) = &self.rocker {
-            let [bottom, top] = rocker.height;
-            let knots = &self.bent.knots[0];
-            let sites = knots.greville();
-            let mut keel: Vec<f64> = sites.iter().map(|&u| rocker.keel(self.field.chart.x(u))).collect();
-            Collocation::new(knots, &sites)?.solve(&mut keel);
-            for (k, place) in places.iter_mut().enumerate() {
-                let keel = keel[k / columns];
-                place[1] = keel + (top - keel) * (place[1] - bottom) / (top - bottom);
+            let chart = &bent.chart;
+            let heights = bent.interpolated(|w, v| rocker.absolute(chart.x(bent.bend.u(w, v)), chart.z(v)))?;
+            let columns = bent.shape()[1];
+            // A stem that leans aft above a keel which rises to it may turn the net over: there it goes straight up.
+            for (k, z) in heights.into_iter().enumerate() {
+                places[k][1] = if k % columns > 0 { z.max(places[k - 1][1]) } else { z };
             }
         }
-        Ok(places)
+        let values = bent.half_breadths(&self.field)?;
+        Ok(places.into_iter().zip(values).map(|([x, z], y)| [x, y, z]).collect())
     }
 }
 
@@ -262,7 +264,8 @@ fn closings(seen: &Observations) -> impl Iterator<Item = Cell> + '_ {
         End::Between(_, x) => Some(Cell { x, z, y: 0.0, scale: 1.0 }),
         _ => None,
     };
-    seen.waterlines.iter().flat_map(move |line| line.ends.into_iter().filter_map(move |end| closing(line.z, end)))
+    let ends = seen.waterlines.iter().flat_map(|line| line.heights.into_iter().zip(line.ends));
+    ends.filter_map(move |(z, end)| closing(z, end))
 }
 
 /// Of places at which a field has breadth those where this may be an error of the field ([`BREADTH`]).
@@ -286,24 +289,31 @@ fn within_errors(places: Vec<Cell>, net: &Net, chosen: &Chosen, readings: &Readi
 struct Ends<'a> {
     field: &'a Field,
     seen: &'a Observations,
-    /// The least v at which a contour is looked for: on a keel the field vanishes all along.
-    least: f64,
+    /// The least v at which a contour is looked for, aft and forward: on a keel the field vanishes all along.
+    least: [f64; 2],
 }
 
 impl Ends<'_> {
     /// u of the end at v, and whether the hull is cut off there with breadth.
     fn at(&self, v: f64, side: usize) -> (f64, bool) {
-        let v = v.max(self.least);
+        let v = v.max(self.least[side]);
         let (chart, lines) = (&self.field.chart, &self.seen.waterlines);
         let z = chart.z(v);
-        let above = lines.partition_point(|line| line.z < z);
+        let above = lines.partition_point(|line| line.heights[side] < z);
         let last = lines.len() - 1;
         let [below, above] = [&lines[above.saturating_sub(1).min(last)], &lines[above.min(last)]];
         let pick = |a: f64, b: f64, outer: bool| if (side == 0) == outer { a.min(b) } else { a.max(b) };
-        let from = pick(below.inner[side], above.inner[side], false);
+        // Below the lowest waterline the hull may end anywhere inside of it.
+        let [first, second] = lines[0].inner;
+        let from = if z < lines[0].heights[side] {
+            0.5 * (first + second)
+        } else {
+            pick(below.inner[side], above.inner[side], false)
+        };
         let to = match [below.ends[side], above.ends[side]] {
-            [End::Cut(a), End::Cut(b)] if above.z > below.z => {
-                a + (b - a) * ((z - below.z) / (above.z - below.z)).clamp(0.0, 1.0)
+            [End::Cut(a), End::Cut(b)] if above.heights[side] > below.heights[side] => {
+                let [low, high] = [below, above].map(|line| line.heights[side]);
+                a + (b - a) * ((z - low) / (high - low)).clamp(0.0, 1.0)
             }
             // Plumb.
             [End::Closed(a), End::Closed(b)] if (a - b).abs() <= 1e-9 * (1.0 + a.abs()) => return (chart.u(a), false),
@@ -341,11 +351,17 @@ impl Ends<'_> {
 }
 
 /// The chart of the hull: its ends are those of the field, within what the table leaves open. Spans along v where its net
-/// misses the field by more than `most` \[m\] are halved once.
-fn bent(net: &Net, field: &Field, seen: &Observations, most: f64) -> Result<Bent, FieldError> {
+/// misses the field by more than `most` \[m\] are halved once. So are those where an end passes the centreplane by more than
+/// `below` \[m\], up to [`HALVINGS`] times.
+fn bent(net: &Net, field: &Field, seen: &Observations, [most, below]: [f64; 2]) -> Result<Bent, FieldError> {
     let mut breaks = net.knots[1].breakpoints();
     let spacing = 1.0 / (breaks.len() - 1) as f64;
-    let least = if seen.keel_closed { 0.5 * spacing } else { 0.0 };
+    let least = [0, 1].map(|side| match seen.rocker {
+        // Below its lowest waterline that ends there a hull on a keel line is plumb.
+        Some(_) => field.chart.v(seen.waterlines[0].heights[side]).max(0.5 * spacing),
+        None if seen.keel_closed => 0.5 * spacing,
+        None => 0.0,
+    });
     let ends = Ends { field, seen, least };
     let mut corners: Vec<f64> = (0..2).flat_map(|side| ends.corners(side, SAMPLES * (breaks.len() - 1))).collect();
     corners.retain(|v| (CLOSE * spacing..=1.0 - CLOSE * spacing).contains(v));
@@ -354,16 +370,37 @@ fn bent(net: &Net, field: &Field, seen: &Observations, most: f64) -> Result<Bent
     breaks.retain(|b| *b <= 0.0 || *b >= 1.0 || corners.iter().all(|c| (b - c).abs() >= CLOSE * spacing));
     breaks.extend(&corners);
     breaks.sort_by(f64::total_cmp);
-    let count = breaks.len();
     let broken: Vec<Break> = net.breaks.iter().filter(|line| breaks.contains(&line.at)).copied().collect();
     let multiplicity = |at: &f64| match broken.iter().find(|line| line.at.total_cmp(at).is_eq()) {
         _ if corners.contains(at) => DEGREE,
         Some(line) => line.multiplicity(),
         None => 1,
     };
-    let multiplicities: Vec<usize> = breaks[1..count - 1].iter().map(multiplicity).collect();
-    let knots = KnotVector::from_breakpoints(DEGREE, &breaks, &multiplicities)?;
-    let bend = Bend::new([&net.knots[0], &knots], |v| [0, 1].map(|side| ends.at(v, side).0))?;
+    let on = |breaks: &[f64]| -> Result<(KnotVector, Bend), FieldError> {
+        let multiplicities: Vec<usize> = breaks[1..breaks.len() - 1].iter().map(multiplicity).collect();
+        let knots = KnotVector::from_breakpoints(DEGREE, breaks, &multiplicities)?;
+        let bend = Bend::new([&net.knots[0], &knots], |v| [0, 1].map(|side| ends.at(v, side).0))?;
+        Ok((knots, bend))
+    };
+    let (mut knots, mut bend) = on(&breaks)?;
+    // Where an end runs past its contour, its spline has too few knots.
+    for _ in 0..HALVINGS {
+        let passes = |v: f64, side: usize| {
+            let at = bend.ends[side].eval(v)[0].clamp(0.0, 1.0);
+            field.at([at, v]) < -below && !ends.at(v, side).1
+        };
+        let halved = |span: &[f64]| {
+            let at = |part: f64| span[0] + part * (span[1] - span[0]);
+            (0..2).any(|side| [0.25, 0.5, 0.75].iter().any(|&part| passes(at(part), side))).then(|| at(0.5))
+        };
+        let halves: Vec<f64> = breaks.windows(2).filter_map(halved).collect();
+        if halves.is_empty() {
+            break;
+        }
+        breaks.extend(halves);
+        breaks.sort_by(f64::total_cmp);
+        (knots, bend) = on(&breaks)?;
+    }
     let (chart, keel_closed) = (field.chart, seen.keel_closed);
     let knots = [net.knots[0].clone(), knots];
     let open = Bent { chart, knots, bend, corners, breaks: broken, closed: Default::default(), keel_closed };
