@@ -96,30 +96,13 @@ fn inflections(outcome: &Outcome, kind: &str) -> Vec<Value> {
         }
         // Nothing may bend more often than before.
         entry["allowed"] = json!(turns.before);
-        let guarded = outcome.faired.guarded.as_ref();
         let Some(line) = Line::of(turns.cut) else { return entry };
-        if let Some(guarded) = guarded {
-            let asked = if let Some((_, most)) = guarded.most.iter().find(|(other, _)| *other == line) {
-                Some(*most)
-            } else if guarded.asked.contains(&line) {
-                turns.minimum.map(|(count, _)| count)
-            } else if guarded.kept.contains(&line) {
-                Some(turns.before)
-            } else {
-                None
-            };
-            if let Some(most) = asked {
-                // What the signs leave room for, in the dead band and between their places, is allowed too.
-                entry["asked"] = json!(most);
-                entry["allowed"] = json!(most.max(turns.after).min(turns.before.max(most)));
-            }
-            if let Some((_, price)) = guarded.prices.iter().find(|(other, _)| *other == line) {
-                entry["price"] = number(*price);
-            }
-            if let Some((_, price)) = guarded.released.iter().find(|(other, _)| *other == line) {
-                // Not a number: nothing satisfies the least inflections of all lines together.
-                entry["released_at"] = json_number(price.is_finite().then_some(*price));
-            }
+        let asked = outcome.faired.fewer.iter().flat_map(|fewer| &fewer.asked);
+        if let Some((_, most, price)) = asked.into_iter().find(|(other, ..)| *other == line) {
+            // What the signs leave room for, in the dead band and between their places, is allowed too.
+            entry["asked"] = json!(most);
+            entry["allowed"] = json!(turns.after.min(turns.before).max(*most));
+            entry["price"] = number(*price);
         }
         entry
     })

@@ -5,21 +5,20 @@
 //!    errors of the table.
 //! 2. Tolerances, constraints, 0 <= y <= B/2 as one program without signs: J_free.
 //! 3. The same with signs of curvature of the lines of the table: J_signs. price = (J_signs - J_free) / sigma^2 is at most
-//!    [`FairSettings::price`] for each line: of a field by `humps`, else by [`super::guard`].
+//!    [`FairSettings::price`] for each hump (`humps`).
 
 use super::bends::Line;
 use super::compromise::{Answer, Basic, Instead};
 use super::constraint::{Constraint, Rule, admit, breadths};
 use super::fielded::{below_centreplane, local_noise};
-use super::guard::{Guarded, Question};
-use super::humps;
+use super::humps::{self, Fewer};
 use super::infeasible::Diagnosis;
 use super::least::TableLine;
 use super::model::Limit;
 use super::noise::{Differences, errors, taken};
 use super::program::{Program, RowName, Solved, Wishes};
 use super::relinearise::{ON_TARGET, Settling};
-use super::rules::{guarded_lines, rule_limits, turned};
+use super::rules::{counted_lines, rule_limits, turned};
 use super::smoothing::{Smoothed, Smoother, Trial};
 use super::surface::FairSurface;
 use crate::hull::HullError;
@@ -70,16 +69,8 @@ pub struct FairSettings {
     pub near_least: Option<f64>,
     /// Changes of sign of curvature of the surface through the table on stations and waterlines.
     pub before: usize,
-    /// Lines that must not bend more often than the start does.
+    /// Lines whose inflections are counted.
     pub lines: Vec<Line>,
-    /// Lines that keep the signs of the start in any case.
-    pub kept: Vec<Line>,
-    /// Lines that keep them where the start is in the dead band as well.
-    pub strict: Vec<Line>,
-    /// Limits that keep the signs of buttocks and diagonals.
-    pub oblique: Vec<Limit>,
-    /// Lines that are not asked for their least inflections, with what they might have cost at most, in sigma^2.
-    pub released: Vec<(Line, f64)>,
     /// The least departure of a lobe from its chord that counts \[m\].
     pub seen: f64,
     /// Whether half-breadths may be outside 0 to B/2 as far as those of the surface through the table are.
@@ -143,7 +134,7 @@ pub struct Faired {
     /// What to ask for instead where the wishes cannot all be had; the answer is none then.
     pub instead: Option<Instead>,
     /// What became of the lines of the table, on a net that follows its features.
-    pub guarded: Option<Guarded>,
+    pub fewer: Option<Fewer>,
     /// Price of the signs in sigma^2.
     pub price: f64,
     /// What one less was allowed to cost, in sigma^2.
@@ -332,10 +323,10 @@ pub fn fair_prepared(
         }
     }
     let mut price = 0.0;
-    let mut guarded = None;
+    let mut fewer = None;
     if settings.signs && diagnosis.is_none() && solved.is_optimal() {
-        let lines = &guarded_lines(&prepared.lines, &settings.rules);
-        let of_field = || humps::Question {
+        let lines = &counted_lines(&prepared.lines, &settings.rules);
+        let question = humps::Question {
             model,
             smoother,
             likely: prepared.likely.as_ref().unwrap_or(&prepared.smoothed),
@@ -350,31 +341,14 @@ pub fn fair_prepared(
             least_tolerance: settings.least_tolerance,
             solver: &settings.solver,
         };
-        let of_fit = || Question {
-            surface,
-            model,
-            smoother,
-            lambda,
-            sigma,
-            errors: prepared.errors,
-            wishes: &wishes,
-            lines,
-            kept: &settings.kept,
-            strict: &settings.strict,
-            oblique: &settings.oblique,
-            released: &settings.released,
-            seen: settings.seen,
-            price: settings.price,
-            solver: &settings.solver,
-        };
-        let mut found = if surface.is_field { of_field().run(&solved)? } else { of_fit().run(&solved)? };
+        let mut found = question.run(&solved)?;
         programs += found.programs;
         iterations += found.iterations;
         if let Some(accepted) = found.accepted.take() {
             price = (accepted.1.objective - solved.objective) / (sigma * sigma);
             (program, solved) = accepted;
         }
-        guarded = Some(found);
+        fewer = Some(found);
     }
     surface.model.carried.clone_from(&model.carried);
     let mut settled = None;
@@ -398,7 +372,7 @@ pub fn fair_prepared(
         net: solved.net.clone(),
         sigma,
         errors: prepared.errors,
-        dearest: guarded.as_ref().map_or(settings.price, |guarded| guarded.dearest),
+        dearest: fewer.as_ref().map_or(settings.price, |fewer| fewer.dearest),
         lambda,
         trials: prepared.trials.clone(),
         chosen: prepared.smoothed.trial(smoother.count()),
@@ -406,7 +380,7 @@ pub fn fair_prepared(
         program,
         solved,
         price,
-        guarded,
+        fewer,
         smoother: smoother.clone(),
         programs,
         iterations,
@@ -420,18 +394,6 @@ impl Faired {
         self.programs += before.programs;
         self.iterations += before.iterations;
         self
-    }
-
-    /// Lines that keep the signs of the start.
-    #[must_use]
-    pub fn kept(&self) -> &[Line] {
-        self.guarded.as_ref().map_or(&[], |guarded| &guarded.kept)
-    }
-
-    /// Lines that were let go, with their price.
-    #[must_use]
-    pub fn released(&self) -> &[(Line, f64)] {
-        self.guarded.as_ref().map_or(&[], |guarded| &guarded.released)
     }
 
     /// Whether metacentre or wetted surface did not come to their targets.

@@ -23,9 +23,8 @@
 //! Where targets move the whole hull, the humps that the field did not have before are no clearer than the move. They are
 //! candidates for the price of its mean square in the place of sigma^2.
 
-use super::bends::{Bend, changes, dead, departure};
+use super::bends::{Bend, Line, changes, dead, departure};
 use super::choice::{trial, worth_it};
-use super::guard::Guarded;
 use super::held::violated;
 use super::least::TableLine;
 use super::model::{Limit, Model, value};
@@ -80,6 +79,38 @@ pub(super) struct Question<'a> {
     pub(super) solver: &'a Settings,
 }
 
+/// What the choice comes to.
+#[derive(Debug, Clone)]
+pub struct Fewer {
+    /// The program that was accepted last, with its answer; none when the first one stands.
+    pub accepted: Option<(Program, Solved)>,
+    /// Lines that were asked for signs, with the inflections that these have, and what the signs cost \[sigma^2\].
+    pub asked: Vec<(Line, usize, f64)>,
+    /// The least inflections of every line, and whether they are proved.
+    pub least: Vec<(Line, usize, bool)>,
+    /// What one inflection less was allowed to cost \[sigma^2\].
+    pub dearest: f64,
+    /// Programs solved.
+    pub programs: usize,
+    /// Iterations of the solver.
+    pub iterations: usize,
+}
+
+impl Fewer {
+    /// The least inflections of lines of which nothing is asked, at a price.
+    fn with_least(lines: &[TableLine], dearest: f64) -> Self {
+        let least = lines.iter().filter_map(|line| Some((line.line, line.least.as_ref()?)));
+        Self {
+            accepted: None,
+            asked: Vec::new(),
+            least: least.map(|(line, least)| (line, least.count, least.certified())).collect(),
+            dearest,
+            programs: 0,
+            iterations: 0,
+        }
+    }
+}
+
 /// A part of a line with one sign.
 #[derive(Debug, Clone, Copy)]
 struct Hump {
@@ -118,15 +149,15 @@ struct Asked {
 
 impl Question<'_> {
     /// Solves for the least inflections that are worth their price; `free` is the answer without signs.
-    pub(super) fn run(&self, free: &Solved) -> Result<Guarded, ProblemError> {
+    pub(super) fn run(&self, free: &Solved) -> Result<Fewer, ProblemError> {
         let inverse = self.likely.factor.inverse_band();
         let lines: Vec<Asked> = self.lines.iter().map(|line| self.line(line, &free.net, &inverse)).collect();
         let mut found = self.priced(self.price, lines.clone(), free, &|_| true)?;
         let Some(factor) = self.near_least.filter(|_| self.sigma <= self.least_tolerance) else { return Ok(found) };
         let least = self.lines.iter().filter_map(|line| line.least.as_ref()).map(|least| least.count).sum();
-        let count = |found: &Guarded| self.counted(&lines, found.accepted.as_ref().map_or(&free.net, |a| &a.1.net));
+        let count = |found: &Fewer| self.counted(&lines, found.accepted.as_ref().map_or(&free.net, |a| &a.1.net));
         let mut price = DEARER * self.price;
-        let is_few = |count: usize| count <= self.before && !far_above(count, least, factor);
+        let is_few = |[known, all]: [usize; 2]| all <= self.before && !far_above(known, least, factor);
         let mut counted = count(&found);
         while price <= DEAREST && !is_few(counted) {
             // Signs that leave too many are not worth a program while the price can rise.
@@ -136,7 +167,7 @@ impl Question<'_> {
             next.programs += found.programs;
             next.iterations += found.iterations;
             let now = count(&next);
-            if now < counted {
+            if now[1] < counted[1] {
                 (found, counted) = (next, now);
             } else {
                 (found.programs, found.iterations) = (next.programs, next.iterations);
@@ -145,10 +176,17 @@ impl Question<'_> {
         Ok(found)
     }
 
-    /// Inflections of a net along the lines whose least is known.
-    fn counted(&self, lines: &[Asked], net: &[f64]) -> usize {
-        let known = self.lines.iter().zip(lines).filter(|(line, _)| line.least.is_some());
-        known.map(|(_, asked)| asked.counted(net, self.seen)).sum()
+    /// Inflections of a net along the lines whose least is known, and along all.
+    fn counted(&self, lines: &[Asked], net: &[f64]) -> [usize; 2] {
+        self.sums(lines.iter().map(|line| line.counted(net, self.seen)))
+    }
+
+    /// Sums of counts of the lines: of those whose least is known, and of all.
+    fn sums(&self, counts: impl Iterator<Item = usize>) -> [usize; 2] {
+        let counts = self.lines.iter().zip(counts);
+        counts.fold([0; 2], |[known, all], (line, count)| {
+            [known + if line.least.is_some() { count } else { 0 }, all + count]
+        })
     }
 
     /// The same at one price. A program is solved where the signs leave as many inflections as are worth it.
@@ -157,9 +195,9 @@ impl Question<'_> {
         price: f64,
         mut asked: Vec<Asked>,
         free: &Solved,
-        is_worth_it: &dyn Fn(usize) -> bool,
-    ) -> Result<Guarded, ProblemError> {
-        let mut found = Guarded::with_least(self.lines, price);
+        is_worth_it: &dyn Fn([usize; 2]) -> bool,
+    ) -> Result<Fewer, ProblemError> {
+        let mut found = Fewer::with_least(self.lines, price);
         let mut choices = 0;
         for _ in 0..ROUNDS {
             let signs: Vec<Option<Vec<i8>>> = asked.iter().map(|line| line.signs(price)).collect();
@@ -181,10 +219,11 @@ impl Question<'_> {
                     Some(false) => (),
                 }
             }
-            let known = self.lines.iter().zip(asked.iter().zip(&signs)).filter(|(line, _)| line.least.is_some());
-            let left =
-                known.map(|(_, (line, signs))| signs.as_ref().map_or_else(|| line.count(), |signs| changes(signs)));
-            if found.accepted.is_none() && !is_worth_it(left.sum()) {
+            let count = |(line, signs): (&Asked, &Option<Vec<i8>>)| {
+                signs.as_ref().map_or_else(|| line.count(), |signs| changes(signs))
+            };
+            let left = self.sums(asked.iter().zip(&signs).map(count));
+            if found.accepted.is_none() && !is_worth_it(left) {
                 break;
             }
             let (program, solved, charges) = self.solve(&parts, &free.net)?;
@@ -259,15 +298,12 @@ impl Question<'_> {
     }
 
     /// What the lines were asked for, and what it cost.
-    fn tell(&self, found: &mut Guarded, signs: &[Option<Vec<i8>>], charges: &Charges) {
-        (found.asked, found.prices, found.most) = (Vec::new(), Vec::new(), Vec::new());
-        for (k, (line, signs)) in self.lines.iter().zip(signs).enumerate() {
-            let Some(signs) = signs else { continue };
+    fn tell(&self, found: &mut Fewer, signs: &[Option<Vec<i8>>], charges: &Charges) {
+        let asked = self.lines.iter().zip(signs).enumerate().filter_map(|(k, (line, signs))| {
             let own = charges.range((k, 0)..(k + 1, 0)).map(|(_, charge)| charge);
-            found.asked.push(line.line);
-            found.prices.push((line.line, own.sum::<f64>() / (self.sigma * self.sigma)));
-            found.most.push((line.line, changes(signs)));
-        }
+            Some((line.line, changes(signs.as_ref()?), own.sum::<f64>() / (self.sigma * self.sigma)))
+        });
+        found.asked = asked.collect();
     }
 
     /// The mean square of the move to the targets at the readings \[m^2\].

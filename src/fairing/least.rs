@@ -10,9 +10,9 @@
 //! ```
 //!
 //! over its rows, z the multipliers and v the violations at the net without them: by convexity the objective rises by
-//! no more than the sum over all lines. What a line may cost is said in `guard.rs`.
+//! no more than the sum over all lines. What one may cost is said in [`super::humps`].
 
-use super::bends::{Bend, Line, bends, changes, dead, signs};
+use super::bends::{Bend, Line, bends, dead};
 use super::inflections::{Bands, Inflections, minimum_inflections};
 use super::model::{Limit, value};
 use super::surface::{FairSurface, Origin};
@@ -98,28 +98,15 @@ impl TableLine {
         Some((least.count, least.certified()))
     }
 
-    /// Inflections of a net along the line.
-    #[must_use]
-    pub fn count(&self, net: &[f64]) -> usize {
-        changes(&signs(&self.bends, net))
-    }
-
-    /// Whether a net bends more often than the offsets ask for.
-    #[must_use]
-    pub fn bends_too_often(&self, net: &[f64]) -> bool {
-        self.least.as_ref().is_some_and(|least| least.curve.is_some() && self.count(net) > least.count)
-    }
-
     /// Whether the offsets allow a curve with at most `most` inflections.
     #[must_use]
     pub fn least_at_most(&self, most: usize) -> bool {
         self.least.as_ref().is_some_and(|least| least.curve.is_some() && least.count <= most)
     }
 
-    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`; `between` its
-    /// bends as well.
+    /// Limits that ask for the signs of the curve with the least inflections, with room as at `start`.
     #[must_use]
-    pub fn wished(&self, start: &[f64], between: bool) -> Vec<Limit> {
+    pub fn signs_of_least(&self, start: &[f64]) -> Vec<Limit> {
         let Some((least, curve)) = self.least.as_ref().and_then(|least| Some((least, least.curve.as_ref()?))) else {
             return Vec::new();
         };
@@ -130,7 +117,7 @@ impl TableLine {
         let largest = values.iter().fold(0.0, |largest: f64, k| largest.max(k.abs()));
         let bent: Vec<i8> =
             values.iter().map(|k| if k.abs() <= STRAIGHT * largest { 0 } else { k.signum() as i8 }).collect();
-        let asked = if between { filled(&bent) } else { bent };
+        let asked = filled(&bent);
         let free: Vec<[f64; 2]> = least
             .stretches
             .iter()
@@ -141,18 +128,6 @@ impl TableLine {
         let none = dead(&self.bends, start);
         let asked = inside.into_iter().zip(asked).filter(|(bend, sign)| *sign != 0 && !free(bend.at));
         asked.filter_map(|(bend, sign)| bend.limit(sign > 0, start, none)).collect()
-    }
-
-    /// Sum of multiplier times violation at `net` over limits of the line.
-    #[must_use]
-    pub fn charge(limits: &[Limit], multipliers: &[f64], net: &[f64]) -> f64 {
-        let pairs = limits.iter().zip(multipliers);
-        pairs
-            .map(|(limit, z)| {
-                let y = value(&limit.row, net);
-                z.abs() * (limit.lower - y).max(y - limit.upper).max(0.0)
-            })
-            .sum()
     }
 }
 

@@ -27,9 +27,9 @@ pub(super) fn rule_limits(surface: &FairSurface, rules: &[Rule]) -> Result<RuleL
     if problems.is_empty() { Ok(limits) } else { Err(problems) }
 }
 
-/// The lines that the guard of inflections looks after: not those whose inflections a rule decides, and of others only
+/// The lines whose inflections are counted: not those whose inflections a rule decides, and of others only
 /// what lies outside the ranges in which a rule decides the sign of curvature or the number of inflections.
-pub(super) fn guarded_lines<'a>(lines: &'a [TableLine], rules: &[Rule]) -> Cow<'a, [TableLine]> {
+pub(super) fn counted_lines<'a>(lines: &'a [TableLine], rules: &[Rule]) -> Cow<'a, [TableLine]> {
     let bending = |rule: &Rule| matches!(rule, Rule::Inflections { .. } | Rule::Curvature { .. });
     if !rules.iter().any(bending) {
         return Cow::Borrowed(lines);
@@ -102,7 +102,7 @@ pub(super) fn turned(
             for (k, most, line, _) in &ruled {
                 let least = lines.iter().find(|other| Some(other.line) == *line && other.least_at_most(*most));
                 if let (Some(line), Some(place)) = (least, fresh.iter_mut().find(|(rule, _)| rule == k)) {
-                    place.1 = line.wished(net, true);
+                    place.1 = line.signs_of_least(net);
                 }
             }
             limits = with(&fresh);

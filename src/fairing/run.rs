@@ -4,7 +4,7 @@
 use super::bends::Line;
 use super::changes::{Counted, Watched, changes, normal_moves, predicted, written};
 use super::compromise::{Instead, within_reach};
-use super::constraint::{Constraint, Rule, excess as excess_of_breadth};
+use super::constraint::{Constraint, excess as excess_of_breadth};
 use super::fair::{FairSettings, Faired, PRICE, Prepared, fair_prepared};
 use super::field::points::is_on_centreplane;
 use super::grades::Taken;
@@ -13,14 +13,11 @@ use super::infeasible::{Diagnosis, Ends};
 use super::inspect::{ON_CHORD, gaussian_regions, net_signs};
 use super::job::{Holding, Job, JobError, LEAST_TOLERANCE, MOST_LENGTH};
 use super::least::TableLine;
-use super::lobes::Lobes;
 use super::noise::{Differences, left_by_differences};
 use super::outcome::{Outcome, Turns, more_often, total};
 use super::proposals::{Accepted, Proposal};
-use super::record::{bump, resolution};
+use super::record::bump;
 use super::relinearise::ON_TARGET;
-use super::repeated::{Attempt, Repeated, excess};
-use super::rules::guarded_lines;
 use super::start::Started;
 use super::strength::Fairness;
 use super::surface::{FairSurface, Origin, Place};
@@ -159,8 +156,13 @@ struct Given {
     nearest: bool,
 }
 
-/// An attempt, and what holds of it where that is known by then.
-type Attempted = (Attempt, Option<Vec<Held>>);
+/// A fair hull, what its curves do, and what holds of it.
+struct Attempt {
+    faired: Faired,
+    after: Hull,
+    lines: Vec<Turns>,
+    held: Vec<Held>,
+}
 
 impl<'a> Run<'a> {
     /// The model with the wishes as they are asked for, at the default grade of fairness.
@@ -235,11 +237,7 @@ impl<'a> Run<'a> {
             near_least: None,
             before: 0,
             lines: stations.chain(waterlines).collect(),
-            kept: Vec::new(),
-            strict: Vec::new(),
-            oblique: Vec::new(),
-            released: Vec::new(),
-            seen: quantum,
+            seen: bump(before.particulars().length_between_perpendiculars, quantum),
             // Tolerances that are less than that leave no room to do better.
             admits: job.tolerance.table.is_some_and(|named| excess_of_breadth(before.surface(), greatest) > named),
             solver: job.solver.clone(),
@@ -251,11 +249,6 @@ impl<'a> Run<'a> {
         if surface.is_field && job.holding == Holding::Table {
             settings.rooms = prepared.twice_the_errors(&surface, &asked);
         }
-        settings.seen = if surface.is_field {
-            bump(before.particulars().length_between_perpendiculars, quantum)
-        } else {
-            resolution(Some(quantum), prepared.sigma)
-        };
         let run = Self {
             job,
             table,
@@ -316,7 +309,7 @@ impl<'a> Run<'a> {
         let carried = faired.carried;
         let mut given = Given::default();
         let mut faired = self.without_rules(faired, &mut given)?;
-        let (attempt, held) = match faired.instead.take() {
+        let attempt = match faired.instead.take() {
             Some(Instead::Targets(ends)) => {
                 given.nearest = true;
                 given.refused = given.refused.take().or(faired.diagnosis.take());
@@ -324,11 +317,8 @@ impl<'a> Run<'a> {
             }
             _ => self.attempt(faired, &lines_before)?,
         };
-        let Attempt { mut faired, after, mut lines } = attempt;
+        let Attempt { mut faired, after, mut lines, held } = attempt;
         self.least(&mut lines, &faired);
-        let held = held.unwrap_or_else(|| {
-            held::constraints(&self.surface, &self.settings, &faired, [&self.before, &after], self.known.is_none())
-        });
         let asked = self.asked.iter().zip(held);
         let held: Vec<Held> = asked.map(|(&constraint, held)| Held { constraint, ..held }).collect();
         let mut rules = held::rules(&self.surface, &self.settings, &faired, self.known.is_none());
@@ -438,9 +428,9 @@ impl<'a> Run<'a> {
         ends: &Ends,
         carried: Option<f64>,
         lines: &Counted,
-    ) -> Result<Attempted, JobError> {
+    ) -> Result<Attempt, JobError> {
         let plain = self.settings.clone();
-        let mut best: Option<(Attempted, FairSettings)> = None;
+        let mut best: Option<(Attempt, FairSettings)> = None;
         for constraints in within_reach(&self.asked, &self.before, ends, carried, &self.surface) {
             (self.progress)("the nearest feasible targets");
             self.settings = FairSettings { constraints, ..plain.clone() };
@@ -449,9 +439,9 @@ impl<'a> Run<'a> {
                 continue;
             }
             let attempted = self.attempt(again.after(faired), lines)?;
-            let [before, after] = total(&attempted.0.lines);
+            let [before, after] = total(&attempted.lines);
             let done = after <= before;
-            let fewest = best.as_ref().is_none_or(|((best, _), _)| after < total(&best.lines)[1]);
+            let fewest = best.as_ref().is_none_or(|(best, _)| after < total(&best.lines)[1]);
             if done || fewest {
                 best = Some((attempted, self.settings.clone()));
             }
@@ -464,8 +454,8 @@ impl<'a> Run<'a> {
         Ok(attempted)
     }
 
-    /// The fair hull, after as many repetitions as lines that bend more often ask for.
-    fn attempt(&mut self, mut faired: Faired, watched: &Counted) -> Result<Attempted, JobError> {
+    /// The fair hull.
+    fn attempt(&self, mut faired: Faired, watched: &Counted) -> Result<Attempt, JobError> {
         let after = match self.surface.hull_of(&faired.net) {
             // What a solver gives up need not be a hull: the one it began with is.
             Err(_) if !faired.solved.is_optimal() => {
@@ -474,39 +464,19 @@ impl<'a> Run<'a> {
             }
             after => after?,
         };
-        let Self { surface, settings, prepared, before, known, .. } = self;
-        if surface.is_field {
-            // Nothing is repeated on a field: the prices are final.
-            let (lines, held) = join(
-                || watched.turns(&after),
-                || held::constraints(surface, settings, &faired, [before, &after], known.is_none()),
-            );
-            return Ok((Attempt { faired, after, lines }, Some(held)));
-        }
-        let lines = watched.turns(&after);
-        let mut attempt = Attempt { faired, after, lines };
-        if self.job.signs {
-            let worse = excess(&attempt.lines);
-            (self.progress)(&format!(
-                "{} more than before on single lines; humps and hollows of the surface",
-                counted(worse, "inflection")
-            ));
-            let seen = settings.seen;
-            // What a rule says of the inflections of a line stands over the guard of them.
-            let ruled: Vec<Line> = self.job.rules.iter().filter_map(Rule::counted_line).collect();
-            let repeated = Repeated { surface, settings, prepared, watched };
-            attempt = repeated.until_none_is_worse(attempt, seen, |line| !ruled.contains(line))?;
-            let lines = &guarded_lines(&prepared.lines, &settings.rules);
-            attempt = Lobes { surface, settings, lines, watched, seen }.fewer(attempt)?;
-        }
-        Ok((attempt, None))
+        let Self { surface, settings, before, known, .. } = self;
+        let (lines, held) = join(
+            || watched.turns(&after),
+            || held::constraints(surface, settings, &faired, [before, &after], known.is_none()),
+        );
+        Ok(Attempt { faired, after, lines, held })
     }
 
     /// The least inflections of every line of the table.
     fn least(&self, lines: &mut [Turns], faired: &Faired) {
         let least = |turns: &mut Turns| {
             let Some(line) = Line::of(turns.cut) else { return };
-            let known = faired.guarded.iter().flat_map(|guarded| &guarded.least).find(|(other, _, _)| *other == line);
+            let known = faired.fewer.iter().flat_map(|fewer| &fewer.least).find(|(other, _, _)| *other == line);
             // The proof speaks of the line as one curve; where it is counted in pieces it may have less.
             let bounded = |(count, proved): (usize, bool)| (count.min(turns.after), proved && count <= turns.after);
             let beside = self.known.into_iter().flatten().find(|other| other.cut == turns.cut);

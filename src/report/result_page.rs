@@ -294,15 +294,9 @@ pub(super) fn inflections(record: &FairRecord, fairing: &Value, paper: bool) -> 
                 }
                 (Some(most), _) => format!("at most {most}"),
                 (None, "buttock" | "diagonal") => "not used".to_owned(),
-                _ if line.get("released_at").is_some() => "let go".to_owned(),
                 _ => "nothing".to_owned(),
             };
-            let price = match (line["price"].as_f64(), line.get("released_at").map(Value::as_f64)) {
-                (Some(price), _) => fixed(price, 2),
-                (None, Some(Some(dear))) => format!("over {dear:.1}"),
-                (None, Some(None)) => "infeasible".to_owned(),
-                (None, None) => String::new(),
-            };
+            let price = line["price"].as_f64().map_or_else(String::new, |price| fixed(price, 2));
             let more = line["after"].as_u64() > line["before"].as_u64() || asked.ends_with("more");
             let mut cells = vec![name, fixed(place, 3), count("before"), count("after"), least];
             // Files of old programs have neither.
@@ -332,7 +326,7 @@ pub(super) fn inflections_words(record: &FairRecord, fairing: &Value, paper: boo
     format!(
         "bends that leave their chord by less than {} are flat and do not count; least: what the tolerances leave possible; pieces: monotone \
          pieces of curvature between swings of that height (dk l² / π²), with the least that goes with the least inflections;{variation} at most: what \
-         was asked of the line; let go: costlier than {} (of several inflections by chi-square where the noise is errors), or infeasible with the others; not used: buttocks and diagonals are the \
+         was asked of the line, where no inflection less is worth more than {}; not used: buttocks and diagonals are the \
          independent check; price: what asking costs at most, in the sum of squares of moves over the noise squared",
         record.lines.notation.small(band),
         dearest(fairing)

@@ -296,12 +296,14 @@ impl Observations {
             let places = (0..lines).map(|k| bottom + (top - bottom) * k as f64 / (lines - 1) as f64);
             readings.extend(places.map(|z| Cell { x, z, y: 0.0, scale: EXACT }));
         }
-        // At a plumb end heights are all the same.
+        // A plumb end is the same at all heights.
         let waterline = |line: &Waterline| {
             let mut found = *line;
             for side in 0..2 {
                 match plumb(side) {
-                    Some(end) => (found.ends[side], found.inner[side]) = (end, rocker.length[side]),
+                    Some(end) => {
+                        (found.heights[side], found.ends[side], found.inner[side]) = (bottom, end, rocker.length[side]);
+                    }
                     None => found.heights[side] = rocker.relative(line.ends[side].outermost(), line.heights[side])?,
                 }
             }

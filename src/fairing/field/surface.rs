@@ -303,13 +303,10 @@ impl Ends<'_> {
         let last = lines.len() - 1;
         let [below, above] = [&lines[above.saturating_sub(1).min(last)], &lines[above.min(last)]];
         let pick = |a: f64, b: f64, outer: bool| if (side == 0) == outer { a.min(b) } else { a.max(b) };
-        // Below the lowest waterline the hull may end anywhere inside of it.
-        let [first, second] = lines[0].inner;
-        let from = if z < lines[0].heights[side] {
-            0.5 * (first + second)
-        } else {
-            pick(below.inner[side], above.inner[side], false)
-        };
+        // Below the lowest waterline a hull without a keel line may end anywhere inside of it.
+        let is_below = self.seen.rocker.is_none() && z < lines[0].heights[side];
+        let inner = pick(below.inner[side], above.inner[side], false);
+        let from = if is_below { 0.5 * (lines[0].inner[0] + lines[0].inner[1]) } else { inner };
         let to = match [below.ends[side], above.ends[side]] {
             [End::Cut(a), End::Cut(b)] if above.heights[side] > below.heights[side] => {
                 let [low, high] = [below, above].map(|line| line.heights[side]);

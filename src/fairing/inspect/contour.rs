@@ -234,13 +234,13 @@ impl<'a> Locator<'a> {
 
 /// Derivatives of the motion [a, b] = [-g_v, g_u] along a section of a surface with the derivatives s\[i\]\[j\] in u
 /// and v, g = n . S.
-pub(in super::super) fn motion_rates<const N: usize>(s: &[[Point; N]; N], n: Point, [a, b]: [f64; 2]) -> [f64; 2] {
+fn motion_rates<const N: usize>(s: &[[Point; N]; N], n: Point, [a, b]: [f64; 2]) -> [f64; 2] {
     let g = |i: usize, j: usize| dot(n, s[i][j]);
     [-(g(1, 1) * a + g(0, 2) * b), g(2, 0) * a + g(1, 1) * b]
 }
 
 /// P' and P'' of the motion [a, b] with the derivatives [a1, b1].
-pub(in super::super) fn swept<const N: usize>(s: &[[Point; N]; N], [a, b]: [f64; 2], [a1, b1]: [f64; 2]) -> [Point; 2] {
+fn swept<const N: usize>(s: &[[Point; N]; N], [a, b]: [f64; 2], [a1, b1]: [f64; 2]) -> [Point; 2] {
     let first = std::array::from_fn(|d| s[1][0][d] * a + s[0][1][d] * b);
     let second = std::array::from_fn(|d| {
         let squares = s[2][0][d] * a * a + 2.0 * s[1][1][d] * a * b + s[0][2][d] * b * b;

@@ -37,7 +37,6 @@ use crate::hull::{
     Cut, Face, Hull, StationNumbers, default_buttocks, default_diagonals, default_stations, default_waterlines,
 };
 use contour::{Breadth, Locator, Trace};
-pub(super) use contour::{motion_rates, swept};
 
 /// Deviation of the section curves from surface and plane \[m\], in lengths between perpendiculars.
 const SECTION: f64 = 1e-11;
