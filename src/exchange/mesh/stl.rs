@@ -25,14 +25,19 @@ fn binary_count(bytes: &[u8]) -> Option<usize> {
     (count > 0 && bytes.len() == HEADER + RECORD * count).then_some(count)
 }
 
+/// Whether a text begins as ASCII STL does; some programs write its words in capitals.
+fn is_solid(text: &str) -> bool {
+    text.split_whitespace().next().is_some_and(|word| word.eq_ignore_ascii_case("solid"))
+}
+
 /// Whether these are the bytes of an STL file.
 #[must_use]
 pub(in super::super) fn is_stl(bytes: &[u8]) -> bool {
     if binary_count(bytes).is_some() {
         return true;
     }
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]);
-    start.trim_start().starts_with("solid") && start.contains("facet")
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(2000)]).to_ascii_lowercase();
+    is_solid(&start) && start.contains("facet")
 }
 
 /// Reads an STL file, in its own units and axes.
@@ -71,7 +76,7 @@ fn read_binary(bytes: &[u8], count: usize) -> Result<TriangleMesh, Vec<RecordFau
 fn read_ascii(bytes: &[u8]) -> Result<TriangleMesh, Vec<RecordFault>> {
     let text = String::from_utf8_lossy(bytes);
     let mut faults = Faults::default();
-    if !text.trim_start().starts_with("solid") {
+    if !is_solid(&text) {
         let count = stated_count(bytes).unwrap_or(0);
         let wanted = HEADER + RECORD * count;
         faults.add(None, "", format!("{} bytes; a binary file of {count} triangles has {wanted}", bytes.len()));

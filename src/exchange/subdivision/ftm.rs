@@ -48,12 +48,22 @@ fn float(word: &str) -> Option<f64> {
     word.replace(',', ".").parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
+/// A version as a decimal number, by which versions rise: 3.3+ is between 3.27+ and 3.32+, 4.6.2 is 4.62+.
+fn decimal(name: &str) -> Option<f64> {
+    let name = name.trim();
+    let name = name.strip_suffix('+').unwrap_or(name);
+    let (whole, digits) = name.split_once('.')?;
+    let digits = digits.replacen('.', "", 1);
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (are_digits(whole) && are_digits(&digits)).then(|| format!("{whole}.{digits}").parse().ok()).flatten()
+}
+
 impl Records for Text<'_> {
     fn version(&mut self, faults: &mut Faults) -> Option<Version> {
         let line = self.next("the version", faults)?;
-        let name = line.trim();
-        let same = |known: &str| known == name || known.trim_end_matches('+') == name.trim_end_matches('+');
-        match VERSIONS.iter().position(|known| same(known)) {
+        let found = decimal(line).filter(|version| (1.0..=5.0).contains(version));
+        // Releases between those of the list write the same records as the last one before them.
+        match found.and_then(|found| VERSIONS.iter().rposition(|known| decimal(known).is_some_and(|v| v <= found))) {
             Some(number) => Some(Version(number)),
             None => self.wrong(line, "the version", "a version from 1.0 to 5.0+", faults),
         }

@@ -22,6 +22,10 @@ const SILENT: [usize; 25] = [
     502, 504,
 ];
 
+/// Entities that are surfaces, and are not read: planes, splines by polynomials, ruled ones, of revolution, tabulated cylinders,
+/// offsets, and those of solids.
+const SURFACES: [usize; 14] = [108, 114, 118, 120, 122, 140, 190, 191, 192, 193, 194, 196, 197, 198];
+
 /// Curves of a file at most.
 const MOST_CURVES: usize = 20_000;
 
@@ -177,6 +181,17 @@ pub(in super::super::super) fn read_iges(bytes: &[u8]) -> Result<CadSurfaces, Ve
         if faults.is_full() {
             break;
         }
+    }
+    let unread: Vec<String> = others
+        .iter()
+        .filter(|(kind, _)| SURFACES.contains(kind))
+        .map(|(kind, count)| format!("{count} of {kind}"))
+        .collect();
+    if read.surfaces.is_empty() && !unread.is_empty() && faults.list.is_empty() {
+        let kinds = unread.join(", ");
+        let message =
+            format!("its surfaces are not read (entities {kinds}), and its curves are edges of these, not sections");
+        faults.add(None, "", message);
     }
     if read.surfaces.is_empty() && faults.list.is_empty() {
         let curves = directory.iter().filter(|(_, entry)| matches!(entry.kind, 110 | 126));

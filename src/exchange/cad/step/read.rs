@@ -7,6 +7,18 @@ use super::super::super::fault::{Faults, RecordFault};
 use super::super::surfaces::{CadSurfaces, MOST_POINTS, surface};
 use crate::spline::{BsplineSurface, MAX_DEGREE};
 
+/// Prefixes of the metre, and none.
+const PREFIXES: [(&str, f64); 8] = [
+    ("", 1.0),
+    (".MICRO.", 1e-6),
+    (".MILLI.", 1e-3),
+    (".CENTI.", 1e-2),
+    (".DECI.", 1e-1),
+    (".DECA.", 1e1),
+    (".HECTO.", 1e2),
+    (".KILO.", 1e3),
+];
+
 /// Lists in lists, at most.
 const DEEPEST: usize = 16;
 
@@ -235,7 +247,7 @@ pub(in super::super::super) fn read_step(bytes: &[u8]) -> Result<CadSurfaces, Ve
             break;
         }
     }
-    let mut read = CadSurfaces { unit: unit(&instances), ..CadSurfaces::default() };
+    let mut read = CadSurfaces { unit: unit(&instances, &mut faults), ..CadSurfaces::default() };
     let mut points = 0;
     for (number, instance) in instances.iter().filter(|(_, i)| i.part("B_SPLINE_SURFACE_WITH_KNOTS").is_some()) {
         let name = format!("#{number}");
@@ -272,36 +284,34 @@ pub(in super::super::super) fn read_step(bytes: &[u8]) -> Result<CadSurfaces, Ve
     faults.or(|| read)
 }
 
-/// Metres in the length unit of a file; none where it states none.
-fn unit(instances: &BTreeMap<u64, Instance>) -> Option<f64> {
-    let si = |instance: &Instance| {
-        let prefix = match instance.part("SI_UNIT")?.first() {
-            Some(Value::Word(prefix)) => prefix.as_str(),
-            _ => "",
-        };
-        Some(match prefix {
-            ".MILLI." => 1e-3,
-            ".CENTI." => 1e-2,
-            ".DECI." => 1e-1,
-            ".KILO." => 1e3,
-            ".MICRO." => 1e-6,
-            _ => 1.0,
-        })
+/// Metres in the length unit of a file; none where it states none, or one that is not known: a fault.
+fn unit(instances: &BTreeMap<u64, Instance>, faults: &mut Faults) -> Option<f64> {
+    let si = |instance: &Instance| match instance.part("SI_UNIT")?.first() {
+        Some(Value::Word(prefix)) => PREFIXES.iter().find(|(name, _)| name == prefix).map(|(_, metres)| *metres),
+        _ => None,
     };
-    let lengths: Vec<&Instance> = instances.values().filter(|i| i.part("LENGTH_UNIT").is_some()).collect();
-    // A unit that is made of another one is the one that is used.
-    for instance in &lengths {
-        let Some([_, Value::Reference(measure)]) = instance.part("CONVERSION_BASED_UNIT") else { continue };
-        let Some([Value::Typed(value), Value::Reference(of)]) =
-            instances.get(measure).and_then(|i| i.part("LENGTH_MEASURE_WITH_UNIT"))
-        else {
-            continue;
+    // A unit that is made of another one: its measure is typed, or a number alone.
+    let converted = |instance: &Instance| {
+        let [_, Value::Reference(measure)] = instance.part("CONVERSION_BASED_UNIT")? else { return None };
+        let [value, Value::Reference(of)] = instances.get(measure)?.part("LENGTH_MEASURE_WITH_UNIT")? else {
+            return None;
         };
-        if let (Some(Value::Number(value)), Some(of)) = (value.first(), instances.get(of).and_then(si)) {
-            return Some(value * of);
-        }
+        let number = match value {
+            Value::Typed(list) => list.first()?,
+            number => number,
+        };
+        let Value::Number(number) = number else { return None };
+        Some(number * si(instances.get(of)?)?)
+    };
+    let lengths = || instances.iter().filter(|(_, i)| i.part("LENGTH_UNIT").is_some());
+    let is_converted = |i: &Instance| i.part("CONVERSION_BASED_UNIT").is_some();
+    // It is the one that is used.
+    let (number, instance) = lengths().find(|(_, i)| is_converted(i)).or_else(|| lengths().next())?;
+    let found = if is_converted(instance) { converted(instance) } else { si(instance) };
+    if found.is_none() {
+        faults.add(Some(instance.line), &format!("#{number}"), "not a unit of length that is known".to_owned());
     }
-    lengths.into_iter().find_map(si)
+    found
 }
 
 fn numbers(value: &Value) -> Option<Vec<f64>> {
